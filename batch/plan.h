@@ -1,8 +1,8 @@
 // batch/plan.h -- the tasks that make an archive, in a file that each task reads one line of.
 //
 // PLAN/plan.jsonl is JSON, a document a line. The first line has the recipe; each further line is a
-// task, filled up with blanks to the same length, so that task N is found without reading the
-// others (docs/guides/batch.md has the fields). Grid tasks come first, by day and then station; then
+// task, padded with blanks to the same length, so that a program finds task N without reading the
+// others. docs/guides/batch.md has the fields. Grid tasks come first, by day and then station; then
 // the frame tasks, by hour, and the statistics, by month and hour of the day. The same source,
 // range and recipe give the same bytes.
 //

@@ -27,7 +27,7 @@
 #include "bench/request.h"
 #include "bench/table.h"
 #include "stormcellar/cache/grid_name.h"
-#include "tests/feed/chunk_bucket.h"
+#include "tests/fetch/feed/chunk_bucket.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -57,7 +57,7 @@ show_live() {
     declare -gA beside=()
     trap stop_beside EXIT
     step "Follow $station of $bucket"
-    start_beside feed "$build/feed/stormcellar-feed" --config "$cellar/stormcellard.toml"
+    start_beside feed "$build/fetch/feed/stormcellar-feed" --config "$cellar/stormcellard.toml"
     start_beside daemon "$build/daemon/stormcellard" --config "$cellar/stormcellard.toml"
     start_beside web "$build/cli/stormcellar" serve --config "$cellar/stormcellard.toml" --listen 127.0.0.1:0
     until "$build/cli/stormcellar" frame --cache "$cellar/cache" --domain "$station" -o "$output/$station.png" \

@@ -11,7 +11,7 @@
 #include "cli/shared/commands.h"
 #include "service/log.h"
 #include "service/signals.h"
-#include "web/doors/viewer_files.h"
+#include "web/doors/viewer/viewer_files.h"
 #include "web/service/web_service.h"
 
 namespace stormcellar::cli {

@@ -11,7 +11,7 @@
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/raw_client.h"
-#include "web/doors/viewer_files.h"
+#include "web/doors/viewer/viewer_files.h"
 
 namespace stormcellar::cli {
 namespace {

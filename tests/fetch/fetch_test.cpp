@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "fetch/bucket_listing.h"
+#include "fetch/bucket/bucket_listing.h"
 #include "tests/fetch/mock_bucket.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/text_bytes.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/web/served_grids.h"
-#include "web/data/packed_grid.h"
+#include "web/data/grids/packed_grid.h"
 
 namespace stormcellar::web {
 namespace {

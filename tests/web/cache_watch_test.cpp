@@ -1,5 +1,5 @@
 // The watch of the cache when it cannot tell what it saw.
-#include "web/data/cache_watch.h"
+#include "web/data/grids/cache_watch.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // The feed over real volumes that come chunk by chunk: what a client of the hub hears.
-#include "web/data/event_feed.h"
+#include "web/data/events/event_feed.h"
 
 #include <thread>
 
@@ -8,7 +8,7 @@
 
 #include "tests/pipeline/small_house.h"
 #include "tests/web/served_volumes.h"
-#include "web/doors/api_door.h"
+#include "web/doors/api/door.h"
 
 namespace stormcellar::web {
 namespace {

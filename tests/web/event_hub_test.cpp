@@ -1,5 +1,5 @@
 // The hub: order, resumption, what slow clients lose, and who is woken.
-#include "web/data/event_hub.h"
+#include "web/data/events/event_hub.h"
 
 #include <thread>
 

@@ -1,5 +1,5 @@
 // Events as text, and which a client hears.
-#include "web/data/event.h"
+#include "web/data/events/event.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // The events door, asked over sockets.
-#include "web/doors/events.h"
+#include "web/doors/events/events.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/web/asked.h"
 #include "tests/web/raw_client.h"
-#include "web/doors/api_door.h"
-#include "web/doors/api_operations.h"
+#include "web/doors/api/door.h"
+#include "web/doors/api/operations.h"
 #include "web/http/server.h"
 
 namespace stormcellar::web {

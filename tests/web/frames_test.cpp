@@ -1,5 +1,5 @@
 // Frames of a real volume: the same bytes as the library draws, formats, panels, and refusals.
-#include "web/doors/frames.h"
+#include "web/doors/pictures/frames.h"
 
 #include <cstring>
 #include <set>

@@ -1,5 +1,5 @@
 // Tests the events for changes in the cache: grids of sites, mosaics, evicted grids, old news.
-#include "web/data/grid_events.h"
+#include "web/data/events/grid_events.h"
 
 #include <fstream>
 #include <thread>
@@ -56,7 +56,7 @@ class EventsOfGrids : public ::testing::Test {
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
     std::vector<CacheChange> changes_;
     std::shared_ptr<Grids> grids_ = *Grids::open({.cache = directory_ / "cache"});
-    StationBook book_{20min};
+    StationNews book_{20min};
     GridEvents grid_events_{grids_, book_, file_clock_ns()};
 };
 

@@ -1,5 +1,5 @@
 // Halved grids against the rule, cell by cell.
-#include "web/data/halved_grid.h"
+#include "web/data/grids/halved_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The index page: what it says, what it offers, and that names cannot break it.
-#include "web/doors/index.h"
+#include "web/doors/index/index.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
-#include "web/doors/index_clients.h"
+#include "web/doors/index/clients.h"
 
 namespace stormcellar::web {
 namespace {

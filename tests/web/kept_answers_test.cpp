@@ -1,4 +1,4 @@
-#include "web/data/kept_answers.h"
+#include "web/data/grids/kept_answers.h"
 
 #include <atomic>
 #include <future>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/web/asked.h"
-#include "web/data/memory_file.h"
+#include "web/data/grids/memory_file.h"
 
 namespace stormcellar::web {
 namespace {

@@ -1,5 +1,5 @@
 // The animations of a configuration: which files they are, and how they are given out.
-#include "web/doors/loops.h"
+#include "web/doors/pictures/loops.h"
 
 #include <filesystem>
 #include <fstream>

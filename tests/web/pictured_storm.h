@@ -11,7 +11,7 @@
 #include "stormcellar/render/image.h"
 #include "stormcellar/render/scene.h"
 #include "tests/testing/temporary_directory.h"
-#include "web/data/grids.h"
+#include "web/data/grids/grids.h"
 
 namespace stormcellar::web {
 

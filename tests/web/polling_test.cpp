@@ -1,5 +1,5 @@
 // Asks for what GR2Analyst, GRLevel2 and others poll (docs/web/raw.md), in the way that they do.
-#include "web/doors/polling.h"
+#include "web/doors/raw/polling.h"
 
 #include <gtest/gtest.h>
 

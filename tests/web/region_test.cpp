@@ -1,5 +1,5 @@
 // A box over several sites: its plan, its cells, and what the API answers.
-#include "web/data/region.h"
+#include "web/data/grids/region.h"
 
 #include <cmath>
 #include <cstring>
@@ -14,9 +14,9 @@
 #include "tests/grid/moving_blobs.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
-#include "web/data/packed_grid.h"
-#include "web/data/raw_files.h"
-#include "web/doors/api_door.h"
+#include "web/data/grids/packed_grid.h"
+#include "web/data/raw/raw_files.h"
+#include "web/doors/api/door.h"
 
 namespace stormcellar::web {
 namespace {

@@ -1,6 +1,6 @@
 // The bucket of raw volumes, asked as rclone, awscli and other clients of S3 ask (docs/web/raw.md).
 // scripts/check-s3 has two of these programs ask.
-#include "web/doors/s3.h"
+#include "web/doors/s3/s3.h"
 
 #include <algorithm>
 #include <utility>

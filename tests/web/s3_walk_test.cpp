@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "web/doors/s3_listing.h"
+#include "web/doors/s3/listing.h"
 
 namespace stormcellar::web {
 namespace {

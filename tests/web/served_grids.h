@@ -8,7 +8,7 @@
 #include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
-#include "web/doors/api_door.h"
+#include "web/doors/api/door.h"
 
 namespace stormcellar::web {
 

@@ -20,7 +20,7 @@
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
-#include "web/data/raw_files.h"
+#include "web/data/raw/raw_files.h"
 
 namespace stormcellar::web {
 

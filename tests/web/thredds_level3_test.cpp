@@ -8,7 +8,7 @@
 
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
-#include "web/doors/thredds_collection.h"
+#include "web/doors/thredds/collection.h"
 
 namespace stormcellar::web {
 namespace {

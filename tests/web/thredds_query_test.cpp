@@ -1,8 +1,7 @@
-#include "web/doors/thredds_query.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/web/asked.h"
+#include "web/doors/thredds/query.h"
 
 namespace stormcellar::web {
 namespace {

@@ -1,5 +1,5 @@
 // Every request and answer of THREDDS that Siphon and the IDV depend on, over real volumes.
-#include "web/doors/thredds.h"
+#include "web/doors/thredds/thredds.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // Tiles of a real volume: pixel by pixel against the grid's cells, and what is refused.
-#include "web/doors/tiles.h"
+#include "web/doors/pictures/tiles.h"
 
 #include <cmath>
 #include <numbers>
@@ -183,12 +183,12 @@ TEST_F(Tiles, RefusesWhatMakesNoSense) {
 }
 
 TEST(MapLayers, HaveNames) {
-    EXPECT_EQ(map_layer_named("composite")->name(), "composite.REF");
-    EXPECT_EQ(map_layer_named("cappi.ZDR")->name(), "cappi.ZDR");
-    EXPECT_EQ(map_layer_named("vil.REF")->name(), "vil");
-    EXPECT_FALSE(map_layer_named("vil.VEL"));
-    EXPECT_FALSE(map_layer_named("section"));
-    EXPECT_FALSE(map_layer_named(""));
+    EXPECT_EQ(map_product_named("composite")->name(), "composite.REF");
+    EXPECT_EQ(map_product_named("cappi.ZDR")->name(), "cappi.ZDR");
+    EXPECT_EQ(map_product_named("vil.REF")->name(), "vil");
+    EXPECT_FALSE(map_product_named("vil.VEL"));
+    EXPECT_FALSE(map_product_named("section"));
+    EXPECT_FALSE(map_product_named(""));
 }
 
 TEST(TilesOfTheEarth, AreTwiceAsManyAtEachZoom) {

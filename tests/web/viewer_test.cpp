@@ -1,11 +1,11 @@
 // The files of the viewer: what a browser gets, and what it may do with it.
-#include "web/doors/viewer.h"
+#include "web/doors/viewer/viewer.h"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
 #include "tests/web/asked.h"
-#include "web/doors/viewer_files.h"
+#include "web/doors/viewer/viewer_files.h"
 
 namespace stormcellar::web {
 namespace {

@@ -1,5 +1,5 @@
 // Raw volumes by station and name (docs/web/raw.md).
-#include "web/doors/volumes.h"
+#include "web/doors/raw/volumes.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "web/doors/w3c_times.h"
+#include "web/doors/thredds/w3c_times.h"
 
 #include <gtest/gtest.h>
 

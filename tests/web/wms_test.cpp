@@ -1,6 +1,6 @@
 // The Web Map Service of a real volume: pictures pixel by pixel against the grid's cells in each
 // coordinate system, what GDAL's driver makes of it, and what is refused.
-#include "web/doors/wms.h"
+#include "web/doors/wms/wms.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // Grids over time as Zarr arrays: what the documents say, what the chunks hold, and which number a
 // time keeps. scripts/check-zarr reads them with xarray and zarr.
-#include "web/doors/zarr.h"
+#include "web/doors/zarr/zarr.h"
 
 #include <cmath>
 #include <cstring>
@@ -10,7 +10,7 @@
 #include <libdeflate.h>
 
 #include "tests/web/served_grids.h"
-#include "web/data/zarr_cells.h"
+#include "web/data/zarr/zarr_cells.h"
 
 namespace stormcellar::web {
 namespace {

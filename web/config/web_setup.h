@@ -20,8 +20,8 @@ struct WebSetup {
     std::filesystem::path state = "/var/lib/stormcellar";
     std::filesystem::path catalog = "/var/lib/stormcellar/catalog";  // empty: none
     std::filesystem::path cache = "/var/cache/stormcellar";          // empty: none
-    // Where the server keeps the numbers of times (web/data/time_numbers.h). Empty: in memory. It
-    // is not in the file; stormcellar-web takes it from $STATE_DIRECTORY.
+    // Where the server keeps the numbers of times (web/data/zarr/time_numbers.h). Empty: in memory.
+    // It is not in the file; stormcellar-web takes it from $STATE_DIRECTORY.
     std::filesystem::path numbers;
     std::vector<AddedStation> added_stations;
     std::vector<ServedLoop> loops;

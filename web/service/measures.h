@@ -6,9 +6,9 @@
 #include <atomic>
 #include <memory>
 
-#include "web/data/event_feed.h"
-#include "web/data/event_hub.h"
-#include "web/data/grids.h"
+#include "web/data/events/event_feed.h"
+#include "web/data/events/event_hub.h"
+#include "web/data/grids/grids.h"
 #include "web/http/counters.h"
 #include "web/http/door.h"
 #include "web/http/server.h"

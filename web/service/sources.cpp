@@ -5,22 +5,22 @@
 #include <thread>
 #include <utility>
 
-#include "web/data/kept_answers.h"
-#include "web/doors/api_door.h"
-#include "web/doors/events.h"
-#include "web/doors/frames.h"
-#include "web/doors/index.h"
-#include "web/doors/loops.h"
-#include "web/doors/metrics.h"
-#include "web/doors/polling.h"
-#include "web/doors/s3.h"
-#include "web/doors/thredds.h"
-#include "web/doors/tiles.h"
-#include "web/doors/viewer.h"
-#include "web/doors/viewer_files.h"
-#include "web/doors/volumes.h"
-#include "web/doors/wms.h"
-#include "web/doors/zarr.h"
+#include "web/data/grids/kept_answers.h"
+#include "web/doors/api/door.h"
+#include "web/doors/events/events.h"
+#include "web/doors/index/index.h"
+#include "web/doors/metrics/metrics.h"
+#include "web/doors/pictures/frames.h"
+#include "web/doors/pictures/loops.h"
+#include "web/doors/pictures/tiles.h"
+#include "web/doors/raw/polling.h"
+#include "web/doors/raw/volumes.h"
+#include "web/doors/s3/s3.h"
+#include "web/doors/thredds/thredds.h"
+#include "web/doors/viewer/viewer.h"
+#include "web/doors/viewer/viewer_files.h"
+#include "web/doors/wms/wms.h"
+#include "web/doors/zarr/zarr.h"
 
 namespace stormcellar::web {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "stormcellar/catalog/catalog.h"
 #include "web/config/web_setup.h"
-#include "web/data/grids.h"
-#include "web/data/time_numbers.h"
+#include "web/data/grids/grids.h"
+#include "web/data/zarr/time_numbers.h"
 #include "web/http/door.h"
 #include "web/service/measures.h"
 

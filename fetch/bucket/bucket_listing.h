@@ -1,0 +1,66 @@
+// fetch/bucket/bucket_listing.h -- reads the listing of a public bucket of Level II files.
+//
+// The keys of the bucket are YYYY/MM/DD/STATION/NAME (docs/data-sources.md). A listing is a GET of
+// ?list-type=2&prefix=..., in pages that a token continues (Amazon S3, ListObjectsV2). Other
+// servers give the same answers.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+
+namespace stormcellar::fetch {
+
+struct BucketObject {
+    std::string key;
+    std::uint64_t size_bytes = 0;
+    std::optional<UtcTime> modified;
+    std::string tag;  // of its content (ETag), in quotes; empty: the listing has none
+};
+
+struct ListingPage {
+    std::vector<BucketObject> objects;
+    std::vector<std::string> folders;  // prefixes that a listing by folders names, with a last '/'
+    std::string next_token;            // empty: this is the last page
+};
+
+struct ListingQuestion {
+    std::string prefix;
+    std::string start_after = {};  // only keys behind this one; empty: all
+    bool by_folders = false;       // name the folders below the prefix instead of their objects
+    int most_keys = 1000;          // of a page
+    std::string token = {};        // of the last page; empty: the first page is wanted
+};
+
+// Parses a page. Errors: corrupt if the text is not a listing, or says that it continues and not
+// where.
+[[nodiscard]] Result<ListingPage> parse_listing(std::span<const std::byte> xml);
+
+// `source` is the address of the bucket, "https://HOST" or "https://HOST/BUCKET".
+[[nodiscard]] std::string listing_url(std::string_view source, std::string_view prefix,
+                                      std::string_view token);
+[[nodiscard]] std::string listing_url(std::string_view source, const ListingQuestion& question);
+[[nodiscard]] std::string object_url(std::string_view source, std::string_view key);
+
+// Returns "2017/01/01/KTLX/" for each day from `from` to `to` and each station. The day before
+// `from` is not included, because a volume is listed under the day of its start.
+[[nodiscard]] std::vector<std::string> prefixes_of(const std::vector<std::string>& stations,
+                                                   UtcTime from, UtcTime to);
+
+// Returns the last part of a key.
+[[nodiscard]] std::string_view name_of_key(std::string_view key);
+// Returns the start that a name such as KTLX20170101_030027_V06 gives, or none.
+[[nodiscard]] std::optional<UtcTime> start_in_name(std::string_view name);
+// Returns true for metadata without radials, such as KTLX20170101_030027_V06_MDM.
+[[nodiscard]] bool is_metadata_name(std::string_view name);
+
+}  // namespace stormcellar::fetch

@@ -1,0 +1,97 @@
+// fetch/bucket/transfers.h -- HTTP GETs, several at a time, with libcurl.
+//
+// The module stormcellar_fetch and the program stormcellar-feed use this; both bring libcurl.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <curl/curl.h>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+
+namespace stormcellar::fetch {
+
+// One object to get.
+struct Transfer {
+    std::string url;
+    std::uint64_t from_byte = 0;  // 0: the whole object
+    // The tag of the wanted content, if only a part is requested. A server with another content
+    // answers 412.
+    std::string tag;
+    // Takes the body. It returns false if it cannot be taken, and the transfer then fails for good.
+    std::function<bool(const std::byte* bytes, std::size_t count)> take;
+    // Called before the body of each answer. `from_byte` is where the body begins, which is 0 if
+    // the server sends the whole object although a part was requested.
+    std::function<bool(std::uint64_t from_byte)> begin;
+    struct Outcome {
+        bool good = false;
+        bool may_be_tried_again = false;
+        // it cannot continue at from_byte; only the whole object can be had
+        bool part_is_useless = false;
+        bool is_refused = false;              // the server answered, and will not give it
+        std::string reason;                   // set if it is not good
+        long status = 0;                      // of HTTP; 0: no answer
+        std::chrono::seconds retry_after{0};  // how long the server asks to wait
+        std::optional<UtcTime> modified;
+    };
+    // May add further transfers, including this one with another from_byte.
+    std::function<void(const Outcome& outcome)> ended;
+};
+
+struct TransferOptions {
+    int parallel = 8;
+    std::chrono::seconds stall{30};   // a transfer without a byte for so long fails
+    std::chrono::seconds longest{0};  // a whole transfer; 0: any time
+    long most_redirects = 5;
+    std::string proxy = {};             // an address; empty: as the environment says, or as below
+    bool is_direct = false;             // without a proxy, whatever the environment says
+    std::string ca_file = {};           // certificates to trust; empty: those of the system
+    std::string agent = "stormcellar";  // the program's name for the server
+};
+
+class Transfers {
+  public:
+    [[nodiscard]] static Result<std::unique_ptr<Transfers>> make(TransferOptions options);
+    Transfers(const Transfers&) = delete;
+    Transfers& operator=(const Transfers&) = delete;
+    ~Transfers();
+
+    // Adds a transfer, which begins when there is room and `wait` has passed.
+    void add(Transfer transfer, std::chrono::milliseconds wait = {});
+    // Runs until all transfers have ended or the flag is set. Calls `turn` often.
+    void run(const std::atomic<bool>* stop, const std::function<void()>& turn);
+
+  private:
+    struct Running;
+    using Clock = std::chrono::steady_clock;
+    struct Waiting {
+        Transfer transfer;
+        Clock::time_point due;
+    };
+
+    explicit Transfers(TransferOptions options);
+    void start_due();
+    bool start(Transfer transfer);
+    void finish_done();
+    [[nodiscard]] int wait_ms() const;
+
+    TransferOptions options_;
+    CURLM* multi_ = nullptr;
+    std::list<Waiting> waiting_;
+    std::list<std::unique_ptr<Running>> running_;
+};
+
+}  // namespace stormcellar::fetch

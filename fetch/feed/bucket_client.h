@@ -1,0 +1,70 @@
+// fetch/feed/bucket_client.h -- asks the bucket: listings and chunks, many at a time, on one
+// thread.
+//
+// Only the address of the configuration is asked: redirections are not followed, and proxies of the
+// environment are ignored. An answer is bounded in bytes, in time, and in pages.
+//
+// Threads   One thread at a time; it calls the functions that take answers, within run().
+// Errors    Passed to the function that takes the answer; the message says what the server did.
+//           busy        it may pass: no connection, a timeout, 429, 500 and above, or cut
+//           not_found   404 and 410
+//           permission  403
+//           over_budget more bytes or pages than anyone needs
+//           truncated   fewer bytes than the listing says
+//           corrupt     not a listing
+//           io          any other answer
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fetch/bucket/bucket_listing.h"
+#include "fetch/feed/feed_config.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::fetch {
+class Transfers;
+}
+
+namespace stormcellar::feed {
+
+using Bytes = std::vector<std::byte>;
+
+class BucketClient {
+  public:
+    [[nodiscard]] static Result<std::unique_ptr<BucketClient>> open(const FeedConfig& config);
+    BucketClient(const BucketClient&) = delete;
+    BucketClient& operator=(const BucketClient&) = delete;
+    ~BucketClient();
+
+    // Asks after `wait`. A listing of many pages is passed on as one.
+    void list(fetch::ListingQuestion question, std::chrono::milliseconds wait,
+              std::function<void(Result<fetch::ListingPage>)> taken);
+    // Asks for an object that has exactly `size` bytes.
+    void get(const std::string& key, std::uint64_t size, std::function<void(Result<Bytes>)> taken);
+    // Runs until the flag is set or nothing is left to ask. Calls `turn` often.
+    void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
+
+    // Returns how long the server asked to wait, in the answer that is being taken.
+    [[nodiscard]] std::chrono::seconds retry_after() const { return retry_after_; }
+
+  private:
+    struct Pages;
+    explicit BucketClient(std::string bucket);
+    void ask_page(std::shared_ptr<Pages> pages, std::chrono::milliseconds wait);
+    void take_page(const std::shared_ptr<Pages>& pages, Result<Bytes> body);
+    void ask(std::string url, std::uint64_t most, std::chrono::milliseconds wait,
+             std::function<void(Result<Bytes>)> taken);
+
+    std::string bucket_;
+    std::unique_ptr<fetch::Transfers> transfers_;
+    std::chrono::seconds retry_after_{0};
+};
+
+}  // namespace stormcellar::feed

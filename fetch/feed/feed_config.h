@@ -1,0 +1,43 @@
+// fetch/feed/feed_config.h -- what stormcellar-feed reads of stormcellard.toml: [feed].
+//
+// Threads   Plain data and a pure function.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::feed {
+
+inline constexpr const char* default_bucket =
+    "https://unidata-nexrad-level2-chunks.s3.amazonaws.com";
+
+struct FeedConfig {
+    std::vector<std::string> stations;
+    std::string bucket = default_bucket;  // without a last '/'
+    std::filesystem::path drop = "/var/lib/stormcellar-feed/drop";
+    std::filesystem::path state = "/var/lib/stormcellar-feed";  // of status.json
+    std::chrono::milliseconds every{4000};
+    std::chrono::seconds keep{std::chrono::hours{8}};  // age of volumes in the drop directory
+    std::uint64_t bytes = 50'000'000'000;              // of all of them; the oldest give way
+    std::chrono::seconds stall{20};  // a transfer without a byte for so long fails
+    std::string proxy;               // empty: none
+    std::string ca_file;             // empty: the certificates of the system
+    std::string log_level = "info";  // debug, info, warning or error
+    // Not in the file: listings of a station within a minute that bring nothing, and when a station
+    // is called silent.
+    std::size_t most_in_vain = 20;
+    std::chrono::milliseconds silent_after = std::chrono::minutes{10};
+    bool operator==(const FeedConfig&) const = default;
+};
+
+// Relative paths start at the directory of the file. The tables of other programs are not looked
+// at, but for [paths] drop, in which `drop` must be if stations are named. Errors: those of reading
+// the file; bad_argument, "FILE:LINE: [section] key: why".
+[[nodiscard]] Result<FeedConfig> load_feed_config(const std::filesystem::path& file);
+
+}  // namespace stormcellar::feed

@@ -1,0 +1,33 @@
+// fetch/pull/grid_list.h -- what a data server says that it has: the answer of /api/v1/grids.
+//
+// Threads   Pure functions.
+// Errors    corrupt for what is not such an answer. A grid whose name makes no sense is left out.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fetch/pull/pull_config.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/cache/grid_name.h"
+
+namespace stormcellar::pull {
+
+// The server lists the newest grids, at most this many.
+inline constexpr std::size_t most_listed = 10'000;
+// Limit of the text of such a list.
+inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
+
+[[nodiscard]] std::string list_url(const PullSource& source, UtcTime from);
+[[nodiscard]] std::string file_url(const PullSource& source, const cache::GridName& grid);
+
+// Returns the partials of the source's domains that are not older than `from` and not of the
+// future, newest first.
+[[nodiscard]] Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> text,
+                                                                   const PullSource& source,
+                                                                   UtcTime from, UtcTime now);
+
+}  // namespace stormcellar::pull

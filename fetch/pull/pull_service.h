@@ -1,0 +1,57 @@
+// fetch/pull/pull_service.h -- a thread for each machine that is asked, and the file that says how
+// it goes.
+//
+// Each machine has a directory of its own below [pull] directory, so that one that hangs or lies
+// touches no other. status.json stands beside these directories; it is written when something has
+// changed.
+//
+// Threads   One thread at a time; the object has threads of its own, which end with it within a
+//           second or so.
+// Errors    open(): the directories cannot be made or read.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/steady_time.h"
+#include "fetch/pull/pull_config.h"
+#include "fetch/pull/source_puller.h"
+#include "stormcellar/base/file_system.h"
+
+namespace stormcellar::pull {
+
+class PullService {
+  public:
+    static Result<std::unique_ptr<PullService>> open(FileSystem& file_system,
+                                                     const PullConfig& config);
+    PullService(const PullService&) = delete;
+    PullService& operator=(const PullService&) = delete;
+    ~PullService();
+
+    // Writes status.json if it would say something new. Errors: those of writing.
+    Status publish();
+    [[nodiscard]] std::vector<SourceStatus> status() const;
+    // The time since the thread that has done nothing for longest did something.
+    [[nodiscard]] std::chrono::milliseconds longest_silence() const;
+
+  private:
+    PullService(FileSystem& file_system, PullConfig config);
+    void run(SourcePuller& puller);
+    void wait(SourcePuller& puller);
+
+    FileSystem& file_system_;
+    const PullConfig config_;
+    std::atomic<bool> stop_{false};
+    std::mutex mutex_;  // with stopped_, for waiting
+    std::condition_variable stopped_;
+    std::string published_;  // without its time
+    std::vector<std::unique_ptr<SourcePuller>> pullers_;
+    std::vector<std::thread> threads_;  // the last: they use the members above
+};
+
+}  // namespace stormcellar::pull

@@ -1,0 +1,93 @@
+// fetch/pull/pulled_grids.h -- the directory of grids that were pulled from one machine.
+//
+// It has the layout of a cache (stormcellar/cache/grid_name.h). A grid appears under its name only
+// after all of it was checked: that it is a grid file whose every brick has its checksum, the one
+// that was asked for by station, moment and time, and the one that the server named by its tag.
+// While it comes it lies beside the domains under a temporary name, and directories are made only
+// for what is kept; what a killed program left is removed by open().
+// One process writes to a directory.
+//
+// Units     Sizes are in bytes on disk.
+// Threads   One thread at a time.
+// Errors    Those of files, and those that a check finds: corrupt, truncated, unsupported.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/grid_name.h"
+
+namespace stormcellar::pull {
+
+struct PulledLimits {
+    std::uint64_t bytes = 0;
+    std::chrono::seconds age{0};
+    // A nation's radars make some 60,000 of one moment for a mosaic in a day. Each takes a file and
+    // some memory, however small it is.
+    std::size_t grids = 100'000;
+};
+
+class PulledGrids {
+  public:
+    // Creates the directory if it is missing.
+    static Result<PulledGrids> open(FileSystem& file_system, std::filesystem::path directory,
+                                    PulledLimits limits);
+
+    [[nodiscard]] bool has(const cache::GridName& name) const { return grids_.contains(name); }
+    // Returns the entity tag of the grid that stands; empty if it cannot be read.
+    [[nodiscard]] std::string tag_of(const cache::GridName& name);
+    // A grid that is coming.
+    class Incoming {
+      public:
+        Status append(std::span<const std::byte> bytes) { return file_.append(bytes); }
+
+      private:
+        friend class PulledGrids;
+        Incoming(cache::GridName name, AtomicFile file)
+            : name_(std::move(name)), file_(std::move(file)) {}
+        cache::GridName name_;
+        AtomicFile file_;
+    };
+    [[nodiscard]] Result<Incoming> begin(const cache::GridName& name);
+    // Checks the grid and gives it its name. `tag` is what the server said.
+    Status keep(Incoming incoming, const std::string& tag);
+
+    // Removes grids that are too old, then the oldest until the limits of bytes and of grids are
+    // kept. Returns how many were removed.
+    std::size_t prune(UtcTime now);
+
+    [[nodiscard]] std::size_t count() const { return grids_.size(); }
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    [[nodiscard]] std::optional<UtcTime> newest() const;
+
+  private:
+    struct Known {
+        std::uint64_t bytes = 0;
+        std::string tag;  // empty: not known yet
+    };
+    PulledGrids(FileSystem& file_system, std::filesystem::path directory, PulledLimits limits)
+        : file_system_(&file_system), directory_(std::move(directory)), limits_(limits) {}
+    [[nodiscard]] std::filesystem::path path_of(const cache::GridName& name) const {
+        return directory_ / cache::relative_path(name);
+    }
+    [[nodiscard]] std::filesystem::path incoming() const { return directory_ / ".incoming"; }
+    void remove_empty_above(const std::filesystem::path& path) const;
+    Status give_name(Incoming& incoming);
+    void remember(const cache::GridName& name, std::string tag);
+    void remove(const cache::GridName& name);
+
+    FileSystem* file_system_;
+    std::filesystem::path directory_;
+    PulledLimits limits_;
+    std::map<cache::GridName, Known> grids_;
+    std::uint64_t bytes_ = 0;
+};
+
+}  // namespace stormcellar::pull

@@ -1,0 +1,68 @@
+// tests/fetch/feed/chunk_bucket.h -- the public chunk bucket on the loopback: it lists and gives as
+// Amazon S3 does, and does wrong what a test says.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/utc_time.h"
+#include "tests/fetch/pull/scripted_server.h"
+
+namespace stormcellar::feed {
+
+class ChunkBucket {
+  public:
+    ChunkBucket() = default;
+    ChunkBucket(const ChunkBucket&) = delete;
+    ChunkBucket& operator=(const ChunkBucket&) = delete;
+
+    [[nodiscard]] std::string url() const { return server_.url(); }
+    void put(const std::string& key, std::string contents);
+    // Puts the chunks of the volume with these numbers, an S first; `end`: the last is an E.
+    // The contents of a chunk are its key.
+    void put_volume(const std::string& station, int number, UtcTime time, int chunks,
+                    bool has_end = true);
+    void remove(const std::string& key);
+    // The listing says this size of the object, whatever its contents are.
+    void say_size(const std::string& key, std::uint64_t bytes);
+    void set_page(int keys) { page_ = keys; }
+    // Requests so far, as "LIST KTLX/494/" and "GET KTLX/494/20220317-000842-001-S".
+    [[nodiscard]] std::vector<std::string> asked() const;
+    [[nodiscard]] std::size_t count(std::string_view request) const;
+    [[nodiscard]] std::map<std::string, std::string> objects() const;
+
+    // Changes answers; the text is as in asked(). Set before the first request.
+    std::function<pull::Reply(const std::string&, pull::Reply)> change =
+        [](const std::string&, pull::Reply reply) { return reply; };
+
+  private:
+    struct Object {
+        std::string contents;
+        std::uint64_t said_bytes = 0;
+        UtcTime modified;
+    };
+    pull::Reply answer(const pull::Asked& asked);
+    [[nodiscard]] std::string listing(const std::string& query) const;
+
+    int page_ = 1000;
+    mutable std::mutex mutex_;  // guards what follows
+    std::map<std::string, Object> objects_;
+    std::vector<std::string> asked_;
+    pull::ScriptedServer server_{[this](const pull::Asked& asked) { return answer(asked); }};
+};
+
+// "20220317-000842", as keys have it.
+[[nodiscard]] std::string dashed_time(UtcTime time);
+[[nodiscard]] std::string key_of(const std::string& station, int volume, UtcTime time, int number,
+                                 char kind);
+// The files below a directory, by their paths in it; temporary ones too.
+[[nodiscard]] std::map<std::string, std::string> files_below(
+    const std::filesystem::path& directory);
+
+}  // namespace stormcellar::feed

@@ -1,0 +1,78 @@
+// Several machines at once, and the file that says how it goes.
+#include "fetch/pull/pull_service.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/fetch/pull/scripted_server.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::pull {
+namespace {
+
+using nlohmann::json;
+
+json status_of(const std::filesystem::path& directory) {
+    const auto bytes = read_file(directory / "status.json");
+    if (!bytes) return {};
+    const auto* const begin = reinterpret_cast<const char*>(bytes->data());
+    return json::parse(begin, begin + bytes->size(), nullptr, false);
+}
+
+// The state of a machine once it is as expected, or after ten seconds.
+std::string state_of(PullService& service, const std::filesystem::path& directory,
+                     std::size_t number, const std::string& expected) {
+    std::string state;
+    for (int i = 0; i < 100 && state != expected; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{100});
+        EXPECT_TRUE(service.publish());
+        state = status_of(directory)["sources"][number]["state"];
+    }
+    return state;
+}
+
+TEST(PullService, OneMachineThatHangsHoldsUpNoOther) {
+    const testing::TemporaryDirectory directory;
+    ScriptedServer hangs([](const Asked&) {
+        return Reply{200, "{\"grids\":[]}", "", Reply::Way::hangs};
+    });
+    ScriptedServer answers([](const Asked&) {
+        return Reply{200, "{\"grids\":[]}", "", Reply::Way::whole};
+    });
+    PullConfig config;
+    config.directory = directory / "pull";
+    config.stall = std::chrono::seconds{60};
+    config.every = std::chrono::milliseconds{100};
+    config.sources = {{"hangs", hangs.url(), {}}, {"answers", answers.url(), {}}};
+    auto service = PullService::open(real_file_system(), config);
+    ASSERT_TRUE(service) << service.error().message;
+    EXPECT_EQ(state_of(**service, config.directory, 1, "answering"), "answering");
+    EXPECT_EQ(state_of(**service, config.directory, 0, "starting"), "starting");
+    EXPECT_LT((*service)->longest_silence(), std::chrono::seconds{5});
+    const auto start = steady_now();
+    service->reset();
+    EXPECT_LT(seconds_since(start), 5) << "the end waits for no machine";
+}
+
+TEST(PullService, AMachineThatIsAwayIsNamedAndAskedAgain) {
+    const testing::TemporaryDirectory directory;
+    std::atomic<bool> is_away{true};
+    ScriptedServer server([&](const Asked&) {
+        return is_away ? Reply{500, "", "", Reply::Way::whole}
+                       : Reply{200, "{\"grids\":[]}", "", Reply::Way::whole};
+    });
+    PullConfig config;
+    config.directory = directory / "pull";
+    config.sources = {{"north", server.url(), {}}};
+    auto service = PullService::open(real_file_system(), config);
+    ASSERT_TRUE(service);
+    EXPECT_EQ(state_of(**service, config.directory, 0, "failing"), "failing");
+    const json failing = status_of(config.directory)["sources"][0];
+    EXPECT_NE(std::string(failing["error"]).find("500"), std::string::npos);
+    EXPECT_TRUE(failing["next_try"].is_string());
+    is_away = false;
+    EXPECT_EQ(state_of(**service, config.directory, 0, "answering"), "answering");
+}
+
+}  // namespace
+}  // namespace stormcellar::pull

@@ -1,0 +1,130 @@
+#include "tests/fetch/pull/scripted_server.h"
+
+#include <chrono>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace stormcellar::pull {
+namespace {
+
+bool send_all(int connection, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t sent = ::send(connection, text.data(), text.size(), MSG_NOSIGNAL);
+        if (sent <= 0) return false;
+        text.remove_prefix(static_cast<std::size_t>(sent));
+    }
+    return true;
+}
+
+std::string read_head(int connection) {
+    std::string head;
+    char c = 0;
+    while (!head.ends_with("\r\n\r\n") && ::recv(connection, &c, 1, 0) == 1)
+        head += c;
+    return head;
+}
+
+std::string header_in(const std::string& head, std::string_view name) {
+    const std::size_t at = head.find(name);
+    if (at == std::string::npos) return {};
+    const std::size_t begin = at + name.size();
+    return head.substr(begin, head.find('\r', begin) - begin);
+}
+
+}  // namespace
+
+ScriptedServer::ScriptedServer(std::function<Reply(const Asked&)> answer)
+    : answer_(std::move(answer)) {
+    listener_ = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+        ::listen(listener_, 64) != 0 ||
+        ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
+        throw std::runtime_error("no socket for the server");
+    }
+    port_ = ntohs(address.sin_port);
+    thread_ = std::thread([this] { serve(); });
+}
+
+ScriptedServer::~ScriptedServer() {
+    stop_ = true;
+    thread_.join();
+    for (Answering& one : answering_)
+        one.thread.join();
+    ::close(listener_);
+}
+
+std::string ScriptedServer::url() const {
+    return fmt::format("http://127.0.0.1:{}", port_);
+}
+
+std::vector<Asked> ScriptedServer::asked() const {
+    const std::scoped_lock lock(mutex_);
+    return asked_;
+}
+
+void ScriptedServer::forget_asked() {
+    const std::scoped_lock lock(mutex_);
+    asked_.clear();
+}
+
+void ScriptedServer::serve() {
+    while (!stop_) {
+        pollfd ready{listener_, POLLIN, 0};
+        if (::poll(&ready, 1, 20) != 1) continue;
+        const int connection = ::accept(listener_, nullptr, nullptr);
+        if (connection < 0) continue;
+        join_done();
+        Answering& one = answering_.emplace_back();
+        one.thread = std::thread([this, &one, connection] {
+            answer(connection);
+            ::close(connection);
+            one.is_done = true;
+        });
+    }
+}
+
+// A test may ask thousands of times, and each thread that is not joined keeps its stack.
+void ScriptedServer::join_done() {
+    answering_.remove_if([](Answering& one) {
+        const bool is_done = one.is_done;
+        if (is_done) one.thread.join();
+        return is_done;
+    });
+}
+
+void ScriptedServer::answer(int connection) {
+    const std::string head = read_head(connection);
+    if (head.size() < 5) return;
+    const Asked asked{head.substr(4, head.find(' ', 4) - 4), header_in(head, "If-None-Match: ")};
+    {
+        const std::scoped_lock lock(mutex_);
+        asked_.push_back(asked);
+    }
+    const Reply reply = answer_(asked);
+    const std::string length = reply.way == Reply::Way::endless || reply.status == 304
+                                   ? ""
+                                   : fmt::format("Content-Length: {}\r\n", reply.body.size());
+    send_all(connection, fmt::format("HTTP/1.1 {} Said\r\n{}{}Connection: close\r\n\r\n",
+                                     reply.status, length, reply.headers));
+    const bool is_half = reply.way == Reply::Way::cut || reply.way == Reply::Way::hangs;
+    const std::size_t sent = is_half ? reply.body.size() / 2 : reply.body.size();
+    send_all(connection, std::string_view{reply.body}.substr(0, sent));
+    while (!stop_ && reply.way == Reply::Way::endless &&
+           send_all(connection, std::string(100'000, ' '))) {
+    }
+    while (!stop_ && reply.way == Reply::Way::hangs)
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+}
+
+}  // namespace stormcellar::pull

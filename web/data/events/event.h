@@ -1,0 +1,84 @@
+// web/data/events/event.h -- what happens in cache and catalog, as numbered events.
+//
+// Threads   Plain values.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/moment.h"
+#include "web/http/answer.h"
+
+namespace stormcellar::web {
+
+enum class EventType : std::uint8_t {
+    volume_begun,     // the first of a volume was seen, in the catalog or in the cache
+    sweep_gridded,    // a site's grid was made again with one or more sweeps of a growing volume
+    volume_complete,  // a site's grid was made of a volume that has ended
+    mosaic,           // a grid of a configured domain was made, or made again
+    grid_evicted,     // grids of a domain and moment are gone
+    station_silent,   // nothing came from a station for some time
+    station_spoke,    // something came from a station that was silent
+    reset,            // events were lost: whoever keeps a list must ask for it again
+};
+
+struct EventTypeFacts {
+    EventType type;
+    std::string_view name;  // in the stream, in JSON and in the filter
+};
+inline constexpr auto event_types = std::to_array<EventTypeFacts>({
+    {EventType::volume_begun, "volume_begun"},
+    {EventType::sweep_gridded, "sweep_gridded"},
+    {EventType::volume_complete, "volume_complete"},
+    {EventType::mosaic, "mosaic"},
+    {EventType::grid_evicted, "grid_evicted"},
+    {EventType::station_silent, "station_silent"},
+    {EventType::station_spoke, "station_spoke"},
+    {EventType::reset, "reset"},
+});
+[[nodiscard]] constexpr std::string_view event_name(EventType type) {
+    return event_types[static_cast<std::size_t>(type)].name;
+}
+[[nodiscard]] std::optional<EventType> event_type_from_name(std::string_view name);
+
+struct Event {
+    EventType type = EventType::reset;
+    std::string station;  // ICAO; empty: of no one station
+    std::string domain;   // of a grid; of an event of a station, its own domain
+    std::optional<level2::Moment> moment;
+    std::string json;  // one object on one line
+};
+
+// Selects the events that a client wants to hear. Stations and domains are places: an event fits if
+// it is of one of these stations or of one of these domains, or if neither is given. Moments and
+// types must fit, too, if they are given. An event without a moment fits any list of moments, so
+// that a client that asks for REF hears of silent stations. A reset fits every filter.
+struct EventFilter {
+    std::vector<std::string> stations = {}, domains = {};
+    std::vector<level2::Moment> moments = {};
+    std::vector<EventType> types = {};
+    [[nodiscard]] bool fits(const Event& event) const;
+};
+
+// The last event that a client has: the run of the server, and the number of the event.
+struct EventId {
+    std::string run;
+    std::uint64_t number = 0;
+};
+// "5f3a09c1-1024", as in the `id` line; none for every other text.
+[[nodiscard]] std::optional<EventId> parse_event_id(std::string_view text);
+[[nodiscard]] std::string event_id_text(std::string_view run, std::uint64_t number);
+
+// The lines of an event in the stream, with the empty line that ends it.
+[[nodiscard]] std::string event_frame(const Event& event, std::string_view run,
+                                      std::uint64_t number);
+// An event that says why some were lost.
+[[nodiscard]] Event reset_event(std::string_view reason);
+
+}  // namespace stormcellar::web

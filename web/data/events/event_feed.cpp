@@ -1,0 +1,246 @@
+#include "web/data/events/event_feed.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "base/steady_time.h"
+#include "stormcellar/base/station_table.h"
+#include "web/data/events/catalog_changes.h"
+#include "web/data/events/grid_events.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::chrono::seconds tick_every{1};
+// A station whose grids come needs no look into its database.
+constexpr std::chrono::seconds grids_speak_for{30};
+// The database of a station is asked at most so often.
+constexpr std::chrono::seconds ask_every{5};
+// A file shows a commit before readers see it: SQLite writes the log, waits for the disk, and then
+// tells. So what changed is asked about twice.
+constexpr int asks_for_a_change = 2;
+// More changes than these at once, and clients ask for everything anew.
+constexpr std::size_t most_changes_waiting = 20'000;
+
+}  // namespace
+
+// Changes that the cache watch has told and the feed has not read. The watch may outlive the feed.
+struct WaitingChanges {
+    void add(const CacheChange& change) {
+        {
+            const std::scoped_lock lock(mutex);
+            if (changes.size() < most_changes_waiting) {
+                changes.push_back(change);
+            } else {
+                has_lost = true;
+            }
+        }
+        more.notify_one();
+    }
+    // Waits for changes until the given time or a stop. Returns those that have come.
+    std::vector<CacheChange> take(SteadyTime until) {
+        std::unique_lock lock(mutex);
+        more.wait_until(lock, until, [this] { return is_stopping || !changes.empty(); });
+        std::vector<CacheChange> taken = std::exchange(changes, {});
+        if (std::exchange(has_lost, false)) taken = {{CacheEvent::everything, {}}};
+        return taken;
+    }
+    void lose() {
+        const std::scoped_lock lock(mutex);
+        has_lost = true;
+    }
+    [[nodiscard]] bool must_stop() {
+        const std::scoped_lock lock(mutex);
+        return is_stopping;
+    }
+    void stop() {
+        {
+            const std::scoped_lock lock(mutex);
+            is_stopping = true;
+        }
+        more.notify_one();
+    }
+
+    std::mutex mutex;
+    std::condition_variable more;
+    std::vector<CacheChange> changes;
+    bool has_lost = false, is_stopping = false;
+};
+
+struct EventFeed::Impl {
+    explicit Impl(EventFeedOptions given)
+        : options(std::move(given)),
+          book(options.silent_after),
+          grid_events(options.grids, book, file_clock_ns()),
+          catalog_changes(options.catalog),
+          reader(options.reader) {}
+
+    void begin();
+    void take_turn(SteadyTime& next_tick, SteadyTime& next_look);
+    void run();
+    void publish(std::vector<Event> events) {
+        for (Event& event : events)
+            options.hub->publish(std::move(event));
+    }
+    void take_grids(SteadyTime until);
+    void look_at_catalog(SteadyTime now);
+    void ask_about(const std::string& station, bool is_beginning);
+    [[nodiscard]] bool has_grids(const std::string& station) const {
+        return options.grids && !options.grids->moments(station).empty();
+    }
+    const catalog::CatalogReader* catalog();
+
+    const EventFeedOptions options;
+    StationNews book;
+    GridEvents grid_events;
+    CatalogChanges catalog_changes;
+    std::shared_ptr<const catalog::CatalogReader> reader;
+    struct Asked {
+        SteadyTime spoke{};  // a grid of the station came
+        SteadyTime asked{};
+        int asks_due = 0;
+        std::optional<UtcTime> ended;  // the volume whose end was told from the catalog
+    };
+    std::map<std::string, Asked> asked;
+    std::atomic<std::uint64_t> unreadable{0};
+    const std::shared_ptr<WaitingChanges> waiting = std::make_shared<WaitingChanges>();
+    std::thread thread;
+};
+
+const catalog::CatalogReader* EventFeed::Impl::catalog() {
+    if (reader) return reader.get();
+    if (options.catalog.empty()) return nullptr;
+    auto opened = catalog::CatalogReader::open(options.catalog);
+    if (!opened) return nullptr;
+    reader = std::make_shared<const catalog::CatalogReader>(std::move(*opened));
+    return reader.get();
+}
+
+// The newest grids and volumes that are there are known, and no news.
+void EventFeed::Impl::begin() {
+    const UtcTime now = now_utc();
+    if (options.grids) {
+        for (const std::string& domain : options.grids->domains()) {
+            if (!is_icao(domain)) continue;
+            for (const level2::Moment moment : options.grids->moments(domain))
+                book.note(domain, options.grids->newest(domain, moment), std::nullopt, now);
+        }
+    }
+    for (const std::string& station : catalog_changes.take())
+        ask_about(station, true);
+}
+
+void EventFeed::Impl::ask_about(const std::string& station, bool is_beginning) {
+    const catalog::CatalogReader* const catalog_reader = catalog();
+    if (catalog_reader == nullptr) return;
+    const auto latest = catalog_reader->latest(station);
+    if (!latest || !*latest || !(*latest)->volume.start_time) return;
+    const catalog::CatalogEntry& entry = **latest;
+    const UtcTime start = *entry.volume.start_time;
+    const UtcTime now = now_utc();
+    Asked& of_station = asked[station];
+    const bool has_ended = entry.state != catalog::FileState::seen;
+    if (is_beginning) {
+        book.note(station, start, entry.registered_time, now);
+        if (has_ended) of_station.ended = start;
+        return;
+    }
+    publish(book.hear(station, SeenVolume{start, entry.volume.vcp.value_or(0)},
+                      entry.registered_time, now));
+    if (!has_ended || of_station.ended == start || has_grids(station)) return;
+    of_station.ended = start;
+    options.hub->publish(
+        volume_ended_event(station, {start, entry.volume.sweep_count, entry.volume.complete}, now));
+}
+
+void EventFeed::Impl::look_at_catalog(SteadyTime now) {
+    for (const std::string& station : catalog_changes.take())
+        asked[station].asks_due = asks_for_a_change;
+    for (auto& [station, of_station] : asked) {
+        if (of_station.asks_due == 0 || now < of_station.asked + ask_every ||
+            now < of_station.spoke + grids_speak_for) {
+            continue;
+        }
+        --of_station.asks_due;
+        of_station.asked = now;
+        ask_about(station, false);
+    }
+}
+
+void EventFeed::Impl::take_grids(SteadyTime until) {
+    const std::vector<CacheChange> changes = waiting->take(until);
+    if (changes.empty()) return;
+    std::vector<Event> events = grid_events.of(changes, now_utc());
+    unreadable = grid_events.unreadable();
+    const SteadyTime now = steady_now();
+    for (const Event& event : events) {
+        if (!event.station.empty() && event.type != EventType::grid_evicted)
+            asked[event.station].spoke = now;
+    }
+    publish(std::move(events));
+}
+
+void EventFeed::Impl::take_turn(SteadyTime& next_tick, SteadyTime& next_look) {
+    take_grids(std::min(next_tick, next_look));
+    const SteadyTime now = steady_now();
+    if (now >= next_look) {
+        next_look = now + options.look_every;
+        look_at_catalog(now);
+        publish(book.look(now_utc()));
+    }
+    if (now >= next_tick) {
+        next_tick = now + tick_every;
+        options.hub->tick();
+    }
+}
+
+void EventFeed::Impl::run() {
+    SteadyTime next_tick = steady_now() + tick_every;
+    SteadyTime next_look = steady_now() + options.look_every;
+    while (!waiting->must_stop()) {
+        try {
+            take_turn(next_tick, next_look);
+        } catch (const std::exception&) {
+            // For want of memory. What was taken may be lost, so clients ask for everything anew.
+            waiting->lose();
+        }
+    }
+}
+
+EventFeed::EventFeed(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+std::unique_ptr<EventFeed> EventFeed::open(EventFeedOptions options) {
+    auto impl = std::make_unique<Impl>(std::move(options));
+    if (impl->options.grids) {
+        impl->options.grids->listen(
+            [weak = std::weak_ptr<WaitingChanges>(impl->waiting)](const CacheChange& change) {
+                if (const auto waiting = weak.lock()) waiting->add(change);
+            });
+    }
+    impl->begin();
+    impl->thread = std::thread([running = impl.get()] { running->run(); });
+    return std::unique_ptr<EventFeed>(new EventFeed(std::move(impl)));
+}
+
+EventFeed::~EventFeed() {
+    impl_->waiting->stop();
+    impl_->thread.join();
+}
+
+std::vector<StationNews::Page> EventFeed::stations() const {
+    return impl_->book.pages();
+}
+
+std::uint64_t EventFeed::unreadable() const {
+    return impl_->unreadable;
+}
+
+}  // namespace stormcellar::web

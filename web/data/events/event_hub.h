@@ -1,0 +1,115 @@
+// web/data/events/event_hub.h -- numbers events, keeps the newest, and passes them to who listens.
+//
+// Each event is written as text once; all listeners share it. A listener keeps nothing but the
+// number of the next event that it has not read, so that a slow one takes no memory: when that
+// event has left the ring, it hears of a reset. Listeners are found by the stations or domains
+// that they ask for, and those of other stations are not touched.
+//
+// Threads   Many threads may use hub and listeners; each listener is read by one thread at a time.
+//           A listener's `wake` is called without a lock of the hub, and not again before the
+//           listener was read until nothing was left.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "web/data/events/event.h"
+
+namespace stormcellar::web {
+
+struct EventHubOptions {
+    std::size_t kept = 4096;         // events in the ring
+    unsigned heartbeat_ticks = 15;   // a listener hears something at least so often
+    std::optional<std::string> run;  // for tests; none: drawn at random
+};
+
+class EventHub : public std::enable_shared_from_this<EventHub> {
+  public:
+    class Listener;
+
+    static std::shared_ptr<EventHub> make(EventHubOptions options = {});
+
+    // Numbers the event and wakes those whose filter it fits.
+    void publish(Event event);
+    // Call once a second. Each call sends a heartbeat to a fifteenth of the listeners.
+    void tick();
+
+    // Begins to listen after the event of this id; none: after the newest. If events were lost
+    // since, or the id is of another run, the first that is heard is a reset. `id` that is not
+    // empty and no id of ours counts as one of another run.
+    [[nodiscard]] std::shared_ptr<Listener> listen(EventFilter filter,
+                                                   std::optional<std::string> id = {});
+
+    [[nodiscard]] std::size_t listeners() const;
+    [[nodiscard]] std::uint64_t published() const;
+    [[nodiscard]] std::uint64_t resets() const { return resets_; }  // told to single listeners
+    [[nodiscard]] std::string newest_id() const;
+
+  private:
+    struct Numbered {
+        Event event;
+        Text frame;
+    };
+    using Group = std::vector<Listener*>;
+    explicit EventHub(EventHubOptions options);
+    void leave(Listener& listener);
+    // Where the listener is indexed: by its stations and domains; under "" if it has none.
+    static std::vector<std::string> keys_of(const EventFilter& filter);
+    void mark_group(const std::string& key, const Event& event, std::uint64_t number,
+                    std::vector<std::shared_ptr<Listener>>& woken);
+    [[nodiscard]] std::uint64_t first_number() const { return next_ - ring_.size(); }
+
+    const std::size_t kept_;
+    const std::string run_;
+    mutable std::mutex mutex_;   // of everything below, and of the places of listeners
+    std::deque<Numbered> ring_;  // the numbers first_number() to next_ - 1
+    std::uint64_t next_ = 1;
+    std::unordered_map<std::string, Group> groups_;
+    std::vector<std::vector<Listener*>> beats_;  // by the tick in which they get a heartbeat
+    std::size_t next_beat_ = 0, next_place_ = 0, listeners_ = 0;
+    std::atomic<std::uint64_t> resets_{0};
+};
+
+class EventHub::Listener : public std::enable_shared_from_this<EventHub::Listener> {
+  public:
+    ~Listener();
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    // Returns up to `most` bytes of frames; empty: nothing is there now. The first bytes are the
+    // opening: how soon to reconnect, and the id after which the listener hears.
+    [[nodiscard]] std::string read(std::size_t most);
+    // Called when there is something to read; null: nobody is to be woken.
+    void on_more(std::function<void()> wake);
+
+  private:
+    friend class EventHub;
+    Listener(std::shared_ptr<EventHub> hub, EventFilter filter);
+    // Appends frames to `unsent_`, as far as it is short. The hub is locked.
+    void gather(std::size_t most);
+    void wake();
+
+    const std::shared_ptr<EventHub> hub_;
+    const EventFilter filter_;
+    std::mutex wake_mutex_;
+    std::function<void()> wake_;
+
+    // Guarded by the hub's mutex. `next_` is the first event that the listener may not have read;
+    // it has no meaning while nothing is pending.
+    std::uint64_t next_ = 0;
+    bool is_pending_ = true, beat_due_ = false;
+    std::size_t beat_ = 0;
+    std::string unsent_;  // of the reader alone
+};
+
+}  // namespace stormcellar::web

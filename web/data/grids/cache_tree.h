@@ -1,0 +1,102 @@
+// web/data/grids/cache_tree.h -- what a cache watch knows of the directories of a cache.
+//
+// It reads directories, sets watches on them, and tells which grids it found, missed, or found
+// changed. Symbolic links below the cache's directory are not followed, as in the store.
+//
+// Threads   One thread at a time.
+// Errors    A directory that cannot be read keeps what was known of it; see is_blind().
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "web/data/grids/cache_watch.h"
+
+namespace stormcellar::web {
+
+class CacheTree {
+  public:
+    // `notify` is an inotify descriptor, or -1: then nothing is watched.
+    CacheTree(std::filesystem::path cache, int notify, CacheWatch::Listener listener);
+
+    // Reads every directory that is new or whose time changed since it was read.
+    void scan();
+    void scan(const std::string& domain);
+    // Takes the bytes that were read from the inotify descriptor. Returns false if events were lost
+    // or the cache itself was moved or removed: then scan() must follow.
+    [[nodiscard]] bool take(const char* events, std::size_t size);
+
+    [[nodiscard]] bool is_there() const { return is_there_; }
+    // Returns true if some directory could not be watched or read.
+    [[nodiscard]] bool is_blind() const { return blind_; }
+    // After events were lost: tells so, and lets the next scan() read every directory.
+    void forget_times();
+    // Tells that everything may have changed.
+    void tell_everything();
+
+  private:
+    // State of a directory when it was last read.
+    struct Seen {
+        int watch = -1;
+        std::uint64_t device = 0, inode = 0;
+        std::int64_t modified_ns = 0;
+        std::int64_t read_ns = 0;  // by the clock of files
+    };
+    struct Day {
+        Seen seen;
+        std::vector<UtcTime> times;  // ascending
+    };
+    struct OfMoment {
+        Seen seen;
+        std::map<std::string, Day> days;
+    };
+    struct OfDomain {
+        Seen seen;
+        std::map<level2::Moment, OfMoment> moments;
+    };
+    // Where a watched directory is: the cache (no domain), a domain (no moment), a moment (no day)
+    // or a day.
+    struct Place {
+        std::string domain;
+        std::optional<level2::Moment> moment;
+        std::string day;
+    };
+
+    [[nodiscard]] std::filesystem::path path_of(const Place& place) const;
+    // Watches the directory and notes its time. Returns whether its names must be read; none if it
+    // is not there.
+    std::optional<bool> look(const Place& place, Seen& seen);
+    void scan_domain(const std::string& domain);
+    void scan_moment(const std::string& domain, level2::Moment moment);
+    void scan_day(const Place& place);
+    void compare_day(const Place& place, Day& day, const std::vector<std::string>& names,
+                     std::int64_t read_before_ns);
+    void drop_domain(const std::string& domain);
+    void drop_moment(const std::string& domain, level2::Moment moment);
+    void drop_day(const Place& place);
+    void drop_all();
+    void unwatch(Seen& seen);
+    void handle(int watch, std::uint32_t mask, std::string_view name);
+    void handle_directory(const Place& place, std::uint32_t mask, const std::string& name);
+    void handle_file(const Place& place, std::uint32_t mask, std::string_view name);
+    void note_time(const Place& place, Seen& seen) const;
+    [[nodiscard]] Day* find_day(const Place& place);
+    void tell(CacheEvent event, const Place& place, UtcTime time) const;
+
+    std::filesystem::path cache_;
+    int notify_;
+    CacheWatch::Listener listener_;
+    bool is_there_ = false, blind_ = false, root_gone_ = false;
+    Seen root_;
+    std::map<std::string, OfDomain> domains_;
+    std::unordered_map<int, Place> places_;
+};
+
+}  // namespace stormcellar::web

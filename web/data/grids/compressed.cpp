@@ -1,0 +1,81 @@
+#include "web/data/grids/compressed.h"
+
+#include <memory>
+
+#include <libdeflate.h>
+#include <zstd.h>
+
+namespace stormcellar::web {
+
+std::string_view coding_name(Coding coding) {
+    switch (coding) {
+        case Coding::gzip:
+            return "gzip";
+        case Coding::zstd:
+            return "zstd";
+        case Coding::identity:
+            break;
+    }
+    return "";
+}
+
+Coding coding_for(const Request& request) {
+    if (request.accepts("zstd")) return Coding::zstd;
+    return request.accepts("gzip") ? Coding::gzip : Coding::identity;
+}
+
+namespace {
+
+Result<std::string> compressed_by(std::string_view bytes, Coding coding, int of_gzip, int of_zstd) {
+    switch (coding) {
+        case Coding::gzip:
+            return gzipped(bytes, of_gzip);
+        case Coding::zstd:
+            return zstd_packed(bytes, of_zstd);
+        case Coding::identity:
+            break;
+    }
+    return std::string(bytes);
+}
+
+}  // namespace
+
+Result<std::string> compressed(std::string_view bytes, Coding coding) {
+    return compressed_by(bytes, coding, gzip_level, zstd_level);
+}
+
+Result<std::string> compressed_once(std::string_view bytes, Coding coding) {
+    return compressed_by(bytes, coding, gzip_once_level, zstd_once_level);
+}
+
+Result<std::string> gzipped(std::string_view bytes, int level) {
+    struct Free {
+        void operator()(libdeflate_compressor* compressor) const {
+            ::libdeflate_free_compressor(compressor);
+        }
+    };
+    const std::unique_ptr<libdeflate_compressor, Free> compressor(
+        ::libdeflate_alloc_compressor(level));
+    if (!compressor) return fail(ErrorCode::exhausted, "there is no memory to compress an answer");
+    std::string out(::libdeflate_gzip_compress_bound(compressor.get(), bytes.size()), '\0');
+    const std::size_t size = ::libdeflate_gzip_compress(compressor.get(), bytes.data(),
+                                                        bytes.size(), out.data(), out.size());
+    if (size == 0) return fail(ErrorCode::internal, "libdeflate did not end its stream");
+    out.resize(size);
+    out.shrink_to_fit();
+    return out;
+}
+
+Result<std::string> zstd_packed(std::string_view bytes, int level) {
+    std::string out(::ZSTD_compressBound(bytes.size()), '\0');
+    const std::size_t size =
+        ::ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
+    if (::ZSTD_isError(size) != 0) {
+        return fail(ErrorCode::exhausted, "zstd: {}", ::ZSTD_getErrorName(size));
+    }
+    out.resize(size);
+    out.shrink_to_fit();
+    return out;
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,104 @@
+// web/data/grids/grids.h -- the grids of the cache, listed and opened.
+//
+// The names in the cache are listed once, and again when the cache changes
+// (web/data/grids/cache_watch.h), so that a request reads no directory. Opened grids are kept, at
+// most `most_open`, the least recently used give way. A grid that its owner evicted while it is
+// open stays readable to the one who holds it.
+//
+// Threads   Many threads may use it.
+// Errors    not_found if there is and was no such grid; see each function.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/store.h"
+#include "web/data/grids/cache_watch.h"
+
+namespace stormcellar::web {
+
+struct GridsOptions {
+    std::filesystem::path cache;
+    std::size_t most_open = 64;
+    // Limit of the memory that open grids hold: tables, states, and codes if these are packed. The
+    // grid used last is kept even if it is larger.
+    std::uint64_t most_open_bytes = std::uint64_t{256} << 20;
+};
+
+// A grid that is open. `id` changes when the grid of this name is made again.
+struct OpenGrid {
+    cache::GridFile file;
+    std::string domain;
+    level2::Moment moment;
+    UtcTime time;
+    std::string id;  // of its bytes: letters and digits, for ETags and keys
+
+    // Returns true if this grid will be made again: its volume is growing or not whole, or its
+    // frame waits for later volumes.
+    [[nodiscard]] bool may_change() const {
+        const grid::Provenance& from = file.description().provenance;
+        return from.partial || from.provisional;
+    }
+};
+
+// Returns the newest of some times, ascending and at least one. One in the future comes from a
+// clock that is wrong: it counts only if all are in the future (is_believed()).
+[[nodiscard]] UtcTime newest_believed(std::span<const UtcTime> times);
+
+class Grids {
+  public:
+    // A cache that does not exist (yet) has no grids; that is no error.
+    static Result<std::shared_ptr<Grids>> open(GridsOptions options);
+    ~Grids();
+
+    [[nodiscard]] std::vector<std::string> domains() const;  // sorted
+    [[nodiscard]] std::vector<level2::Moment> moments(std::string_view domain) const;
+    // Ascending; `from` and `to` are inclusive.
+    [[nodiscard]] std::vector<UtcTime> times(std::string_view domain, level2::Moment moment,
+                                             std::optional<UtcTime> from = {},
+                                             std::optional<UtcTime> to = {}) const;
+    // Returns the newest of these times, by newest_believed(); none if there is no grid.
+    [[nodiscard]] std::optional<UtcTime> newest(std::string_view domain,
+                                                level2::Moment moment) const;
+    // Returns the grid. Errors: not_found; those of GridFile::open().
+    [[nodiscard]] Result<std::shared_ptr<const OpenGrid>> find(std::string_view domain,
+                                                               level2::Moment moment, UtcTime time);
+    // Returns the grid if it is open and still that of its name; else null. It takes microseconds.
+    [[nodiscard]] std::shared_ptr<const OpenGrid> find_if_open(std::string_view domain,
+                                                               level2::Moment moment, UtcTime time);
+    // Returns true if a grid of this name was listed earlier and is gone: the answer is then 410,
+    // not 404. The newest 65,536 of them are remembered.
+    [[nodiscard]] bool was_evicted(std::string_view domain, level2::Moment moment,
+                                   UtcTime time) const;
+    // Counts changes: grids that came, changed or went.
+    [[nodiscard]] std::uint64_t changes() const;
+    // Counts those of a group: a domain and its parts (stormcellar/cache/grid_name.h).
+    [[nodiscard]] std::uint64_t changes_of(std::string_view group) const;
+    // Reads the cache, or a domain of it, again.
+    void refresh();
+    void refresh(std::string_view domain);
+    // Calls the function for each change from now on, after the lists have it. It is called by one
+    // thread at a time; it must be quick and must not ask for grids.
+    void listen(std::function<void(const CacheChange&)> listener);
+    // Why changes are not noticed at once, in a sentence; none if they are.
+    [[nodiscard]] std::optional<std::string> problem() const;
+    [[nodiscard]] const std::filesystem::path& cache() const;
+
+  private:
+    struct Impl;
+    explicit Grids(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,117 @@
+#include "web/data/grids/kept_answers.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "web/data/grids/memory_file.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::uint64_t overhead_bytes = 256;
+
+std::uint64_t size_in_budget(const std::string& key, const Kept& value) {
+    return key.size() + size_of(value.bytes) + value.etag.size() + value.notes.size() +
+           overhead_bytes;
+}
+
+// Others wait for what is made, so an exception becomes an error.
+Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
+    try {
+        Result<Kept> made = make();
+        if (!made) return made;
+        if (const auto* text = std::get_if<Text>(&made->bytes)) made->bytes = in_file(*text);
+        return made;
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::exhausted, "there is no memory left for this answer");
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::exhausted, "this answer cannot be made now: {}", error.what());
+    }
+}
+
+}  // namespace
+
+// A value that one thread makes while others wait for it.
+struct KeptAnswers::Making {
+    std::condition_variable done;
+    std::optional<Result<Kept>> result;
+    bool is_over = false;  // without a result there was no memory for it
+};
+
+std::optional<Kept> KeptAnswers::find(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = by_key_.find(key);
+    if (found == by_key_.end()) return std::nullopt;
+    entries_.splice(entries_.begin(), entries_, found->second);
+    return found->second->value;
+}
+
+void KeptAnswers::keep(const std::string& key, const Kept& value) {
+    const std::uint64_t size = size_in_budget(key, value);
+    if (size > budget_bytes_ / 4 || by_key_.contains(key)) return;
+    const auto place = by_key_.try_emplace(key).first;
+    try {
+        entries_.push_front({key, value});
+    } catch (...) {
+        by_key_.erase(place);
+        throw;
+    }
+    place->second = entries_.begin();
+    bytes_ += size;
+    while (bytes_ > budget_bytes_) {
+        const Entry& last = entries_.back();
+        bytes_ -= size_in_budget(last.key, last.value);
+        by_key_.erase(last.key);
+        entries_.pop_back();
+    }
+}
+
+Result<Kept> KeptAnswers::find_or_make(const std::string& key,
+                                       const std::function<Result<Kept>()>& make) {
+    if (auto kept = find(key)) return *std::move(kept);
+    std::unique_lock lock(mutex_);
+    // Another thread may have made it since.
+    if (const auto found = by_key_.find(key); found != by_key_.end()) return found->second->value;
+    if (const auto other = making_.find(key); other != making_.end()) {
+        const std::shared_ptr<Making> theirs = other->second;
+        theirs->done.wait(lock, [&] { return theirs->is_over; });
+        if (theirs->result) return *theirs->result;
+        return fail(ErrorCode::exhausted, "there is no memory left for this answer");
+    }
+    const auto ours = std::make_shared<Making>();
+    making_[key] = ours;
+    lock.unlock();
+    Result<Kept> made = made_in_file(make);
+    lock.lock();
+    making_.erase(key);
+    try {
+        ours->result = made;
+        if (made) keep(key, *made);
+    } catch (const std::bad_alloc&) {
+        // It is sent, and not kept.
+    }
+    ours->is_over = true;
+    ours->done.notify_all();
+    return made;
+}
+
+void KeptAnswers::forget(std::string_view prefix) {
+    const std::scoped_lock lock(mutex_);
+    for (auto entry = entries_.begin(); entry != entries_.end();) {
+        if (!entry->key.starts_with(prefix)) {
+            ++entry;
+            continue;
+        }
+        bytes_ -= size_in_budget(entry->key, entry->value);
+        by_key_.erase(entry->key);
+        entry = entries_.erase(entry);
+    }
+}
+
+std::uint64_t KeptAnswers::bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return bytes_;
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,62 @@
+// web/data/grids/kept_answers.h -- answers that were made once and are kept in memory within a
+// budget.
+//
+// Units     The budget is in bytes; each value counts with its own and 256 more.
+// Threads   Many threads may use it. If several want the same value at the same time, one makes it
+//           and the others wait for it.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "stormcellar/base/result.h"
+#include "web/http/answer.h"
+
+namespace stormcellar::web {
+
+struct Kept {
+    Piece bytes;
+    std::string etag;   // with quotes
+    std::string notes;  // what else the door wants to know, for example the content type
+};
+
+class KeptAnswers {
+  public:
+    explicit KeptAnswers(std::uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
+
+    // Returns the kept value; none if there is none. Takes microseconds.
+    [[nodiscard]] std::optional<Kept> find(const std::string& key);
+    // Returns the kept value, or makes it and keeps it, from 256 KiB on in a memory file. Errors
+    // are not kept; an exception is one. A value larger than a quarter of the budget is returned,
+    // but not kept.
+    [[nodiscard]] Result<Kept> find_or_make(const std::string& key,
+                                            const std::function<Result<Kept>()>& make);
+    // Drops every value whose key begins with this text.
+    void forget(std::string_view prefix);
+    [[nodiscard]] std::uint64_t bytes() const;
+
+  private:
+    struct Entry {
+        std::string key;
+        Kept value;
+    };
+    struct Making;
+    void keep(const std::string& key, const Kept& value);
+
+    const std::uint64_t budget_bytes_;
+    mutable std::mutex mutex_;
+    std::list<Entry> entries_;  // the most recently used first
+    std::unordered_map<std::string, std::list<Entry>::iterator> by_key_;
+    std::unordered_map<std::string, std::shared_ptr<Making>> making_;
+    std::uint64_t bytes_ = 0;
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,195 @@
+#include "web/data/pictures/flat_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "render/options/scene_options.h"
+#include "render/still/map_raster.h"
+#include "stormcellar/render/product.h"
+
+namespace stormcellar::web {
+namespace {
+
+using grid::CellStatus;
+
+constexpr int smallest_side = 32;
+constexpr int rows_of_a_band = 32;
+
+enum class Mixing { largest, farthest_from_zero, mean, first };
+
+Mixing mixing_of(const render::Scene& scene) {
+    const render::ProductFacts& facts = render::facts_of(scene.product);
+    if (!facts.unit.empty()) return Mixing::largest;
+    switch (scene.moment) {
+        case level2::Moment::vel:
+            return Mixing::farthest_from_zero;
+        case level2::Moment::phi:
+            return Mixing::first;
+        case level2::Moment::zdr:
+        case level2::Moment::rho:
+        case level2::Moment::cfp:
+            return Mixing::mean;
+        case level2::Moment::ref:
+        case level2::Moment::sw:
+            break;
+    }
+    return Mixing::largest;
+}
+
+// Up to four cells that become one.
+struct CellsTogether {
+    std::array<float, 4> values{};
+    std::size_t count = 0;  // of the values
+    bool is_folded = false, is_seen = false;
+
+    void add(CellStatus status, float value) {
+        if (status == CellStatus::value) values[count++] = value;
+        is_folded = is_folded || status == CellStatus::range_folded;
+        is_seen = is_seen || status != CellStatus::not_seen;
+    }
+    [[nodiscard]] CellStatus status() const {
+        if (count > 0) return CellStatus::value;
+        if (is_folded) return CellStatus::range_folded;
+        return is_seen ? CellStatus::no_echo : CellStatus::not_seen;
+    }
+    [[nodiscard]] float value(Mixing mixing) const {
+        const auto* const end = values.begin() + count;
+        switch (mixing) {
+            case Mixing::largest:
+                return *std::max_element(values.begin(), end);
+            case Mixing::farthest_from_zero:
+                return *std::max_element(values.begin(), end, [](float a, float b) {
+                    return std::abs(a) < std::abs(b);
+                });
+            case Mixing::mean: {
+                float sum = 0;
+                for (const auto* at = values.begin(); at != end; ++at)
+                    sum += *at;
+                return sum / static_cast<float>(count);
+            }
+            case Mixing::first:
+                break;
+        }
+        return values.front();
+    }
+};
+
+std::string key_of_map(const OpenGrid& grid, const render::Scene& scene) {
+    return fmt::format("{}|{}|{}|{}", grid.id, render::product_name(scene.product),
+                       scene.cappi_height_m, scene.echo_top_dbz);
+}
+
+Result<std::shared_ptr<const FlatMap>> made_map(const OpenGrid& grid, const render::Scene& scene,
+                                                int threads) {
+    const grid::BrickView view = grid.file.view();
+    const render::FrameFacts facts =
+        render::frame_facts_of(grid.domain, grid.file.description(), "UTC");
+    auto field = render::still_field({view, facts, scene}, threads);
+    if (!field) return pass_on(field);
+    if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
+    auto map = std::make_shared<FlatMap>();
+    map->spec = grid.file.description().spec;
+    field->at_least = {};
+    map->levels.push_back(std::move(*field));
+    while (std::max(map->levels.back().width, map->levels.back().height) > smallest_side)
+        map->levels.push_back(halved_field(map->levels.back(), scene, threads));
+    return std::shared_ptr<const FlatMap>(std::move(map));
+}
+
+}  // namespace
+
+std::uint64_t FlatMap::bytes() const {
+    std::uint64_t bytes = sizeof(FlatMap);
+    for (const render::FlatField& level : levels)
+        bytes += level.values.size() * (sizeof(float) + sizeof(CellStatus));
+    return bytes;
+}
+
+render::FlatField halved_field(const render::FlatField& field, const render::Scene& scene,
+                               int threads) {
+    const Mixing mixing = mixing_of(scene);
+    render::FlatField half((field.width + 1) / 2, (field.height + 1) / 2);
+    const auto halve_row = [&](int y) {
+        const int rows = std::min(2 * y + 2, field.height) - 2 * y;
+        for (int x = 0; x < half.width; ++x) {
+            const int columns = std::min(2 * x + 2, field.width) - 2 * x;
+            CellsTogether cells;
+            for (int row = 0; row < rows; ++row) {
+                for (int column = 0; column < columns; ++column) {
+                    const std::size_t place = field.index(2 * x + column, 2 * y + row);
+                    cells.add(field.status[place], field.values[place]);
+                }
+            }
+            const CellStatus status = cells.status();
+            half.put(half.index(x, y), status,
+                     status == CellStatus::value ? cells.value(mixing) : 0);
+        }
+    };
+    const int bands = (half.height + rows_of_a_band - 1) / rows_of_a_band;
+    for_each_piece(bands, threads, [&](int band) {
+        const int end = std::min(half.height, (band + 1) * rows_of_a_band);
+        for (int y = band * rows_of_a_band; y < end; ++y)
+            halve_row(y);
+    });
+    return half;
+}
+
+std::shared_ptr<const FlatMap> FlatMaps::find_kept(const std::string& key) {
+    const auto found = std::ranges::find(maps_, key, &KeptMap::key);
+    if (found == maps_.end()) return nullptr;
+    maps_.splice(maps_.begin(), maps_, found);
+    return found->map;
+}
+
+void FlatMaps::keep(const std::string& key, std::shared_ptr<const FlatMap> map) {
+    bytes_ += map->bytes();
+    maps_.push_front({key, std::move(map)});
+    // The newest one stays, however large it is: the tiles beside the first one need it.
+    while (bytes_ > budget_bytes_ && maps_.size() > 1) {
+        bytes_ -= maps_.back().map->bytes();
+        maps_.pop_back();
+    }
+}
+
+Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& grid,
+                                                              const render::Scene& scene,
+                                                              int threads) {
+    const std::string key = key_of_map(grid, scene);
+    {
+        std::unique_lock lock(mutex_);
+        made_.wait(lock, [&] { return !making_.contains(key); });
+        if (auto kept = find_kept(key)) return kept;
+        making_.insert(key);
+    }
+    // Wakes the threads that wait for the map, even if there is no memory for it.
+    struct Ending {
+        FlatMaps& maps;
+        const std::string& key;
+        ~Ending() {
+            {
+                const std::scoped_lock lock(maps.mutex_);
+                maps.making_.erase(key);
+            }
+            maps.made_.notify_all();
+        }
+    };
+    const Ending ending{*this, key};
+    auto map = made_map(grid, scene, threads);
+    if (map) {
+        const std::scoped_lock lock(mutex_);
+        keep(key, *map);
+    }
+    return map;
+}
+
+std::uint64_t FlatMaps::bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return bytes_;
+}
+
+}  // namespace stormcellar::web

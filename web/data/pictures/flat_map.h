@@ -1,0 +1,73 @@
+// web/data/pictures/flat_map.h -- a 2D product of a grid, made once, with smaller forms of it for
+// looking from afar.
+//
+// Level 0 has a cell for each column of the grid; each further level has half as many columns and
+// rows, until neither is above 32. A cell of a level stands for the four below it (fewer at an edge
+// of odd length):
+//   state   a value if any of the four has one; else range folded if any is; else no echo if any
+//           was seen; else not seen. So no echo is lost from afar.
+//   value   VEL: the one farthest from 0. ZDR, RHO, CFP: the mean. PHI, whose values lie on a
+//           circle: that of the first cell with one, from the southwest. All others, and all
+//           products in other units than the moment's: the largest.
+//
+// Units     Those of render/products/flat_field.h. A cell takes 5 bytes, all levels together 4/3 of
+//           the first.
+// Threads   A FlatMap is constant. Many threads may use FlatMaps; if several want the same map, one
+//           makes it and the others wait.
+// Errors    See each function.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "render/products/flat_field.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/scene.h"
+#include "web/data/grids/grids.h"
+
+namespace stormcellar::web {
+
+struct FlatMap {
+    grid::GridSpec spec;
+    std::vector<render::FlatField> levels;  // at least one
+    [[nodiscard]] std::uint64_t bytes() const;
+};
+
+// Returns the field with half the columns and rows.
+[[nodiscard]] render::FlatField halved_field(const render::FlatField& field,
+                                             const render::Scene& scene, int threads = 1);
+
+class FlatMaps {
+  public:
+    explicit FlatMaps(std::uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
+
+    // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that
+    // was cut while it was read.
+    [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const OpenGrid& grid,
+                                                                      const render::Scene& scene,
+                                                                      int threads);
+    [[nodiscard]] std::uint64_t bytes() const;
+
+  private:
+    struct KeptMap {
+        std::string key;
+        std::shared_ptr<const FlatMap> map;
+    };
+    [[nodiscard]] std::shared_ptr<const FlatMap> find_kept(const std::string& key);
+    void keep(const std::string& key, std::shared_ptr<const FlatMap> map);
+
+    const std::uint64_t budget_bytes_;
+    mutable std::mutex mutex_;
+    std::condition_variable made_;
+    std::list<KeptMap> maps_;  // the most recently used first
+    std::set<std::string> making_;
+    std::uint64_t bytes_ = 0;
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,57 @@
+#include "web/data/pictures/frame_pictures.h"
+
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/checksum.h"
+#include "stormcellar/base/version.h"
+
+namespace stormcellar::web {
+namespace {
+
+Status check_whole(const FramePicture& picture) {
+    for (const auto& grid : picture.grids)
+        if (Status whole = grid->file.check_whole(); !whole) return whole;
+    return {};
+}
+
+}  // namespace
+
+std::string FramePicture::key() const {
+    std::string key = fmt::format("frame {}\n{}", domain, style.key);
+    for (const auto& grid : grids)
+        key += "\n" + grid->id;
+    return key;
+}
+
+std::string FramePicture::etag() const {
+    return etag_of_frame(key());
+}
+
+std::string etag_of_frame(const std::string& key) {
+    const std::string all = fmt::format("{} {}", software_version, key);
+    return fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(all))));
+}
+
+std::optional<Kept> FramePictures::find(const FramePicture& picture) {
+    return options_.kept->find(picture.key());
+}
+
+Result<Kept> FramePictures::find_or_draw(const FramePicture& picture) {
+    return options_.kept->find_or_make(picture.key(), [&] { return draw(picture); });
+}
+
+Result<Kept> FramePictures::draw(const FramePicture& picture) const {
+    std::vector<DrawnPanel> panels;
+    for (const auto& grid : picture.grids)
+        panels.push_back({grid->file.view(), &grid->file.description()});
+    auto drawn =
+        draw_frame(picture.domain, picture.style, panels, picture.etag(), options_.threads);
+    if (!drawn) return drawn;
+    // Codes that were cut meanwhile read as zeros, which are not seen.
+    if (Status whole = check_whole(picture); !whole) return pass_on(whole);
+    return drawn;
+}
+
+}  // namespace stormcellar::web

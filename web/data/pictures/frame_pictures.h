@@ -1,0 +1,58 @@
+// web/data/pictures/frame_pictures.h -- pictures as `stormcellar frame` draws them, of grids of the
+// cache.
+//
+// A picture follows from the grids' bytes and the options alone: its times are in UTC unless a time
+// zone is asked for, and it does not tell how old the data are. The same options of `stormcellar
+// frame` give the same bytes.
+//
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+//           it. Who calls it bounds how many are drawn at once (web/http/work_queue.h).
+// Errors    See each function.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "web/data/grids/grids.h"
+#include "web/data/grids/kept_answers.h"
+#include "web/data/pictures/frame_style.h"
+
+namespace stormcellar::web {
+
+struct FramePicturesOptions {
+    std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
+    int threads = 1;  // of one picture
+};
+
+// A picture of grids of one domain and time, one for each panel.
+struct FramePicture {
+    std::string domain;
+    std::vector<std::shared_ptr<const OpenGrid>> grids;
+    FrameStyle style;
+
+    [[nodiscard]] std::string key() const;
+    [[nodiscard]] std::string etag() const;  // with its quotes
+};
+
+// Returns an ETag, with its quotes, for a picture of this key drawn by this version.
+[[nodiscard]] std::string etag_of_frame(const std::string& key);
+
+class FramePictures {
+  public:
+    explicit FramePictures(FramePicturesOptions options) : options_(std::move(options)) {}
+
+    // Returns the picture if it is kept. Takes microseconds.
+    [[nodiscard]] std::optional<Kept> find(const FramePicture& picture);
+    // Errors: those of drawing.
+    [[nodiscard]] Result<Kept> find_or_draw(const FramePicture& picture);
+
+  private:
+    [[nodiscard]] Result<Kept> draw(const FramePicture& picture) const;
+
+    FramePicturesOptions options_;
+};
+
+}  // namespace stormcellar::web

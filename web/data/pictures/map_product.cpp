@@ -1,0 +1,90 @@
+#include "web/data/pictures/map_product.h"
+
+#include <algorithm>
+
+#include <fmt/ranges.h>
+
+#include "base/printable.h"
+#include "render/options/moment_name.h"
+#include "render/options/scene_options.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::size_t longest_shown = 80;
+
+bool is_of_grids(const render::ProductFacts& facts) {
+    return facts.view == render::View::map && !facts.is_of_sweep;
+}
+
+std::string names_of_products() {
+    std::vector<std::string_view> names;
+    for (const render::ProductFacts& facts : render::all_products())
+        if (is_of_grids(facts)) names.push_back(facts.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::string MapProduct::name() const {
+    const render::ProductFacts& facts = render::facts_of(product);
+    if (facts.needs_reflectivity) return std::string(facts.name);
+    return fmt::format("{}.{}", facts.name, level2::moment_name(moment));
+}
+
+Result<MapProduct> map_product_named(std::string_view name) {
+    const std::size_t dot = name.find('.');
+    const auto product = render::product_from_name(name.substr(0, dot));
+    if (!product || !is_of_grids(render::facts_of(*product))) {
+        return fail(ErrorCode::not_found,
+                    "there is no map '{}': the maps are {}, and a moment follows as in "
+                    "composite.VEL",
+                    printable(name.substr(0, longest_shown)), names_of_products());
+    }
+    MapProduct layer{*product, level2::Moment::ref};
+    if (dot == std::string_view::npos) return layer;
+    const auto moment = level2::moment_from_name(name.substr(dot + 1));
+    if (!moment) {
+        return fail(ErrorCode::not_found, "there is no moment '{}': it is {}",
+                    printable(name.substr(dot + 1, longest_shown)),
+                    level2::moment_names(", ", " or "));
+    }
+    layer.moment = *moment;
+    if (render::facts_of(*product).needs_reflectivity && layer.moment != level2::Moment::ref) {
+        return fail(ErrorCode::not_found, "{} is a map of REF alone",
+                    render::product_name(*product));
+    }
+    return layer;
+}
+
+std::vector<MapProduct> map_products_of(const std::vector<level2::Moment>& moments) {
+    std::vector<MapProduct> layers;
+    for (const render::ProductFacts& facts : render::all_products()) {
+        if (!is_of_grids(facts)) continue;
+        for (const level2::Moment moment : moments) {
+            if (facts.needs_reflectivity && moment != level2::Moment::ref) continue;
+            layers.push_back({facts.product, moment});
+        }
+    }
+    return layers;
+}
+
+bool is_of_layers(const render::PictureOption& option) {
+    return is_of_bare_maps(option) && &option != &render::moment_option() &&
+           option.used_by.only != render::Product::ppi;
+}
+
+Result<MapStyle> map_style(const MapProduct& layer, const Fields& query,
+                           std::span<const std::string_view> others) {
+    auto read = picture_query(query, is_of_layers, others);
+    if (!read) return pass_on(read);
+    render::SceneOptions& options = read->options;
+    options.product = render::product_name(layer.product);
+    options.moment = level2::moment_name(layer.moment);
+    if (options.smooth.empty()) options.smooth = "none";
+    auto scene = render::scene_of(options);
+    if (!scene) return pass_on(scene);
+    return MapStyle{layer, std::move(*scene), fmt::format("{}\n{}", layer.name(), read->key)};
+}
+
+}  // namespace stormcellar::web

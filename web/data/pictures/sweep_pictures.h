@@ -1,0 +1,55 @@
+// web/data/pictures/sweep_pictures.h -- pictures of sweeps (ppi), drawn of the raw volume of a
+// grid.
+//
+// The gates are those of the raw file, which the catalog finds; the cache holds grids only. The
+// same options of `stormcellar frame` give the same bytes, with times in UTC.
+//
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+//           it.
+// Errors    See each function. No message names a directory.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/catalog/catalog.h"
+#include "web/data/pictures/frame_pictures.h"
+#include "web/data/pictures/frame_style.h"
+#include "web/data/raw/served_catalog.h"
+
+namespace stormcellar::web {
+
+struct SweepPicture {
+    std::string domain;
+    std::string grid_id;  // so that a volume that grows is drawn again
+    catalog::CatalogEntry volume;
+    std::uint64_t chunks = 0;  // changes when more of them come
+    FrameStyle style;
+
+    [[nodiscard]] std::string key() const;
+    [[nodiscard]] std::string etag() const;  // with its quotes
+};
+
+class SweepPictures {
+  public:
+    SweepPictures(std::shared_ptr<ServedCatalog> catalog, FramePicturesOptions options)
+        : catalog_(std::move(catalog)), options_(std::move(options)) {}
+
+    // Finds the raw volume of a grid; none if the catalog does not have it. Errors: bad_argument
+    // for a grid of several sites; those of the catalog.
+    [[nodiscard]] Result<std::optional<SweepPicture>> find(const OpenGrid& grid, FrameStyle style);
+    // Errors: not_found if the raw file is gone or has no such sweep; those of decoding and
+    // drawing.
+    [[nodiscard]] Result<Kept> find_or_draw(const SweepPicture& picture);
+
+  private:
+    [[nodiscard]] Result<Kept> draw(const SweepPicture& picture);
+
+    std::shared_ptr<ServedCatalog> catalog_;
+    FramePicturesOptions options_;
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,79 @@
+// web/data/raw/raw_opener.h -- opens raw files of the catalog as they may be given away. Used only
+// by raw_files.h.
+//
+// Threads   Many threads may use one object.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <sys/stat.h>
+
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/catalog/catalog.h"
+#include "web/data/raw/raw_files.h"
+
+namespace stormcellar::web {
+
+// A file of the catalog, or a volume's joined chunks, open for reading.
+struct OpenedRaw {
+    std::shared_ptr<const Descriptor> file;
+    std::uint64_t size_bytes = 0;
+    UtcTime modified{};
+    std::string tag;
+    bool is_joined = false;  // in a file without a name, which takes room while it is open
+};
+using OpenedRawOrMissing = tl::expected<OpenedRaw, RawFailure>;
+
+// A volume's size, age and tag as its rows say, without opening anything.
+struct RawFacts {
+    std::uint64_t size_bytes = 0;
+    UtcTime modified{};
+    std::string tag;
+};
+
+class RawOpener {
+  public:
+    RawOpener(std::filesystem::path scratch, std::size_t most_joined,
+              std::uint64_t most_joined_bytes)
+        : scratch_(std::move(scratch)),
+          most_joined_(most_joined),
+          most_joined_bytes_(most_joined_bytes) {}
+
+    [[nodiscard]] OpenedRawOrMissing open(const catalog::CatalogReader& catalog,
+                                          const catalog::CatalogEntry& entry);
+    [[nodiscard]] Result<RawFacts> facts_of(const catalog::CatalogReader& catalog,
+                                            const catalog::CatalogEntry& entry);
+
+  private:
+    // A state of a file's contents: the kernel changes ctime with every change of them.
+    using State = std::tuple<dev_t, ino_t, off_t, std::int64_t, std::int64_t>;
+    static State state_of(const struct stat& facts);
+    [[nodiscard]] Status check_hash(const catalog::CatalogEntry& entry, const Descriptor& file,
+                                    const struct stat& facts);
+    [[nodiscard]] OpenedRawOrMissing open_chunks(const catalog::CatalogReader& catalog,
+                                                 const catalog::CatalogEntry& entry);
+    [[nodiscard]] OpenedRawOrMissing join(const catalog::CatalogReader& catalog,
+                                          const std::vector<catalog::CatalogEntry>& chunks,
+                                          bool grows) const;
+    [[nodiscard]] std::optional<OpenedRaw> find_joined(const std::string& key);
+    void keep_joined(const std::string& key, const OpenedRaw& joined);
+    void remember_facts(const catalog::CatalogEntry& entry, const RawFacts& facts);
+
+    const std::filesystem::path scratch_;
+    const std::size_t most_joined_;
+    const std::uint64_t most_joined_bytes_;
+    std::mutex mutex_;  // guards what follows
+    std::map<State, std::uint64_t> hashes_;
+    std::list<std::pair<std::string, OpenedRaw>> joined_;  // the most recently used first
+    std::map<std::string, RawFacts> facts_;                // of settled volumes of chunks
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,36 @@
+// web/data/raw/served_catalog.h -- the catalog that is served, which may come later than the
+// server.
+//
+// Threads   Many threads may use one object.
+// Errors    See get().
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/catalog/catalog.h"
+
+namespace stormcellar::web {
+
+class ServedCatalog {
+  public:
+    using Reader = std::shared_ptr<const catalog::CatalogReader>;
+
+    // `reader` is the same catalog, if it is open already.
+    explicit ServedCatalog(std::filesystem::path directory, Reader reader = nullptr)
+        : directory_(std::move(directory)), reader_(std::move(reader)) {}
+
+    // Returns the catalog, which is opened when it is first asked for. Errors: not_found if none is
+    // served; those of CatalogReader::open().
+    [[nodiscard]] Result<Reader> get();
+
+  private:
+    const std::filesystem::path directory_;
+    std::mutex mutex_;  // guards what follows
+    Reader reader_;
+};
+
+}  // namespace stormcellar::web

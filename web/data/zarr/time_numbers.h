@@ -1,0 +1,79 @@
+// web/data/zarr/time_numbers.h -- the numbers that the times of a domain's grids have in the Zarr
+// arrays.
+//
+// Each time gets a number when it is first seen, those that are seen together in rising order. It
+// keeps it for good, also when its grid is evicted and after a restart, so that an index that a
+// client holds never names another time. A grid that comes late therefore has a higher number than
+// a newer one.
+//
+// With a directory, DIRECTORY/DOMAIN/MOMENT.times holds the numbers: the 16 bytes "stormcellar
+// time", then the times in the order of their numbers (int64, little-endian, milliseconds since
+// 1970 UTC), then XXH3-64 of all before it. It appears whole or not at all. Each grid adds 8 bytes.
+// Without a directory the numbers live as long as this object.
+//
+// Threads   Many threads may use it.
+// Errors    io and permission if the numbers cannot be read; busy if they cannot be kept and none
+//           was given before; corrupt for a file
+//           that is damaged, which must be removed by hand, because clients may hold its numbers;
+//           exhausted beyond `most_times`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::web {
+
+class TimeNumbers {
+  public:
+    static constexpr std::size_t most_times = std::size_t{1} << 20;  // ten years of a radar
+
+    // Empty: the numbers are not kept on disk.
+    explicit TimeNumbers(std::filesystem::path directory) : directory_(std::move(directory)) {}
+
+    // Gives numbers to those of `present` (sorted) that have none, and returns the times of all
+    // numbers, in their order. While numbers cannot be kept, none are given, and the times that
+    // have numbers already are returned. `domain` must be the name of a domain of the cache.
+    [[nodiscard]] Result<std::shared_ptr<const std::vector<UtcTime>>> update(
+        std::string_view domain, level2::Moment moment, std::span<const UtcTime> present);
+    // Returns the time of a number. None: it was not given, or nobody called update() yet. Takes
+    // microseconds.
+    [[nodiscard]] std::optional<UtcTime> time_of(std::string_view domain, level2::Moment moment,
+                                                 std::size_t number) const;
+    // Why numbers could not be kept last; none if they could.
+    [[nodiscard]] std::optional<std::string> problem() const;
+    // Removes what a killed server left in the directory. Nothing else may write there.
+    void remove_leftovers() const;
+
+  private:
+    struct Series {
+        std::shared_ptr<const std::vector<UtcTime>> times;
+        std::unordered_map<std::int64_t, std::size_t> numbers;  // by milliseconds
+    };
+    using Key = std::pair<std::string, level2::Moment>;
+
+    [[nodiscard]] std::filesystem::path path_of(const Key& key) const;
+    [[nodiscard]] Result<Series*> loaded(const Key& key);
+    [[nodiscard]] Status save(const Key& key, const std::vector<UtcTime>& times) const;
+
+    const std::filesystem::path directory_;
+    mutable std::mutex mutex_;
+    std::map<Key, Series> series_;
+    std::optional<std::string> problem_;
+};
+
+}  // namespace stormcellar::web

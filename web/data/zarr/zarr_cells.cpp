@@ -1,0 +1,142 @@
+#include "web/data/zarr/zarr_cells.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "stormcellar/grid/projection.h"
+
+namespace stormcellar::web {
+namespace {
+
+using grid::brick_edge;
+using grid::BrickKind;
+using grid::CellStatus;
+
+// The cells of a chunk that lie within the grid.
+struct Stretch {
+    int first = 0, end = 0;
+};
+Stretch stretch_of(int chunk, int side, int cells) {
+    return {chunk * side, std::min((chunk + 1) * side, cells)};
+}
+
+struct ChunkCells {
+    Stretch z, y, x;
+    std::size_t levels = 0;  // of the chunk
+
+    ChunkCells(const grid::GridSpec& spec, const ChunkPlace& place)
+        : z(stretch_of(place.z, chunk_levels(spec), spec.nz())),
+          y(stretch_of(place.y, chunk_side, spec.ny)),
+          x(stretch_of(place.x, chunk_side, spec.nx)),
+          levels(static_cast<std::size_t>(chunk_levels(spec))) {}
+    [[nodiscard]] std::size_t count() const { return levels * chunk_side * chunk_side; }
+    [[nodiscard]] std::size_t index(int ix, int iy, int iz) const {
+        return (static_cast<std::size_t>(iz - z.first) * chunk_side +
+                static_cast<std::size_t>(iy - y.first)) *
+                   chunk_side +
+               static_cast<std::size_t>(ix - x.first);
+    }
+};
+
+Stretch within_brick(int brick, const Stretch& cells) {
+    return {std::max(brick * brick_edge, cells.first),
+            std::min((brick + 1) * brick_edge, cells.end)};
+}
+
+// Calls `brick(entry, x, y, z)` with the cells that each brick has in the chunk.
+template <class Brick>
+void for_each_brick(const grid::BrickView& view, const ChunkCells& cells, const Brick& brick) {
+    for (int bx = cells.x.first / brick_edge; bx * brick_edge < cells.x.end; ++bx) {
+        for (int by = cells.y.first / brick_edge; by * brick_edge < cells.y.end; ++by) {
+            for (int bz = cells.z.first / brick_edge; bz * brick_edge < cells.z.end; ++bz) {
+                brick(view.bricks[view.brick_index(bx, by, bz)], within_brick(bx, cells.x),
+                      within_brick(by, cells.y), within_brick(bz, cells.z));
+            }
+        }
+    }
+}
+
+template <class Cell>
+void for_each_cell(const Stretch& x, const Stretch& y, const Stretch& z, const Cell& cell) {
+    for (int iz = z.first; iz < z.end; ++iz)
+        for (int iy = y.first; iy < y.end; ++iy)
+            for (int ix = x.first; ix < x.end; ++ix)
+                cell(ix, iy, iz);
+}
+
+template <class Number>
+std::string text_of_numbers(const std::vector<Number>& numbers) {
+    std::string bytes(numbers.size() * sizeof(Number), '\0');
+    std::memcpy(bytes.data(), numbers.data(), bytes.size());
+    return bytes;
+}
+
+CellStatus status_of_code(std::uint16_t code) {
+    return static_cast<CellStatus>(std::min(code, grid::first_value_code));
+}
+
+}  // namespace
+
+int chunk_levels(const grid::GridSpec& spec) {
+    return std::min(spec.nz(), chunk_side);
+}
+
+std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place) {
+    const ChunkCells cells(*view.spec, place);
+    std::vector<float> values(cells.count(), std::numeric_limits<float>::quiet_NaN());
+    for_each_brick(
+        view, cells,
+        [&](const grid::BrickEntry& entry, const Stretch& x, const Stretch& y, const Stretch& z) {
+            if (entry.kind != BrickKind::stored) return;
+            for_each_cell(x, y, z, [&](int ix, int iy, int iz) {
+                const std::uint16_t code =
+                    view.code_at(view.offset_x(ix) + view.offset_y(iy) + view.offset_z(iz));
+                if (code >= grid::first_value_code)
+                    values[cells.index(ix, iy, iz)] = view.quantization.value_of(code);
+            });
+        });
+    return text_of_numbers(values);
+}
+
+std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place) {
+    const ChunkCells cells(*view.spec, place);
+    std::string states(cells.count(), static_cast<char>(status_unavailable));
+    for_each_brick(
+        view, cells,
+        [&](const grid::BrickEntry& entry, const Stretch& x, const Stretch& y, const Stretch& z) {
+            for_each_cell(x, y, z, [&](int ix, int iy, int iz) {
+                CellStatus status = entry.uniform_status;
+                if (entry.kind == BrickKind::stored) {
+                    status = status_of_code(
+                        view.code_at(view.offset_x(ix) + view.offset_y(iy) + view.offset_z(iz)));
+                } else if (entry.kind == BrickKind::status_only) {
+                    status = view.status(ix, iy, iz);
+                }
+                states[cells.index(ix, iy, iz)] = static_cast<char>(status);
+            });
+        });
+    return states;
+}
+
+std::string position_chunk(const grid::GridSpec& spec, Position which, const ChunkPlace& place) {
+    const grid::GridProjection projection(spec);
+    std::vector<double> degrees(std::size_t{chunk_side} * chunk_side,
+                                std::numeric_limits<double>::quiet_NaN());
+    const Stretch rows = stretch_of(place.y, chunk_side, spec.ny);
+    const Stretch columns = stretch_of(place.x, chunk_side, spec.nx);
+    for (int iy = rows.first; iy < rows.end; ++iy) {
+        for (int ix = columns.first; ix < columns.end; ++ix) {
+            const grid::GeoPoint point = projection.to_geo({1.0 * ix, 1.0 * iy});
+            const auto at = static_cast<std::size_t>(iy - rows.first) * chunk_side +
+                            static_cast<std::size_t>(ix - columns.first);
+            degrees[at] = which == Position::latitude
+                              ? point.latitude_deg
+                              : projection.continuous_longitude_deg(point.longitude_deg);
+        }
+    }
+    return text_of_numbers(degrees);
+}
+
+}  // namespace stormcellar::web

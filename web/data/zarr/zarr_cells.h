@@ -1,0 +1,45 @@
+// web/data/zarr/zarr_cells.h -- the cells of a grid as chunks of Zarr arrays.
+//
+// A chunk has `chunk_side` columns and rows and all levels, but at most `chunk_side` of them. Its
+// dimensions are time (one), z, y and x, the last of which runs fastest. Places of a chunk that lie
+// beyond the grid have the fill value. The bytes are not compressed, and little-endian.
+//
+// Units     Those of the moment.
+// Threads   Pure functions.
+// Errors    None: the chunk must be one of the grid's.
+// Accuracy  The values are those of grid::to_dense(), to the bit.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "stormcellar/grid/brick_view.h"
+
+namespace stormcellar::web {
+
+inline constexpr int chunk_side = 128;
+static_assert(chunk_side % grid::brick_edge == 0);
+// The fill value of the states: the grid is not there any more, or cannot be read. It is none of
+// the states of a cell, so a reader that takes an error for a hole does not show "not seen".
+inline constexpr std::int8_t status_unavailable = 4;
+
+struct ChunkPlace {
+    int z = 0, y = 0, x = 0;  // number of the chunk along each axis
+};
+[[nodiscard]] constexpr int chunks_along(int cells) {
+    return (cells + chunk_side - 1) / chunk_side;
+}
+[[nodiscard]] int chunk_levels(const grid::GridSpec& spec);
+
+// float32; NaN where the cell has no value.
+[[nodiscard]] std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place);
+// int8; the number of the cell's state.
+[[nodiscard]] std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place);
+
+// float64, `chunk_side` rows and columns: degrees of the middle of each column of cells, as in
+// grid files (export/grid_coordinates.h). NaN beyond the grid.
+enum class Position { latitude, longitude };
+[[nodiscard]] std::string position_chunk(const grid::GridSpec& spec, Position which,
+                                         const ChunkPlace& place);
+
+}  // namespace stormcellar::web

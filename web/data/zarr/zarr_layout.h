@@ -1,0 +1,70 @@
+// web/data/zarr/zarr_layout.h -- which arrays a domain and a moment have as a Zarr group, and the
+// documents that say so, in both versions of the format.
+//
+// The group has the arrays MOMENT and status (time, z, y, x), the coordinates time, z, y and x, the
+// positions lat and lon (y, x), and the variable of the CF grid mapping, with the attributes that
+// grid files have (export/cf_attributes.h). In version 2 MOMENT and status have the attribute _CRS,
+// from which GDAL takes the projection. A grid that is regular in degrees has the dimensions lat
+// and lon instead of y and x, and no positions. All chunks are compressed with gzip; both versions
+// have the same chunks.
+//
+// Sources   Zarr storage specification 2, with the consolidated metadata of zarr-python; Zarr core
+//           specification 3.0, with the inline consolidated metadata of zarr-python 3.
+// Threads   Pure functions.
+// Errors    None.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/cache/grid_file.h"
+
+namespace stormcellar::web {
+
+using ZarrJson = nlohmann::ordered_json;
+
+enum class ZarrNumber { float32, float64, int8, int32 };
+
+struct ZarrArray {
+    std::string name;
+    ZarrNumber number = ZarrNumber::float64;
+    std::vector<std::string> dimensions;
+    std::vector<std::size_t> shape, chunk;  // as many as dimensions
+    ZarrJson fill;
+    ZarrJson attributes = ZarrJson::object();
+    // More of them in version 2 alone: xarray writes no netCDF file with such a one.
+    ZarrJson version2_attributes = ZarrJson::object();
+
+    // Returns the number of chunks along a dimension.
+    [[nodiscard]] std::size_t chunks_along(std::size_t dimension) const {
+        return (shape[dimension] + chunk[dimension] - 1) / chunk[dimension];
+    }
+};
+
+struct ZarrGroup {
+    std::vector<ZarrArray> arrays;
+    ZarrJson attributes = ZarrJson::object();
+
+    // Returns null if there is no array of this name.
+    [[nodiscard]] const ZarrArray* find(std::string_view name) const;
+};
+
+inline constexpr std::size_t times_of_a_chunk = 4096;
+
+// The group for `times` times of grids with the cells of `newest`.
+[[nodiscard]] ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newest,
+                                   std::size_t times);
+
+// Version 2: .zarray, .zattrs and .zmetadata. ".zgroup" is {"zarr_format": 2}.
+[[nodiscard]] ZarrJson zarray_of(const ZarrArray& array);
+[[nodiscard]] ZarrJson zattrs_of(const ZarrArray& array);
+[[nodiscard]] ZarrJson zmetadata_of(const ZarrGroup& group);
+// Version 3: zarr.json of an array and of the group.
+[[nodiscard]] ZarrJson zarr3_of(const ZarrArray& array);
+[[nodiscard]] ZarrJson zarr3_of(const ZarrGroup& group);
+
+}  // namespace stormcellar::web

@@ -1,0 +1,139 @@
+// web/doors/api/call.h -- one request to the JSON API, and what its operations share.
+//
+// Threads   Many threads may use one ApiState; a call belongs to one.
+// Errors    The functions that read a parameter return bad_argument with its name.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/site_frame.h"
+#include "stormcellar/level2/volume.h"
+#include "web/data/grids/grids.h"
+#include "web/data/grids/kept_answers.h"
+#include "web/data/grids/region.h"
+#include "web/data/raw/served_catalog.h"
+#include "web/http/answer.h"
+
+namespace stormcellar::web {
+
+class EventFeed;
+
+using ApiJson = nlohmann::ordered_json;
+
+// Where the API finds what it serves.
+struct ApiSources {
+    std::shared_ptr<Grids> grids;   // null: no cache is served
+    std::filesystem::path catalog;  // empty: no catalog is served
+    // The same, if it is open already.
+    std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
+    std::shared_ptr<KeptAnswers> kept;
+    std::shared_ptr<const EventFeed> feed = nullptr;  // null: nobody watches who is silent
+    bool gives_volumes = true;                        // raw files are served, too
+};
+
+class ApiState {
+  public:
+    explicit ApiState(ApiSources sources)
+        : sources_(std::move(sources)), catalog_(sources_.catalog, sources_.reader) {}
+    [[nodiscard]] const ApiSources& sources() const { return sources_; }
+
+    // Returns the catalog. It is opened when it is first asked for, since it may come later.
+    // Errors: not_found if none is served; those of CatalogReader::open().
+    [[nodiscard]] Result<ServedCatalog::Reader> catalog() { return catalog_.get(); }
+
+    // Halved grids are kept while they are looked at, the least recently used give way.
+    using Halved = std::shared_ptr<const grid::BrickGrid>;
+    [[nodiscard]] Halved find_halved(const std::string& key);
+    void keep_halved(const std::string& key, const Halved& halved);
+
+    // The volume that was decoded last is kept, since its sweeps are asked for one after another.
+    using DecodedVolume = std::shared_ptr<const level2::Volume>;
+    [[nodiscard]] DecodedVolume find_volume(const std::string& key);
+    void keep_volume(const std::string& key, DecodedVolume volume);
+
+  private:
+    const ApiSources sources_;
+    ServedCatalog catalog_;
+    std::mutex mutex_;                                  // guards what follows
+    std::list<std::pair<std::string, Halved>> halved_;  // the most recently used first
+    std::string volume_key_;
+    DecodedVolume volume_;
+};
+
+struct ApiCall {
+    const Request& request;
+    ApiState& state;
+    std::vector<std::pair<std::string, std::string>> path_values;
+    // If set, an operation that would compute for long returns takes_long(). It is called again,
+    // without this, when its turn has come.
+    bool must_be_quick = false;
+
+    [[nodiscard]] Grids& grids() const { return *state.sources().grids; }
+    [[nodiscard]] std::string path_value(std::string_view name) const;
+};
+
+// A value, or the answer that says what went wrong.
+template <class T>
+using Answered = tl::expected<T, Answer>;
+[[nodiscard]] inline tl::unexpected<Answer> refuse(Answer answer) {
+    return tl::unexpected<Answer>(std::move(answer));
+}
+[[nodiscard]] inline tl::unexpected<Answer> refuse(const Error& error) {
+    return tl::unexpected<Answer>(json_error(error));
+}
+
+// Read parameters. A number is finite and within its limits.
+[[nodiscard]] Result<std::optional<double>> number_parameter(const ApiCall& call,
+                                                             std::string_view name, double least,
+                                                             double most);
+[[nodiscard]] Result<std::int64_t> whole_parameter(const ApiCall& call, std::string_view name,
+                                                   std::int64_t least, std::int64_t most,
+                                                   std::int64_t usual);
+[[nodiscard]] Result<std::optional<UtcTime>> time_parameter(const ApiCall& call,
+                                                            std::string_view name);
+[[nodiscard]] Result<std::optional<level2::Moment>> moment_parameter(const ApiCall& call);
+// "35.3,-97.3": latitude and longitude in degrees. The parameter must be there.
+[[nodiscard]] Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view name);
+// "3-17": both are inclusive.
+[[nodiscard]] Result<std::pair<std::size_t, std::size_t>> range_of_text(std::string_view name,
+                                                                        std::string_view text);
+
+// Find the grid that {domain}, {moment} and {time} of the path name; {time} may be "latest". The
+// error is 404, 410 if the grid was evicted, or why it cannot be read.
+struct NamedGrid {
+    std::string domain;
+    level2::Moment moment = level2::Moment::ref;
+    UtcTime time;
+};
+[[nodiscard]] Answered<NamedGrid> named_grid(const ApiCall& call);
+[[nodiscard]] Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call);
+// Find the region that {region} and {moment} of the path name. The error is 400 or 404.
+struct AskedRegion {
+    std::string name;  // its box as it was asked
+    RegionPlan plan;
+};
+[[nodiscard]] Answered<AskedRegion> asked_region(const ApiCall& call);
+// Answers a request for a grid that is not there.
+[[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
+
+// Answers with JSON, which clients ask for again each time unless it has not changed.
+[[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
+// An operation that must be quick and cannot returns this, which is never sent.
+[[nodiscard]] Answer takes_long();
+// A path below the API's own, for links.
+[[nodiscard]] std::string grid_path(const NamedGrid& grid);
+
+}  // namespace stormcellar::web

@@ -1,0 +1,197 @@
+// The sweeps of a raw volume, and their gates.
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "base/checksum.h"
+#include "pipeline/drop/cataloged_volume.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/sweep_choice.h"
+#include "stormcellar/level2/decode.h"
+#include "web/data/grids/compressed.h"
+#include "web/data/grids/packed_sweep.h"
+#include "web/doors/api/operations.h"
+
+namespace stormcellar::web {
+namespace {
+
+// A volume takes some tens of megabytes.
+constexpr std::uint64_t most_volume_bytes = std::uint64_t{256} << 20;
+
+struct FoundVolume {
+    std::shared_ptr<const catalog::CatalogReader> catalog;
+    catalog::CatalogEntry entry;
+    std::string key;  // of this volume; changes when its file does
+};
+
+// The last of those that start at the time: a volume that was sent again replaces the others. One
+// whose file is gone counts only if all are.
+Answered<FoundVolume> find_cataloged(const ApiCall& call) {
+    const auto icao = icao_of(call.path_value("station"));
+    if (!icao) return refuse(json_error(404, "there is no such station"));
+    auto catalog = call.state.catalog();
+    if (!catalog) return refuse(catalog.error());
+    std::optional<UtcTime> start;
+    const std::string time_text = call.path_value("time");
+    if (time_text == "latest") {
+        const auto latest = (*catalog)->latest(*icao);
+        if (!latest) return refuse(latest.error());
+        if (*latest) start = (*latest)->volume.start_time;
+    } else {
+        const auto time = parse_utc(time_text, now_utc());
+        if (!time) return refuse(json_error(400, "time: " + time.error().message));
+        start = *time;
+    }
+    std::optional<catalog::CatalogEntry> found;
+    if (start) {
+        const auto entries = (*catalog)->list(*icao, {*start, *start, false});
+        if (!entries) return refuse(entries.error());
+        const auto rank = [](const catalog::CatalogEntry& entry) {
+            return std::pair(entry.state != catalog::FileState::gone, entry.generation);
+        };
+        for (const catalog::CatalogEntry& entry : *entries)
+            if (!found || rank(entry) >= rank(*found)) found = entry;
+    }
+    if (!found) return refuse(json_error(404, "there is no such volume"));
+    if (found->state == catalog::FileState::gone) {
+        return refuse(json_error(410, "the file of the volume was removed by its owner"));
+    }
+    // The row of a volume of chunks has the first one's path and hash.
+    const auto rows = pipeline::hash_of_growing_rows(**catalog, *found);
+    if (!rows) return refuse(rows.error());
+    std::string key = fmt::format(
+        "{}/{}/{}/{}/{}/{}/{}", found->path.native(), found->size_bytes, found->modified_ns,
+        found->content_hash, start ? format_utc(*start) : "", found->volume.radial_count, *rows);
+    return FoundVolume{std::move(*catalog), std::move(*found), std::move(key)};
+}
+
+// A file may hold several volumes; the one that starts when the row says is meant.
+Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
+    auto raw = pipeline::read_cataloged_volume(*found.catalog, found.entry);
+    if (!raw) return pass_on(raw);
+    level2::DecodeOptions options;
+    options.output_limit_bytes = most_volume_bytes;
+    options.fallback_station = found.entry.station;
+    auto decoded = level2::decode(raw->bytes, options);
+    if (!decoded) return pass_on(decoded);
+    auto volumes = level2::split_volumes(std::move(*decoded));
+    for (level2::Volume& volume : volumes) {
+        if (volumes.size() > 1 && volume.start_time() != found.entry.volume.start_time) continue;
+        return std::make_shared<const level2::Volume>(std::move(volume));
+    }
+    return fail(ErrorCode::not_found, "the file no longer holds the volume");
+}
+
+// Decoding takes long, unless the volume is the one that was decoded last.
+Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolume& found) {
+    if (auto kept = call.state.find_volume(found.key)) return kept;
+    if (call.must_be_quick) return refuse(takes_long());
+    auto decoded = decode_found(found);
+    if (!decoded) return refuse(decoded.error());
+    call.state.keep_volume(found.key, *decoded);
+    return *decoded;
+}
+
+// Chooses the sweeps that `stormcellar frame --product ppi` draws of each moment: one of each
+// elevation.
+std::set<std::pair<level2::Moment, std::size_t>> chosen_sweeps(const level2::Volume& volume,
+                                                               std::string_view station) {
+    std::set<std::pair<level2::Moment, std::size_t>> chosen;
+    const double half_beam_deg = grid::beam_width_of(station) / 2;
+    std::set<level2::Moment> moments;
+    for (const level2::Sweep& sweep : volume.sweeps)
+        for (const level2::SweepMoment& gates : sweep.moments)
+            moments.insert(gates.moment);
+    for (const level2::Moment moment : moments)
+        for (const grid::ChosenSweep& sweep : grid::choose_sweeps(volume, moment, half_beam_deg))
+            chosen.emplace(moment, sweep.sweep_index);
+    return chosen;
+}
+
+ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
+                   const std::set<std::pair<level2::Moment, std::size_t>>& chosen) {
+    ApiJson moments = ApiJson::array();
+    for (const level2::SweepMoment& gates : sweep.moments) {
+        moments.push_back({{"moment", level2::moment_name(gates.moment)},
+                           {"units", level2::moment_units(gates.moment)},
+                           {"first_gate_m", gates.first_gate_m},
+                           {"gate_spacing_m", gates.gate_spacing_m},
+                           {"gates", gates.gate_stride},
+                           {"bits", gates.word_size_bits},
+                           {"chosen", chosen.contains({gates.moment, number})}});
+    }
+    ApiJson json{{"sweep", number},
+                 {"elevation_number", sweep.elevation_number},
+                 {"elevation_deg", sweep.mean_elevation_deg()},
+                 {"radials", sweep.radials.size()},
+                 {"moments", moments}};
+    if (!sweep.radials.empty()) {
+        json["start"] = format_utc(sweep.radials.front().time);
+        json["end"] = format_utc(sweep.radials.back().time);
+        json["nyquist_mps"] = sweep.radials.front().nyquist_mps;
+    }
+    return json;
+}
+
+}  // namespace
+
+Answer api_sweeps(const ApiCall& call) {
+    const auto found = find_cataloged(call);
+    if (!found) return found.error();
+    const auto volume = volume_of(call, *found);
+    if (!volume) return volume.error();
+    const auto chosen = chosen_sweeps(**volume, found->entry.station);
+    ApiJson list = ApiJson::array();
+    for (std::size_t i = 0; i < (*volume)->sweeps.size(); ++i)
+        list.push_back(sweep_json((*volume)->sweeps[i], i, chosen));
+    const auto start = (*volume)->start_time();
+    return json_answer(call.request, {{"station", found->entry.station},
+                                      {"time", start ? ApiJson(format_utc(*start)) : ApiJson()},
+                                      {"name", found->entry.path.filename().string()},
+                                      {"sweeps", list}});
+}
+
+Answer api_gates(const ApiCall& call) {
+    const auto kind = whole_parameter(call, "kind", 0, 63, 0);
+    if (!kind) return json_error(kind.error());
+    const auto moment = level2::moment_from_name(call.path_value("moment"));
+    const auto sweep = range_of_text("sweep", call.path_value("sweep"));
+    if (!moment || !sweep || sweep->first != sweep->second) {
+        return json_error(404, "there is no such sweep or moment");
+    }
+    const auto found = find_cataloged(call);
+    if (!found) return found.error();
+    const Coding coding = coding_for(call.request);
+    const std::string key = fmt::format("gates/{}/{}/{}/{}/{}", found->key, sweep->first,
+                                        call.path_value("moment"), *kind, coding_name(coding));
+    KeptAnswers& answers = *call.state.sources().kept;
+    auto kept = answers.find(key);
+    if (!kept) {
+        const auto volume = volume_of(call, *found);
+        if (!volume) return volume.error();
+        auto made = answers.find_or_make(key, [&]() -> Result<Kept> {
+            const auto bytes =
+                pack_sweep(**volume, sweep->first, *moment, static_cast<std::size_t>(*kind));
+            if (!bytes) return pass_on(bytes);
+            auto sent = compressed(*bytes, coding);
+            if (!sent) return pass_on(sent);
+            std::string etag = fmt::format(
+                "\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(*bytes))), coding_name(coding));
+            return Kept{text_of(std::move(*sent)), std::move(etag),
+                        std::string(coding_name(coding))};
+        });
+        if (!made) return json_error(made.error());
+        kept = std::move(*made);
+    }
+    Entity entity;
+    entity.bytes = {kept->bytes};
+    entity.content_type = "application/octet-stream";
+    entity.etag = kept->etag;
+    entity.coding = kept->notes;
+    entity.varies = true;
+    return answer_with(call.request, std::move(entity));
+}
+
+}  // namespace stormcellar::web

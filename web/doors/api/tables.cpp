@@ -1,0 +1,59 @@
+// The color tables of the pictures.
+#include <span>
+
+#include "base/checksum.h"
+#include "render/color/built_in_tables.h"
+#include "web/data/grids/compressed.h"
+#include "web/doors/api/operations.h"
+
+namespace stormcellar::web {
+namespace {
+
+ApiJson table_json(const render::ColorTable& table) {
+    ApiJson stops = ApiJson::array();
+    for (const render::ColorStop& stop : table.stops)
+        stops.push_back({{"from", stop.from}, {"color", stop.color}, {"until", stop.until}});
+    ApiJson extinction = ApiJson::array();
+    for (const render::ExtinctionPoint& point : table.extinction)
+        extinction.push_back({{"value", point.value}, {"per_km", point.per_km}});
+    return {{"name", table.name},        {"moment", level2::moment_name(table.moment)},
+            {"unit", table.unit},        {"bar_begin", table.bar_begin.value_or(table.lowest())},
+            {"end", table.end},          {"range_folded", table.range_folded},
+            {"stops", std::move(stops)}, {"extinction", std::move(extinction)}};
+}
+
+Result<Kept> make_tables(Coding coding) {
+    ApiJson tables = ApiJson::array();
+    for (const render::ColorTable& table : render::built_in_tables())
+        tables.push_back(table_json(table));
+    ApiJson usual = ApiJson::object();
+    for (const level2::Moment moment : level2::all_moments)
+        usual[std::string(level2::moment_name(moment))] = render::smooth_color_table(moment).name;
+    const std::string text =
+        ApiJson{{"tables", std::move(tables)}, {"usual", std::move(usual)}}.dump() + "\n";
+    auto sent = compressed(text, coding);
+    if (!sent) return pass_on(sent);
+    std::string etag =
+        fmt::format("\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(text))), coding_name(coding));
+    return Kept{text_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
+}
+
+}  // namespace
+
+// The tables are the same as long as the program runs, and as text they are as large as a small
+// grid.
+Answer api_tables(const ApiCall& call) {
+    const Coding coding = coding_for(call.request);
+    const auto kept = call.state.sources().kept->find_or_make(
+        fmt::format("tables/{}", coding_name(coding)), [&] { return make_tables(coding); });
+    if (!kept) return json_error(kept.error());
+    Entity entity;
+    entity.bytes = {kept->bytes};
+    entity.content_type = "application/json";
+    entity.etag = kept->etag;
+    entity.coding = kept->notes;
+    entity.varies = true;
+    return answer_with(call.request, std::move(entity));
+}
+
+}  // namespace stormcellar::web

@@ -1,9 +1,0 @@
-#include "web/doors/viewer_files.h"
-
-namespace stormcellar::web {
-
-std::span<const ViewerFile> viewer_files() {
-    return {};
-}
-
-}  // namespace stormcellar::web

@@ -1,0 +1,67 @@
+#include "web/doors/pictures/picture_answers.h"
+
+#include <utility>
+
+#include "base/printable.h"
+#include "web/data/pictures/map_pictures.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::chrono::seconds drawing_again_in{2};
+
+Answer no_such_grid(Grids& grids, std::string_view domain, level2::Moment moment, UtcTime time) {
+    const std::string what =
+        fmt::format("The grid of {}, {}, at {}", printable(domain.substr(0, 80)),
+                    level2::moment_name(moment), format_utc(time));
+    if (grids.was_evicted(domain, moment, time))
+        return sentence(410, what + " was evicted from the cache.");
+    return sentence(404, what + " is not in the cache.");
+}
+
+}  // namespace
+
+Answer picture_error(const Error& error) {
+    const unsigned status = status_of(error);
+    const std::string text = without_paths(error.message);
+    return with_trouble(status == 503 ? come_back(drawing_again_in, text) : sentence(status, text),
+                        error);
+}
+
+Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids, std::string_view domain,
+                                                  level2::Moment moment, std::string_view time) {
+    const auto instant = time_of_grid(grids, domain, moment, time);
+    if (!instant) return tl::unexpected(picture_error(instant.error()));
+    auto grid = grids.find(domain, moment, *instant);
+    if (grid) return std::move(*grid);
+    if (grid.error().code == ErrorCode::not_found)
+        return tl::unexpected(no_such_grid(grids, domain, moment, *instant));
+    return tl::unexpected(picture_error(grid.error()));
+}
+
+Answer picture_answer(const Request& request, const Kept& picture,
+                      std::optional<std::chrono::seconds> max_age) {
+    Entity entity;
+    entity.bytes = {picture.bytes};
+    entity.content_type = picture.notes;
+    entity.etag = picture.etag;
+    entity.max_age = max_age;
+    return answer_with(request, std::move(entity));
+}
+
+std::optional<Answer> unchanged_answer(const Request& request, const std::string& etag,
+                                       std::optional<std::chrono::seconds> max_age) {
+    if (!request.header("If-None-Match")) return std::nullopt;
+    Entity entity;
+    entity.etag = etag;
+    entity.max_age = max_age;
+    Answer answer = answer_with(request, std::move(entity));
+    return answer.status == 304 ? std::optional(std::move(answer)) : std::nullopt;
+}
+
+std::optional<std::chrono::seconds> max_age_of(std::string_view time, const OpenGrid& grid) {
+    if (time == "latest" || grid.may_change()) return std::nullopt;
+    return answer_holds_for;
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,209 @@
+#include "web/doors/pictures/tiles.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/cache/grid_name.h"
+#include "web/data/grids/text_answer.h"
+#include "web/doors/pictures/picture_answers.h"
+
+namespace stormcellar::web {
+namespace {
+
+using TileJson = nlohmann::ordered_json;
+
+constexpr double most_latitude_deg = 85.0511;  // of Web Mercator's square
+constexpr std::size_t segments_of_a_tile = 7;  // tiles, domain, layer, time, z, x, y.png
+
+std::optional<int> whole_below(std::string_view text, int end) {
+    int number = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool is_plain = text == "0" || !text.starts_with('0');
+    if (error != std::errc{} || rest != text.data() + text.size() || !is_plain) return std::nullopt;
+    if (number < 0 || number >= end) return std::nullopt;
+    return number;
+}
+
+Answer json_of_pictures(const Request& request, const TileJson& document) {
+    return text_answer_to(request, "application/json",
+                          document.dump(-1, ' ', false, TileJson::error_handler_t::replace) + "\n");
+}
+
+// The options of a query again, for links.
+std::string query_text(const Fields& query) {
+    std::string text;
+    for (const auto& [name, value] : query) {
+        text += text.empty() ? '?' : '&';
+        text += encoded(name) + "=" + encoded(value);
+    }
+    return text;
+}
+
+// The deepest zoom that shows more: there, a cell has about eight pixels.
+int useful_zoom(const grid::GridSpec& spec) {
+    const double cell_m = spec.cell_height_m() / 8;
+    const double at_equator_m = 2 * render::mercator_edge_m / 256;
+    const double zoom = std::log2(at_equator_m / std::max(1.0, cell_m));
+    return std::clamp(static_cast<int>(std::ceil(zoom)), 0, deepest_zoom);
+}
+
+TileJson bounds_of(const render::EarthBox& box) {
+    // TileJSON knows longitudes from -180 to 180 only, so across the antimeridian it is all.
+    const bool crosses = box.west_deg < -180 || box.east_deg > 180;
+    const auto held = [](double latitude) {
+        return std::clamp(latitude, -most_latitude_deg, most_latitude_deg);
+    };
+    return TileJson::array({crosses ? -180.0 : box.west_deg, held(box.south_deg),
+                            crosses ? 180.0 : box.east_deg, held(box.north_deg)});
+}
+
+TileJson layer_json(const Request& request, std::string_view domain, const MapProduct& layer) {
+    render::Scene scene;
+    scene.product = layer.product;
+    scene.moment = layer.moment;
+    return {{"layer", layer.name()},
+            {"title", render::product_title(scene)},
+            {"tilejson", fmt::format("{}/tiles/{}/{}/latest/tilejson.json", request.base, domain,
+                                     layer.name())}};
+}
+
+// A tile that was asked for, and what it shows.
+struct AskedTile {
+    MapStyle style;
+    TilePlace place;
+};
+Result<AskedTile> asked_tile(const Request& request, const std::vector<std::string_view>& path) {
+    const auto place = tile_place_of(path[4], path[5], path[6]);
+    if (!place)
+        return fail(ErrorCode::not_found, "a tile is ZOOM/COLUMN/ROW.png, with zooms from 0 to {}",
+                    deepest_zoom);
+    const auto layer = map_product_named(path[2]);
+    if (!layer) return pass_on(layer);
+    auto style = map_style(*layer, request.query, {});
+    if (!style) return pass_on(style);
+    return AskedTile{std::move(*style), *place};
+}
+
+}  // namespace
+
+std::optional<TilePlace> tile_place_of(std::string_view zoom, std::string_view column,
+                                       std::string_view file) {
+    TilePlace place;
+    if (!file.ends_with(".png")) return std::nullopt;
+    file.remove_suffix(4);
+    if (file.ends_with("@2x")) {
+        place.side = 512;
+        file.remove_suffix(3);
+    }
+    const auto deep = whole_below(zoom, deepest_zoom + 1);
+    if (!deep) return std::nullopt;
+    const auto x = whole_below(column, 1 << *deep);
+    const auto y = whole_below(file, 1 << *deep);
+    if (!x || !y) return std::nullopt;
+    place.zoom = *deep;
+    place.column = *x;
+    place.row = *y;
+    return place;
+}
+
+render::PlaneWindow window_of(const TilePlace& place) {
+    const double side_m = 2 * render::mercator_edge_m / (1 << place.zoom);
+    const double west = place.column * side_m - render::mercator_edge_m;
+    const double north = render::mercator_edge_m - place.row * side_m;
+    return {render::Plane::web_mercator,
+            west,
+            north - side_m,
+            west + side_m,
+            north,
+            place.side,
+            place.side};
+}
+
+std::optional<Answer> TilesDoor::answer_at_once(const Request& request) {
+    const auto path = segments_of(request.path);
+    if (path.size() != segments_of_a_tile) return std::nullopt;
+    const auto asked = asked_tile(request, path);
+    if (!asked) return std::nullopt;
+    Grids& grids = pictures_->grids();
+    const auto time = time_of_grid(grids, path[1], asked->style.layer.moment, path[3]);
+    if (!time) return std::nullopt;
+    const auto grid = grids.find_if_open(path[1], asked->style.layer.moment, *time);
+    if (!grid) return std::nullopt;
+    const MapPicture picture{{{grid, asked->style}}, window_of(asked->place), {}};
+    const auto max_age = max_age_of(path[3], *grid);
+    if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return unchanged;
+    const auto kept = pictures_->find(picture);
+    if (!kept) return std::nullopt;
+    return picture_answer(request, *kept, max_age);
+}
+
+Answer TilesDoor::answer(const Request& request) {
+    const auto path = segments_of(request.path);
+    if (path.size() == 1) return index(request);
+    if (path.size() == 5 && path[4] == "tilejson.json") return tilejson(request, path);
+    if (path.size() == segments_of_a_tile) return tile(request, path);
+    return sentence(404,
+                    "There are /tiles, /tiles/DOMAIN/LAYER/TIME/tilejson.json and "
+                    "/tiles/DOMAIN/LAYER/TIME/{z}/{x}/{y}.png here.");
+}
+
+Answer TilesDoor::index(const Request& request) {
+    TileJson domains = TileJson::array();
+    for (const std::string& domain : pictures_->grids().domains()) {
+        if (cache::is_part(domain)) continue;
+        TileJson layers = TileJson::array();
+        for (const MapProduct& layer : map_products_of(pictures_->grids().moments(domain)))
+            layers.push_back(layer_json(request, domain, layer));
+        domains.push_back({{"domain", domain}, {"layers", std::move(layers)}});
+    }
+    return json_of_pictures(
+        request, {{"options", parameters_for_help(is_of_layers)}, {"domains", std::move(domains)}});
+}
+
+Answer TilesDoor::tilejson(const Request& request, const std::vector<std::string_view>& path) {
+    const auto layer = map_product_named(path[2]);
+    if (!layer) return picture_error(layer.error());
+    const auto style = map_style(*layer, request.query, {});
+    if (!style) return picture_error(style.error());
+    const auto grid = grid_named(pictures_->grids(), path[1], layer->moment, path[3]);
+    if (!grid) return grid.error();
+    const grid::GridSpec& spec = (*grid)->file.description().spec;
+    const render::EarthBox box = pictures_->box_of((*grid)->domain, spec);
+    const int deepest = useful_zoom(spec);
+    const std::string tiles = fmt::format(
+        "{}/tiles/{}/{}/{}/{{z}}/{{x}}/{{y}}.png{}", request.base, (*grid)->domain, layer->name(),
+        path[3] == "latest" ? "latest" : format_utc((*grid)->time), query_text(request.query));
+    return json_of_pictures(
+        request,
+        {{"tilejson", "3.0.0"},
+         {"name", fmt::format("{} {}", (*grid)->domain, layer->name())},
+         {"description",
+          fmt::format("{}, {}", render::product_title(style->scene), format_utc((*grid)->time))},
+         {"scheme", "xyz"},
+         {"tiles", TileJson::array({tiles})},
+         {"minzoom", 0},
+         {"maxzoom", deepest},
+         {"bounds", bounds_of(box)},
+         {"center",
+          {spec.center_longitude_deg, spec.center_latitude_deg, std::max(0, deepest - 5)}}});
+}
+
+Answer TilesDoor::tile(const Request& request, const std::vector<std::string_view>& path) {
+    auto asked = asked_tile(request, path);
+    if (!asked) return picture_error(asked.error());
+    const auto grid = grid_named(pictures_->grids(), path[1], asked->style.layer.moment, path[3]);
+    if (!grid) return grid.error();
+    const MapPicture picture{{{*grid, std::move(asked->style)}}, window_of(asked->place), {}};
+    const auto max_age = max_age_of(path[3], **grid);
+    if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return *unchanged;
+    const auto drawn = pictures_->find_or_draw(picture);
+    if (!drawn) return picture_error(drawn.error());
+    return picture_answer(request, *drawn, max_age);
+}
+
+}  // namespace stormcellar::web

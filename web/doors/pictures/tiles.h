@@ -1,0 +1,50 @@
+// web/doors/pictures/tiles.h -- 2D products as tiles of web maps (docs/web/pictures.md).
+//
+//   /tiles                                              what there is, as JSON
+//   /tiles/DOMAIN/LAYER/TIME/{z}/{x}/{y}.png            256 pixels, in Web Mercator; "@2x": 512
+//   /tiles/DOMAIN/LAYER/TIME/tilejson.json              TileJSON 3.0
+//
+// LAYER is that of web/data/pictures/map_product.h, TIME "latest" or the instant of a grid. Options
+// of the layer are parameters.
+//
+// Threads   Many threads may use it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "web/data/pictures/map_pictures.h"
+#include "web/http/door.h"
+
+namespace stormcellar::web {
+
+// A tile of the pyramid: zoom 0 is the whole earth, row 0 the northernmost.
+struct TilePlace {
+    int zoom = 0;
+    int column = 0, row = 0;
+    int side = 256;  // pixels
+};
+inline constexpr int deepest_zoom = 22;
+// Reads "5", "7", "12.png" or "12@2x.png". None: there is no such tile.
+[[nodiscard]] std::optional<TilePlace> tile_place_of(std::string_view zoom, std::string_view column,
+                                                     std::string_view file);
+[[nodiscard]] render::PlaneWindow window_of(const TilePlace& place);
+
+class TilesDoor final : public Door {
+  public:
+    explicit TilesDoor(std::shared_ptr<MapPictures> pictures) : pictures_(std::move(pictures)) {}
+    // Tiles that are kept, while their grid is open.
+    std::optional<Answer> answer_at_once(const Request& request) override;
+    Answer answer(const Request& request) override;
+
+  private:
+    [[nodiscard]] Answer index(const Request& request);
+    [[nodiscard]] Answer tilejson(const Request& request,
+                                  const std::vector<std::string_view>& path);
+    [[nodiscard]] Answer tile(const Request& request, const std::vector<std::string_view>& path);
+
+    std::shared_ptr<MapPictures> pictures_;
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,61 @@
+// web/doors/s3/keys.h -- raw volumes in the order of their keys in the public bucket,
+// YYYY/MM/DD/STATION/NAME.
+//
+// Keys sort by day, then by station, then by time. A walk asks the catalog for one station and one
+// day at a time, by index; only where a day is at its end it asks all stations for their next
+// volume. A walk has an end, so that a list of one station's day asks for nothing else.
+//
+// Threads   One thread at a time.
+// Errors    Those of RawFiles.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "web/data/raw/raw_files.h"
+
+namespace stormcellar::web {
+
+[[nodiscard]] std::string s3_key(const RawVolume& volume);
+
+struct S3Key {
+    std::chrono::sys_days day;
+    std::string station, name;
+};
+// None if no volume can have the key.
+[[nodiscard]] std::optional<S3Key> parse_s3_key(std::string_view key);
+
+struct S3Object {
+    std::string key;
+    RawVolume volume;
+};
+
+// The bucket as one list sees it: its stations are those of the first question.
+class S3Keys {
+  public:
+    explicit S3Keys(std::shared_ptr<RawFiles> files) : files_(std::move(files)) {}
+
+    // Returns objects from the first key on that is not less than `from`, but only keys that are
+    // less than `end` (empty: all), at most `most` of them. With `most` > 1 they may be fewer
+    // although there are more: only none means that the end is reached.
+    [[nodiscard]] Result<std::vector<S3Object>> between(std::string_view from, std::string_view end,
+                                                        std::size_t most);
+
+  private:
+    using Stations = std::vector<std::string>;  // sorted
+    [[nodiscard]] Status find_stations();
+    [[nodiscard]] Result<std::vector<S3Object>> of_day(std::chrono::sys_days day,
+                                                       std::string_view from, std::string_view end,
+                                                       std::size_t most) const;
+    // The first day from this one on that has a volume.
+    [[nodiscard]] Result<std::optional<std::chrono::sys_days>> next_day(
+        std::chrono::sys_days day) const;
+    const std::shared_ptr<RawFiles> files_;
+    std::optional<Stations> stations_;
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,101 @@
+// web/doors/thredds/collection.h -- a data set of the THREDDS radar server: its stations, its files
+// by station and time, and their bytes.
+//
+// Threads   Many threads may use one object.
+// Errors    Those of RawFiles.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "web/config/web_config.h"
+#include "web/data/raw/raw_files.h"
+#include "web/http/answer.h"
+
+namespace stormcellar::web {
+
+struct ThreddsStation {
+    std::string id;
+    std::string name, state, country;
+    bool has_place = false;  // the rest is known
+    double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
+};
+
+struct ThreddsVariable {
+    std::string name, units;
+    std::string vocabulary_name;  // in the vocabulary DIF
+};
+
+// One file. The path is that behind the data set's, as in KTLX/20220317/KTLX20220317_000842_V06.
+struct ThreddsFile {
+    std::string name, path;
+    UtcTime start{};
+};
+
+class ThreddsCollection {
+  public:
+    virtual ~ThreddsCollection() = default;
+    ThreddsCollection(const ConfiguredCollection& configured, std::vector<ConfiguredPlace> places)
+        : configured_(configured), places_(std::move(places)) {}
+
+    [[nodiscard]] const std::string& path() const { return configured_.path; }
+    [[nodiscard]] const std::string& title() const { return configured_.title; }
+    // "NEXRAD2" or "NIDS".
+    [[nodiscard]] virtual std::string_view format() const = 0;
+    [[nodiscard]] virtual std::string summary() const = 0;
+    [[nodiscard]] virtual std::vector<ThreddsVariable> variables() const = 0;
+    // A query must name a variable, because each has files of its own.
+    [[nodiscard]] virtual bool needs_variable() const = 0;
+    // Returns the configured stations, or all that have files, in their order.
+    [[nodiscard]] Result<std::vector<ThreddsStation>> stations();
+    // The start of the oldest file; none if there is none. It may be a minute old.
+    [[nodiscard]] virtual Result<std::optional<UtcTime>> oldest() = 0;
+
+    // Returns the file that is nearest, if it is within that time.
+    [[nodiscard]] virtual Result<std::optional<ThreddsFile>> nearest(
+        std::string_view station, std::string_view variable, UtcTime time,
+        std::chrono::milliseconds within) = 0;
+    // Returns files in the order of time.
+    [[nodiscard]] virtual Result<std::vector<ThreddsFile>> list(std::string_view station,
+                                                                std::string_view variable,
+                                                                const RawRange& range) = 0;
+    // Answers for the segments of a file's path.
+    [[nodiscard]] virtual Answer file(const Request& request,
+                                      std::span<const std::string_view> path) = 0;
+    [[nodiscard]] virtual std::optional<Answer> file_at_once(
+        const Request& /*request*/, std::span<const std::string_view> /*path*/) {
+        return std::nullopt;
+    }
+
+  protected:
+    [[nodiscard]] const ConfiguredCollection& configured() const { return configured_; }
+    // The identifiers of all stations that have files.
+    [[nodiscard]] virtual Result<std::vector<std::string>> station_ids() = 0;
+    // The stations that the files place, sorted by ICAO.
+    [[nodiscard]] virtual std::vector<RawStation> placed_by_files() { return {}; }
+
+  private:
+    const ConfiguredCollection configured_;
+    const std::vector<ConfiguredPlace> places_;
+};
+
+// A data set with `variables` is one of Level III; any other has the raw files. `places` say where
+// stations are, before the station table does.
+[[nodiscard]] std::shared_ptr<ThreddsCollection> make_collection(
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
+    std::shared_ptr<RawFiles> files);
+
+// The two kinds; make_collection() chooses.
+[[nodiscard]] std::shared_ptr<ThreddsCollection> make_level2_collection(
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
+    std::shared_ptr<RawFiles> files);
+[[nodiscard]] std::shared_ptr<ThreddsCollection> make_level3_collection(
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places);
+
+}  // namespace stormcellar::web

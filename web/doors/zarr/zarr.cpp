@@ -1,0 +1,310 @@
+#include "web/doors/zarr/zarr.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/checksum.h"
+#include "export/cf_attributes.h"
+#include "stormcellar/cache/grid_name.h"
+#include "stormcellar/level2/moment.h"
+#include "web/data/grids/compressed.h"
+#include "web/data/grids/text_answer.h"
+#include "web/data/zarr/zarr_cells.h"
+#include "web/doors/pictures/picture_answers.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::size_t segments_of_a_group = 3;  // zarr, domain, moment
+constexpr std::size_t dimensions_of_a_field = 4;
+
+std::optional<std::size_t> whole_number(std::string_view text) {
+    std::size_t number = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
+    if (text.size() > 1 && text.starts_with('0')) return std::nullopt;
+    return number;
+}
+
+Answer zarr_document(const Request& request, const ZarrJson& document) {
+    return text_answer_to(request, "application/json",
+                          document.dump(1, ' ', false, ZarrJson::error_handler_t::replace) + "\n");
+}
+
+Answer zarr_chunk(const Request& request, const Kept& kept,
+                  std::optional<std::chrono::seconds> max_age) {
+    Entity entity;
+    entity.max_age = max_age;
+    entity.bytes = {kept.bytes};
+    entity.etag = kept.etag;
+    entity.content_type = "application/octet-stream";
+    return answer_with(request, std::move(entity));
+}
+
+Answer no_such_key() {
+    return sentence(404, "There is no such key in this Zarr group.");
+}
+
+std::string chunk_key(const OpenGrid& grid, std::string_view array,
+                      const std::vector<std::size_t>& place) {
+    return fmt::format("zarr/{}/{}/{}/{}/{}.{}.{}", grid.domain, level2::moment_name(grid.moment),
+                       grid.id, array, place[1], place[2], place[3]);
+}
+
+std::string chunk_tag(const OpenGrid& grid, std::string_view array,
+                      const std::vector<std::size_t>& place) {
+    return fmt::format("\"{}-{}-{}.{}.{}\"", grid.id, array, place[1], place[2], place[3]);
+}
+
+// Numbers of an axis from `first` on, NaN beyond their end.
+std::string axis_chunk(const std::vector<double>& numbers, std::size_t first, std::size_t length) {
+    std::vector<double> chunk(length, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < length && first + i < numbers.size(); ++i)
+        chunk[i] = numbers[first + i];
+    std::string bytes(length * sizeof(double), '\0');
+    std::memcpy(bytes.data(), chunk.data(), bytes.size());
+    return bytes;
+}
+
+std::vector<double> seconds_of(const std::vector<UtcTime>& times) {
+    std::vector<double> seconds;
+    seconds.reserve(times.size());
+    for (const UtcTime time : times)
+        seconds.push_back(std::chrono::duration<double>(time.time_since_epoch()).count());
+    return seconds;
+}
+
+Result<Kept> packed_chunk(std::string_view bytes, std::string etag) {
+    auto packed = gzipped(bytes, gzip_level);
+    if (!packed) return pass_on(packed);
+    return Kept{text_of(std::move(*packed)), std::move(etag), {}};
+}
+
+Result<Kept> made_chunk(const OpenGrid& grid, const ZarrArray& array,
+                        const std::vector<std::size_t>& place) {
+    const ChunkPlace at{static_cast<int>(place[1]), static_cast<int>(place[2]),
+                        static_cast<int>(place[3])};
+    const std::string cells = array.number == ZarrNumber::int8 ? status_chunk(grid.file.view(), at)
+                                                               : value_chunk(grid.file.view(), at);
+    if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
+    return packed_chunk(cells, chunk_tag(grid, array.name, place));
+}
+
+}  // namespace
+
+struct ZarrDoor::Named {
+    std::string domain;
+    level2::Moment moment;
+};
+
+struct ZarrDoor::Opened {
+    std::shared_ptr<const std::vector<UtcTime>> times;
+    std::shared_ptr<const OpenGrid> newest;
+    ZarrGroup group;
+
+    [[nodiscard]] const grid::GridSpec& spec() const { return newest->file.description().spec; }
+};
+
+std::optional<ZarrDoor::Named> ZarrDoor::named(const std::vector<std::string_view>& path) const {
+    if (path.size() < segments_of_a_group) return std::nullopt;
+    const auto moment = level2::moment_from_name(path[2]);
+    if (!moment) return std::nullopt;
+    return Named{std::string(path[1]), *moment};
+}
+
+// Every request describes the group anew, from the newest grid: that takes microseconds, and
+// nothing has to be told when a grid comes.
+Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
+    const auto present = sources_.grids->times(named.domain, named.moment);
+    if (present.empty())
+        return fail(ErrorCode::not_found, "There are no grids of {} in the domain {}.",
+                    level2::moment_name(named.moment), named.domain);
+    auto times = sources_.numbers->update(named.domain, named.moment, present);
+    if (!times) return pass_on(times);
+    const UtcTime newest_time =
+        sources_.grids->newest(named.domain, named.moment).value_or(present.back());
+    auto newest = sources_.grids->find(named.domain, named.moment, newest_time);
+    if (!newest) return pass_on(newest);
+    Opened opened{std::move(*times), std::move(*newest), {}};
+    opened.group =
+        zarr_group(named.domain, opened.newest->file.description(), opened.times->size());
+    return opened;
+}
+
+std::optional<std::vector<std::size_t>> ZarrDoor::place_in(
+    const std::vector<std::string_view>& rest, std::size_t dimensions) const {
+    std::vector<std::string_view> words;
+    if (version_ == ZarrVersion::three) {
+        if (rest.size() != dimensions + 2 || rest[1] != "c") return std::nullopt;
+        words.assign(rest.begin() + 2, rest.end());
+    } else {
+        if (rest.size() != 2) return std::nullopt;
+        std::string_view key = rest[1];
+        while (true) {
+            const std::size_t dot = key.find('.');
+            words.push_back(key.substr(0, dot));
+            if (dot == std::string_view::npos) break;
+            key.remove_prefix(dot + 1);
+        }
+        if (dimensions == 0) {
+            if (rest[1] != "0") return std::nullopt;
+            words.clear();
+        }
+        if (words.size() != dimensions) return std::nullopt;
+    }
+    std::vector<std::size_t> place;
+    for (const std::string_view word : words) {
+        const auto number = whole_number(word);
+        if (!number) return std::nullopt;
+        place.push_back(*number);
+    }
+    return place;
+}
+
+// False, too, where that takes longer than microseconds to say.
+bool ZarrDoor::has_cells_of_newest(const Named& named, const OpenGrid& grid) const {
+    const auto time = sources_.grids->newest(named.domain, named.moment);
+    if (!time) return false;
+    const auto newest = sources_.grids->find_if_open(named.domain, named.moment, *time);
+    return newest && newest->file.description().spec == grid.file.description().spec;
+}
+
+std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
+    const auto path = segments_of(request.path);
+    const auto group = named(path);
+    if (!group || path.size() < segments_of_a_group + 2) return std::nullopt;
+    const std::vector<std::string_view> rest(path.begin() + segments_of_a_group, path.end());
+    const bool is_field = rest[0] == "status" || rest[0] == level2::moment_name(group->moment);
+    const auto place = place_in(rest, dimensions_of_a_field);
+    if (!is_field || !place) return std::nullopt;
+    const auto time = sources_.numbers->time_of(group->domain, group->moment, (*place)[0]);
+    if (!time) return std::nullopt;
+    const auto grid = sources_.grids->find_if_open(group->domain, group->moment, *time);
+    if (!grid || !has_cells_of_newest(*group, *grid)) return std::nullopt;
+    const auto kept = sources_.kept->find(chunk_key(*grid, rest[0], *place));
+    if (!kept) return std::nullopt;
+    return zarr_chunk(request, *kept, max_age_of("", *grid));
+}
+
+Answer ZarrDoor::answer(const Request& request) {
+    const auto path = segments_of(request.path);
+    if (path.size() == 1) return index(request);
+    const auto group = named(path);
+    if (!group)
+        return sentence(404, fmt::format("There are /{0} and /{0}/DOMAIN/MOMENT here.", path[0]));
+    const auto opened = open(*group);
+    if (!opened) return picture_error(opened.error());
+    const std::vector<std::string_view> rest(path.begin() + segments_of_a_group, path.end());
+    if (rest.size() >= 2) {
+        const ZarrArray* array = opened->group.find(rest[0]);
+        if (array == nullptr) return no_such_key();
+        if (const auto place = place_in(rest, array->shape.size())) {
+            for (std::size_t i = 0; i < place->size(); ++i)
+                if ((*place)[i] >= array->chunks_along(i)) return no_such_key();
+            return chunk(request, *group, *opened, *array, *place);
+        }
+    }
+    return document(request, *opened, rest);
+}
+
+Answer ZarrDoor::index(const Request& request) const {
+    ZarrJson groups = ZarrJson::array();
+    for (const std::string& domain : sources_.grids->domains()) {
+        if (cache::is_part(domain)) continue;
+        for (const level2::Moment moment : sources_.grids->moments(domain)) {
+            const auto name = level2::moment_name(moment);
+            groups.push_back(
+                {{"domain", domain},
+                 {"moment", name},
+                 {"zarr", fmt::format("{}/zarr/{}/{}", request.base, domain, name)},
+                 {"zarr3", fmt::format("{}/zarr3/{}/{}", request.base, domain, name)}});
+        }
+    }
+    return zarr_document(request, {{"groups", std::move(groups)}});
+}
+
+Answer ZarrDoor::document(const Request& request, const Opened& opened,
+                          const std::vector<std::string_view>& rest) const {
+    const ZarrGroup& group = opened.group;
+    const bool is_three = version_ == ZarrVersion::three;
+    if (rest.empty())
+        return sentence(404, is_three ? "This is a Zarr group: it has zarr.json."
+                                      : "This is a Zarr group: it has .zmetadata and .zgroup.");
+    if (rest.size() == 1) {
+        if (is_three && rest[0] == "zarr.json") return zarr_document(request, zarr3_of(group));
+        if (!is_three && rest[0] == ".zmetadata")
+            return zarr_document(request, zmetadata_of(group));
+        if (!is_three && rest[0] == ".zgroup") return zarr_document(request, {{"zarr_format", 2}});
+        if (!is_three && rest[0] == ".zattrs") return zarr_document(request, group.attributes);
+        return no_such_key();
+    }
+    const ZarrArray* array = group.find(rest[0]);
+    if (array == nullptr || rest.size() != 2) return no_such_key();
+    if (is_three && rest[1] == "zarr.json") return zarr_document(request, zarr3_of(*array));
+    if (!is_three && rest[1] == ".zarray") return zarr_document(request, zarray_of(*array));
+    if (!is_three && rest[1] == ".zattrs") return zarr_document(request, zattrs_of(*array));
+    return no_such_key();
+}
+
+Answer ZarrDoor::chunk(const Request& request, const Named& named, const Opened& opened,
+                       const ZarrArray& array, const std::vector<std::size_t>& place) const {
+    if (place.size() == dimensions_of_a_field) return cells(request, named, opened, array, place);
+    const grid::GridSpec& spec = opened.spec();
+    const netcdf::MapNames names = netcdf::map_names(spec);
+    const auto made = [&]() -> std::string {
+        if (place.empty()) return std::string(sizeof(std::int32_t), '\0');
+        if (place.size() == 2) {
+            const auto which = array.name == "lat" ? Position::latitude : Position::longitude;
+            return position_chunk(spec, which,
+                                  {0, static_cast<int>(place[0]), static_cast<int>(place[1])});
+        }
+        const std::size_t first = place[0] * array.chunk[0];
+        if (array.name == "time")
+            return axis_chunk(seconds_of(*opened.times), first, array.chunk[0]);
+        if (array.name == "z") return axis_chunk(spec.levels_m, first, array.chunk[0]);
+        return axis_chunk(
+            array.name == names.y ? netcdf::row_places(spec) : netcdf::column_places(spec), first,
+            array.chunk[0]);
+    };
+    const bool is_kept = place.size() == 2;
+    const auto pack = [&]() -> Result<Kept> {
+        const std::string bytes = made();
+        return packed_chunk(bytes,
+                            fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(bytes)))));
+    };
+    const auto packed = is_kept
+                            ? sources_.kept->find_or_make(
+                                  fmt::format("zarr/{}/{}/{}/{}/{}", named.domain,
+                                              level2::moment_name(named.moment), opened.newest->id,
+                                              array.name, fmt::join(place, ".")),
+                                  pack)
+                            : pack();
+    if (!packed) return picture_error(packed.error());
+    return zarr_chunk(request, *packed, {});
+}
+
+Answer ZarrDoor::cells(const Request& request, const Named& named, const Opened& opened,
+                       const ZarrArray& array, const std::vector<std::size_t>& place) const {
+    const UtcTime time = (*opened.times)[place[0]];
+    const auto grid = sources_.grids->find(named.domain, named.moment, time);
+    if (!grid && grid.error().code == ErrorCode::not_found)
+        return sentence(404, fmt::format("The grid of {} was evicted. Its cells are unavailable.",
+                                         format_utc(time)));
+    if (!grid) return picture_error(grid.error());
+    if ((*grid)->file.description().spec != opened.spec())
+        return sentence(404,
+                        fmt::format("The grid of {} has other cells than the newest one, whose "
+                                    "array this is. See /api/v1/grids for it.",
+                                    format_utc(time)));
+    const auto kept = sources_.kept->find_or_make(chunk_key(**grid, array.name, place),
+                                                  [&] { return made_chunk(**grid, array, place); });
+    if (!kept) return picture_error(kept.error());
+    return zarr_chunk(request, *kept, max_age_of("", **grid));
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,66 @@
+// web/doors/zarr/zarr.h -- grids over time as Zarr arrays (docs/web/zarr.md).
+//
+//   /zarr                     the groups that there are, as JSON
+//   /zarr/DOMAIN/MOMENT/...   a group in version 2 of the format, with consolidated metadata
+//   /zarr3/DOMAIN/MOMENT/...  the same in version 3
+//
+// Chunks are made when they are asked for, and kept. A chunk of a grid that was evicted is 404, as
+// the protocol has it for a chunk that is not there: readers take the fill value then, which for
+// the states is "unavailable".
+//
+// Threads   Many threads may use it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "web/data/grids/grids.h"
+#include "web/data/grids/kept_answers.h"
+#include "web/data/zarr/time_numbers.h"
+#include "web/data/zarr/zarr_layout.h"
+#include "web/http/door.h"
+
+namespace stormcellar::web {
+
+enum class ZarrVersion { two = 2, three = 3 };
+
+// Sources that the doors of both versions share.
+struct ZarrSources {
+    std::shared_ptr<Grids> grids;
+    std::shared_ptr<KeptAnswers> kept;
+    std::shared_ptr<TimeNumbers> numbers;
+};
+
+class ZarrDoor final : public Door {
+  public:
+    ZarrDoor(ZarrSources sources, ZarrVersion version)
+        : sources_(std::move(sources)), version_(version) {}
+    // Chunks that are kept, while their grid is open.
+    std::optional<Answer> answer_at_once(const Request& request) override;
+    Answer answer(const Request& request) override;
+
+  private:
+    struct Named;   // a domain and a moment that a path names
+    struct Opened;  // their group
+
+    [[nodiscard]] std::optional<Named> named(const std::vector<std::string_view>& path) const;
+    [[nodiscard]] Result<Opened> open(const Named& named) const;
+    [[nodiscard]] bool has_cells_of_newest(const Named& named, const OpenGrid& grid) const;
+    [[nodiscard]] Answer index(const Request& request) const;
+    [[nodiscard]] Answer document(const Request& request, const Opened& opened,
+                                  const std::vector<std::string_view>& rest) const;
+    [[nodiscard]] Answer chunk(const Request& request, const Named& named, const Opened& opened,
+                               const ZarrArray& array, const std::vector<std::size_t>& place) const;
+    [[nodiscard]] Answer cells(const Request& request, const Named& named, const Opened& opened,
+                               const ZarrArray& array, const std::vector<std::size_t>& place) const;
+    // The numbers of a chunk; none if this is no key of one.
+    [[nodiscard]] std::optional<std::vector<std::size_t>> place_in(
+        const std::vector<std::string_view>& rest, std::size_t dimensions) const;
+
+    const ZarrSources sources_;
+    const ZarrVersion version_;
+};
+
+}  // namespace stormcellar::web
