@@ -1,46 +1,116 @@
-// base/recently_used.h -- keeps values by key for reuse, and drops the least recently used ones
-// first.
+// base/recently_used.h -- keeps values by key within a budget, and drops the least recently used
+// ones first.
 //
-// Threads   Many threads may use it. If two threads want a value at the same time, it may be made
-//           twice, and one of the two is kept.
+// A search takes logarithmic time if keys have an order, else it compares one key after another.
+//
+// Units     A value has a weight, for example its bytes; a value of no special weight weighs 1.
+// Threads   One thread at a time: the mutex of the owner guards it.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <list>
-#include <mutex>
-#include <optional>
+#include <map>
 #include <utility>
 
 namespace stormcellar {
 
+struct KeptBudget {
+    std::uint64_t weight = std::numeric_limits<std::uint64_t>::max();
+    std::size_t values = std::numeric_limits<std::size_t>::max();
+};
+
 template <class Key, class Value>
 class RecentlyUsed {
   public:
-    explicit RecentlyUsed(std::size_t capacity) : capacity_(capacity) {}
+    explicit RecentlyUsed(KeptBudget budget) : budget_(budget) {}
 
-    // Returns the value, or none if there is none.
-    std::optional<Value> find(const Key& key) {
-        const std::scoped_lock lock(mutex_);
-        for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-            if (!(entry->first == key)) continue;
-            entries_.splice(entries_.begin(), entries_, entry);
-            return entry->second;
+    // Returns the value, which becomes the most recently used one; null if it is not kept.
+    [[nodiscard]] Value* find(const Key& key) {
+        const auto entry = place_of(key);
+        if (entry == entries_.end()) return nullptr;
+        entries_.splice(entries_.begin(), entries_, entry);
+        return &entry->value;
+    }
+    // Keeps a value instead of any other with its key, and drops old ones. The new value itself
+    // stays, however much it weighs. Returns it.
+    Value& keep(const Key& key, Value value, std::uint64_t weight = 1) {
+        drop(key);
+        entries_.push_front({key, std::move(value), weight});
+        if constexpr (is_ordered) {
+            try {
+                places_.emplace(key, entries_.begin());
+            } catch (...) {
+                entries_.pop_front();
+                throw;
+            }
         }
-        return std::nullopt;
+        weight_ += weight;
+        while (entries_.size() > 1 &&
+               (weight_ > budget_.weight || entries_.size() > budget_.values))
+            drop(std::prev(entries_.end()));
+        return entries_.front().value;
     }
-    // Keeps a value and returns the one that stays, which another thread may have made meanwhile.
-    Value keep(const Key& key, Value value) {
-        if (auto found = find(key)) return *std::move(found);
-        const std::scoped_lock lock(mutex_);
-        entries_.emplace_front(key, value);
-        if (entries_.size() > capacity_) entries_.pop_back();
-        return value;
+    void drop(const Key& key) {
+        if (const auto entry = place_of(key); entry != entries_.end()) drop(entry);
     }
+    // Drops every value whose key the function is true for.
+    template <class Predicate>
+    void drop_if(Predicate predicate) {
+        for (auto entry = entries_.begin(); entry != entries_.end();) {
+            const auto next = std::next(entry);
+            if (predicate(entry->key)) drop(entry);
+            entry = next;
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return entries_.size(); }
+    [[nodiscard]] std::uint64_t weight() const { return weight_; }
 
   private:
-    std::size_t capacity_;
-    std::mutex mutex_;                          // guards entries_
-    std::list<std::pair<Key, Value>> entries_;  // the most recently used first
+    static constexpr bool is_ordered = std::totally_ordered<Key>;
+    struct Entry {
+        Key key;
+        Value value;
+        std::uint64_t weight;
+    };
+    using Place = typename std::list<Entry>::iterator;
+
+    Place place_of(const Key& key) {
+        if constexpr (is_ordered) {
+            const auto found = places_.find(key);
+            return found == places_.end() ? entries_.end() : found->second;
+        } else {
+            auto entry = entries_.begin();
+            while (entry != entries_.end() && !(entry->key == key))
+                ++entry;
+            return entry;
+        }
+    }
+    void drop(Place entry) {
+        weight_ -= entry->weight;
+        if constexpr (is_ordered) places_.erase(entry->key);
+        entries_.erase(entry);
+    }
+
+    // No member for keys without an order.
+    struct NoPlaces {};
+    template <class K>
+    struct PlacesOf {
+        using type = NoPlaces;
+    };
+    template <std::totally_ordered K>
+    struct PlacesOf<K> {
+        using type = std::map<K, Place>;
+    };
+
+    KeptBudget budget_;
+    std::uint64_t weight_ = 0;
+    std::list<Entry> entries_;  // the most recently used first
+    typename PlacesOf<Key>::type places_;
 };
 
 }  // namespace stormcellar

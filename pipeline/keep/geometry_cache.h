@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "base/recently_used.h"
@@ -23,11 +24,7 @@ class GeometryCache {
   public:
     // The capacity for column geometries, which are large. The rest takes some 0.1 MiB each, so
     // there may be more.
-    explicit GeometryCache(std::size_t capacity)
-        : geometries_(capacity),
-          windows_(small_ones),
-          distances_(small_ones),
-          places_(small_ones) {}
+    explicit GeometryCache(std::size_t capacity) : geometries_({.values = capacity}) {}
 
     Result<std::shared_ptr<const grid::ColumnGeometry>> get(
         const grid::SitePosition& site, const grid::GridSpec& spec,
@@ -44,7 +41,7 @@ class GeometryCache {
                                                     const grid::GridSpec& spec);
 
   private:
-    static constexpr std::size_t small_ones = 512;
+    static constexpr KeptBudget small_ones{.values = 512};
 
     // The place of a site on a grid, whatever the name of the site.
     struct Place {
@@ -72,10 +69,15 @@ class GeometryCache {
         bool operator==(const Windowed&) const = default;
     };
 
+    // Returns the kept value, or makes it without holding the mutex and keeps it.
+    template <class Key, class Value, class Make>
+    Value find_or_make(RecentlyUsed<Key, Value>& kept, const Key& key, const Make& make);
+
+    std::mutex mutex_;  // guards what follows
     RecentlyUsed<Framed, std::shared_ptr<const grid::ColumnGeometry>> geometries_;
-    RecentlyUsed<Reach, std::optional<grid::GridWindow>> windows_;
-    RecentlyUsed<Windowed, std::shared_ptr<const grid::SiteDistance>> distances_;
-    RecentlyUsed<Place, std::shared_ptr<const grid::SiteColumns>> places_;
+    RecentlyUsed<Reach, std::optional<grid::GridWindow>> windows_{small_ones};
+    RecentlyUsed<Windowed, std::shared_ptr<const grid::SiteDistance>> distances_{small_ones};
+    RecentlyUsed<Place, std::shared_ptr<const grid::SiteColumns>> places_{small_ones};
 };
 
 }  // namespace stormcellar::pipeline

@@ -21,29 +21,20 @@ std::size_t bytes_of(const grid::BrickGrid& made) {
 
 std::shared_ptr<const grid::BrickGrid> InstantCache::find(const Key& key) {
     const std::scoped_lock lock(mutex_);
-    const auto found = by_key_.find(key);
-    if (found == by_key_.end()) return nullptr;
-    entries_.splice(entries_.begin(), entries_, found->second);
-    return found->second->grid;
+    const auto* found = kept_.find(key);
+    return found == nullptr ? nullptr : *found;
 }
 
 void InstantCache::keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made) {
     const std::size_t bytes = bytes_of(*made);
     const std::scoped_lock lock(mutex_);
-    if (bytes > most_bytes_ || by_key_.contains(key)) return;
-    entries_.push_front({key, std::move(made), bytes});
-    by_key_[key] = entries_.begin();
-    bytes_ += bytes;
-    while (bytes_ > most_bytes_) {
-        bytes_ -= entries_.back().bytes;
-        by_key_.erase(entries_.back().key);
-        entries_.pop_back();
-    }
+    if (bytes > most_bytes_ || kept_.find(key) != nullptr) return;
+    kept_.keep(key, std::move(made), bytes);
 }
 
 std::size_t InstantCache::bytes() const {
     const std::scoped_lock lock(mutex_);
-    return bytes_;
+    return kept_.weight();
 }
 
 }  // namespace stormcellar::pipeline

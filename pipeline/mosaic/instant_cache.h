@@ -11,11 +11,10 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <list>
-#include <map>
 #include <memory>
 #include <mutex>
 
+#include "base/recently_used.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/grid/brick_grid.h"
 
@@ -32,7 +31,8 @@ class InstantCache {
         auto operator<=>(const Key&) const = default;
     };
 
-    explicit InstantCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+    explicit InstantCache(std::size_t most_bytes)
+        : most_bytes_(most_bytes), kept_({.weight = most_bytes}) {}
 
     // Returns null if it is not there.
     [[nodiscard]] std::shared_ptr<const grid::BrickGrid> find(const Key& key);
@@ -40,17 +40,9 @@ class InstantCache {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    struct Entry {
-        Key key;
-        std::shared_ptr<const grid::BrickGrid> grid;
-        std::size_t bytes = 0;
-    };
-
     std::size_t most_bytes_;
-    mutable std::mutex mutex_;  // guards what follows
-    std::size_t bytes_ = 0;
-    std::list<Entry> entries_;  // the most recently used first
-    std::map<Key, std::list<Entry>::iterator> by_key_;
+    mutable std::mutex mutex_;  // guards kept_
+    RecentlyUsed<Key, std::shared_ptr<const grid::BrickGrid>> kept_;
 };
 
 }  // namespace stormcellar::pipeline

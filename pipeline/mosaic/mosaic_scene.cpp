@@ -10,8 +10,6 @@
 namespace stormcellar::pipeline {
 namespace {
 
-constexpr std::size_t most_kept = 2;
-
 Result<MadePartial> make_one(const SceneVolume& source, const grid::GridSpec& domain,
                              const PartialOptions& options, GeometryCache& geometries) {
     auto made = make_partial(*source.volume, source.site, domain, options, geometries);
@@ -93,17 +91,17 @@ Status MosaicScene::keep_what_is_near(std::vector<SceneVolume> volumes,
         if (bracket.before) used.insert(*bracket.before);
         if (bracket.after) used.insert(*bracket.after);
     }
-    Kept kept{default_.gridding, default_.fine_codes, {}};
+    std::vector<MadePartial> near;
     for (const std::size_t at : used) {
         volumes_.push_back(std::move(volumes[at]));
         times_.push_back({partials[at].description.start_time, partials[at].description.end_time});
-        kept.partials.push_back(std::move(partials[at]));
+        near.push_back(std::move(partials[at]));
     }
-    kept_.push_front(std::move(kept));
+    const auto& kept = kept_.keep({default_.gridding, default_.fine_codes}, std::move(near));
     if (volumes_.empty()) {
         return fail(ErrorCode::not_found, "no site has a volume near {}", format_utc(instant_));
     }
-    const auto views = views_of(kept_.front().partials);
+    const auto views = views_of(kept);
     brackets_ = brackets_of(views, instant_, options_.frame.greatest_gap);
     const double start_s = now_s();
     auto motions =
@@ -126,25 +124,16 @@ std::size_t MosaicScene::pair_count() const {
 }
 
 Result<const std::vector<MadePartial>*> MosaicScene::partials(const MosaicChoice& choice) {
-    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-        return kept.gridding == choice.gridding && kept.fine_codes == choice.fine_codes;
-    });
-    if (found != kept_.end()) {
-        kept_.splice(kept_.begin(), kept_, found);
-        return &kept_.front().partials;
-    }
+    const Gridding gridding{choice.gridding, choice.fine_codes};
+    if (const auto* found = kept_.find(gridding)) return found;
     auto made =
         make_partials(volumes_, domain_, with_choice(options_.partial, choice), *geometries_);
     if (!made) return pass_on(made);
-    kept_.push_front({choice.gridding, choice.fine_codes, std::move(*made)});
-    if (kept_.size() > most_kept) kept_.pop_back();
-    return &kept_.front().partials;
+    return &kept_.keep(gridding, std::move(*made));
 }
 
 void MosaicScene::forget(const MosaicChoice& choice) {
-    kept_.remove_if([&](const Kept& kept) {
-        return kept.gridding == choice.gridding && kept.fine_codes == choice.fine_codes;
-    });
+    kept_.drop({choice.gridding, choice.fine_codes});
 }
 
 Result<MosaicFrame> MosaicScene::frame(const MosaicChoice& choice) {

@@ -10,10 +10,10 @@
 // Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
 
-#include <list>
 #include <string>
 #include <vector>
 
+#include "base/recently_used.h"
 #include "pipeline/mosaic/mosaic_effects.h"
 #include "pipeline/mosaic/mosaic_frame.h"
 #include "stormcellar/base/result.h"
@@ -93,11 +93,13 @@ class MosaicScene {
     [[nodiscard]] const MosaicChoice& default_choice() const { return default_; }
 
   private:
-    struct Kept {
-        grid::SceneChoice gridding;
+    // What partials depend on.
+    struct Gridding {
+        grid::SceneChoice choice;
         bool fine_codes = false;
-        std::vector<MadePartial> partials;
+        bool operator==(const Gridding&) const = default;
     };
+    static constexpr std::size_t most_kept = 2;
 
     MosaicScene() = default;
     [[nodiscard]] Status keep_what_is_near(std::vector<SceneVolume> volumes,
@@ -112,7 +114,7 @@ class MosaicScene {
     std::vector<Bracket> brackets_;
     Motions motions_;
     double motion_s_ = 0;
-    std::list<Kept> kept_;  // the last used first
+    RecentlyUsed<Gridding, std::vector<MadePartial>> kept_{{.values = most_kept}};
     std::shared_ptr<GeometryCache> geometries_;
 };
 

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstring>
 #include <deque>
-#include <list>
 #include <map>
 #include <mutex>
 #include <shared_mutex>
@@ -16,6 +15,7 @@
 #include <sys/stat.h>
 
 #include "base/beneath.h"
+#include "base/recently_used.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/data/grids/cache_watch.h"
 
@@ -55,7 +55,9 @@ std::uint64_t memory_of(const cache::GridFile& file) {
 }  // namespace
 
 struct Grids::Impl {
-    explicit Impl(GridsOptions given) : options(std::move(given)) {}
+    explicit Impl(GridsOptions given)
+        : options(std::move(given)),
+          open({.weight = options.most_open_bytes, .values = options.most_open}) {}
 
     void take(const CacheChange& change);
     void remember_evicted(const cache::GridName& name);
@@ -67,9 +69,7 @@ struct Grids::Impl {
 
     using OfDomain = std::map<level2::Moment, std::vector<UtcTime>>;
     struct Open {
-        cache::GridName name;
         GridFileStamp stamp;
-        std::uint64_t bytes = 0;
         std::shared_ptr<const OpenGrid> grid;
         // When the file was last seen to be the one that is open, and which changes were known.
         std::chrono::steady_clock::time_point seen_at{};
@@ -89,10 +89,8 @@ struct Grids::Impl {
     std::deque<std::pair<std::uint64_t, cache::GridName>> evicted_order;
     std::uint64_t evictions = 0;
 
-    std::mutex open_mutex;  // guards the next three
-    std::list<Open> open;   // the most recently used first
-    std::map<cache::GridName, std::list<Open>::iterator> open_by_name;
-    std::uint64_t open_bytes = 0;
+    std::mutex open_mutex;  // guards open
+    RecentlyUsed<cache::GridName, Open> open;
     std::array<std::mutex, opening_locks> opening;  // of the grids whose names hash to it
 
     std::mutex listeners_mutex;
@@ -142,49 +140,32 @@ void Grids::Impl::take(const CacheChange& change) {
 
 void Grids::Impl::drop_open(const cache::GridName& name) {
     const std::scoped_lock lock(open_mutex);
-    const auto found = open_by_name.find(name);
-    if (found == open_by_name.end()) return;
-    open_bytes -= found->second->bytes;
-    open.erase(found->second);
-    open_by_name.erase(found);
+    open.drop(name);
 }
 
 std::shared_ptr<const OpenGrid> Grids::Impl::find_open(const cache::GridName& name,
                                                        const GridFileStamp& stamp) {
     const std::scoped_lock lock(open_mutex);
-    const auto found = open_by_name.find(name);
-    if (found == open_by_name.end() || found->second->stamp != stamp) return nullptr;
-    open.splice(open.begin(), open, found->second);
-    found->second->seen_at = std::chrono::steady_clock::now();
-    found->second->seen_changes = changes;
-    return found->second->grid;
+    Open* found = open.find(name);
+    if (found == nullptr || found->stamp != stamp) return nullptr;
+    found->seen_at = std::chrono::steady_clock::now();
+    found->seen_changes = changes;
+    return found->grid;
 }
 
 std::shared_ptr<const OpenGrid> Grids::Impl::find_seen(const cache::GridName& name) {
     const std::scoped_lock lock(open_mutex);
-    const auto found = open_by_name.find(name);
-    if (found == open_by_name.end()) return nullptr;
-    const Open& seen = *found->second;
-    const auto age = std::chrono::steady_clock::now() - seen.seen_at;
-    if (seen.seen_changes != changes || age > look_again_after) return nullptr;
-    open.splice(open.begin(), open, found->second);
-    return seen.grid;
+    const Open* seen = open.find(name);
+    if (seen == nullptr) return nullptr;
+    const auto age = std::chrono::steady_clock::now() - seen->seen_at;
+    if (seen->seen_changes != changes || age > look_again_after) return nullptr;
+    return seen->grid;
 }
 
 void Grids::Impl::keep_open(const cache::GridName& name, const GridFileStamp& stamp,
                             const std::shared_ptr<const OpenGrid>& grid) {
-    drop_open(name);
     const std::scoped_lock lock(open_mutex);
-    if (open_by_name.contains(name)) return;
-    open.push_front({name, stamp, memory_of(grid->file), grid, {}, 0});
-    open_by_name[name] = open.begin();
-    open_bytes += open.front().bytes;
-    while (open.size() > 1 &&
-           (open.size() > options.most_open || open_bytes > options.most_open_bytes)) {
-        open_bytes -= open.back().bytes;
-        open_by_name.erase(open.back().name);
-        open.pop_back();
-    }
+    open.keep(name, {stamp, grid, {}, 0}, memory_of(grid->file));
 }
 
 Grids::Grids(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

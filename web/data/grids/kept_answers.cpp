@@ -41,30 +41,14 @@ struct KeptAnswers::Making {
 
 std::optional<Kept> KeptAnswers::find(const std::string& key) {
     const std::scoped_lock lock(mutex_);
-    const auto found = by_key_.find(key);
-    if (found == by_key_.end()) return std::nullopt;
-    entries_.splice(entries_.begin(), entries_, found->second);
-    return found->second->value;
+    const Kept* found = kept_.find(key);
+    return found == nullptr ? std::nullopt : std::optional(*found);
 }
 
 void KeptAnswers::keep(const std::string& key, const Kept& value) {
     const std::uint64_t size = size_in_budget(key, value);
-    if (size > budget_bytes_ / 4 || by_key_.contains(key)) return;
-    const auto place = by_key_.try_emplace(key).first;
-    try {
-        entries_.push_front({key, value});
-    } catch (...) {
-        by_key_.erase(place);
-        throw;
-    }
-    place->second = entries_.begin();
-    bytes_ += size;
-    while (bytes_ > budget_bytes_) {
-        const Entry& last = entries_.back();
-        bytes_ -= size_in_budget(last.key, last.value);
-        by_key_.erase(last.key);
-        entries_.pop_back();
-    }
+    if (size > most_bytes_of_one_ || kept_.find(key) != nullptr) return;
+    kept_.keep(key, value, size);
 }
 
 Result<Kept> KeptAnswers::find_or_make(const std::string& key,
@@ -72,7 +56,7 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
     if (auto kept = find(key)) return *std::move(kept);
     std::unique_lock lock(mutex_);
     // Another thread may have made it since.
-    if (const auto found = by_key_.find(key); found != by_key_.end()) return found->second->value;
+    if (const Kept* found = kept_.find(key)) return *found;
     if (const auto other = making_.find(key); other != making_.end()) {
         const std::shared_ptr<Making> theirs = other->second;
         theirs->done.wait(lock, [&] { return theirs->is_over; });
@@ -98,20 +82,12 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
 
 void KeptAnswers::forget(std::string_view prefix) {
     const std::scoped_lock lock(mutex_);
-    for (auto entry = entries_.begin(); entry != entries_.end();) {
-        if (!entry->key.starts_with(prefix)) {
-            ++entry;
-            continue;
-        }
-        bytes_ -= size_in_budget(entry->key, entry->value);
-        by_key_.erase(entry->key);
-        entry = entries_.erase(entry);
-    }
+    kept_.drop_if([prefix](const std::string& key) { return key.starts_with(prefix); });
 }
 
 std::uint64_t KeptAnswers::bytes() const {
     const std::scoped_lock lock(mutex_);
-    return bytes_;
+    return kept_.weight();
 }
 
 }  // namespace stormcellar::web

@@ -9,7 +9,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +16,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/recently_used.h"
 #include "stormcellar/base/result.h"
 #include "web/http/answer.h"
 
@@ -30,7 +30,8 @@ struct Kept {
 
 class KeptAnswers {
   public:
-    explicit KeptAnswers(std::uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
+    explicit KeptAnswers(std::uint64_t budget_bytes)
+        : most_bytes_of_one_(budget_bytes / 4), kept_({.weight = budget_bytes}) {}
 
     // Returns the kept value; none if there is none. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const std::string& key);
@@ -44,19 +45,13 @@ class KeptAnswers {
     [[nodiscard]] std::uint64_t bytes() const;
 
   private:
-    struct Entry {
-        std::string key;
-        Kept value;
-    };
     struct Making;
     void keep(const std::string& key, const Kept& value);
 
-    const std::uint64_t budget_bytes_;
+    const std::uint64_t most_bytes_of_one_;
     mutable std::mutex mutex_;
-    std::list<Entry> entries_;  // the most recently used first
-    std::unordered_map<std::string, std::list<Entry>::iterator> by_key_;
+    RecentlyUsed<std::string, Kept> kept_;
     std::unordered_map<std::string, std::shared_ptr<Making>> making_;
-    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace stormcellar::web

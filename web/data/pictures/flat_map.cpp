@@ -139,23 +139,6 @@ render::FlatField halved_field(const render::FlatField& field, const render::Sce
     return half;
 }
 
-std::shared_ptr<const FlatMap> FlatMaps::find_kept(const std::string& key) {
-    const auto found = std::ranges::find(maps_, key, &KeptMap::key);
-    if (found == maps_.end()) return nullptr;
-    maps_.splice(maps_.begin(), maps_, found);
-    return found->map;
-}
-
-void FlatMaps::keep(const std::string& key, std::shared_ptr<const FlatMap> map) {
-    bytes_ += map->bytes();
-    maps_.push_front({key, std::move(map)});
-    // The newest one stays, however large it is: the tiles beside the first one need it.
-    while (bytes_ > budget_bytes_ && maps_.size() > 1) {
-        bytes_ -= maps_.back().map->bytes();
-        maps_.pop_back();
-    }
-}
-
 Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& grid,
                                                               const render::Scene& scene,
                                                               int threads) {
@@ -163,7 +146,7 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
     {
         std::unique_lock lock(mutex_);
         made_.wait(lock, [&] { return !making_.contains(key); });
-        if (auto kept = find_kept(key)) return kept;
+        if (const auto* kept = maps_.find(key)) return *kept;
         making_.insert(key);
     }
     // Wakes the threads that wait for the map, even if there is no memory for it.
@@ -182,14 +165,14 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
     auto map = made_map(grid, scene, threads);
     if (map) {
         const std::scoped_lock lock(mutex_);
-        keep(key, *map);
+        maps_.keep(key, *map, (*map)->bytes());
     }
     return map;
 }
 
 std::uint64_t FlatMaps::bytes() const {
     const std::scoped_lock lock(mutex_);
-    return bytes_;
+    return maps_.weight();
 }
 
 }  // namespace stormcellar::web

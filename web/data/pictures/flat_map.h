@@ -19,13 +19,13 @@
 
 #include <condition_variable>
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "base/recently_used.h"
 #include "render/products/flat_field.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/scene.h"
@@ -45,7 +45,8 @@ struct FlatMap {
 
 class FlatMaps {
   public:
-    explicit FlatMaps(std::uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
+    // The newest map stays, however large it is: the tiles beside the first one need it.
+    explicit FlatMaps(std::uint64_t budget_bytes) : maps_({.weight = budget_bytes}) {}
 
     // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that
     // was cut while it was read.
@@ -55,19 +56,10 @@ class FlatMaps {
     [[nodiscard]] std::uint64_t bytes() const;
 
   private:
-    struct KeptMap {
-        std::string key;
-        std::shared_ptr<const FlatMap> map;
-    };
-    [[nodiscard]] std::shared_ptr<const FlatMap> find_kept(const std::string& key);
-    void keep(const std::string& key, std::shared_ptr<const FlatMap> map);
-
-    const std::uint64_t budget_bytes_;
     mutable std::mutex mutex_;
     std::condition_variable made_;
-    std::list<KeptMap> maps_;  // the most recently used first
+    RecentlyUsed<std::string, std::shared_ptr<const FlatMap>> maps_;
     std::set<std::string> making_;
-    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace stormcellar::web

@@ -76,7 +76,9 @@ std::string MapPicture::etag() const {
 }
 
 MapPictures::MapPictures(MapPicturesOptions options)
-    : options_(std::move(options)), maps_(options_.map_bytes) {}
+    : options_(std::move(options)),
+      maps_(options_.map_bytes),
+      boxes_({.values = most_boxes_known}) {}
 
 std::optional<Kept> MapPictures::find(const MapPicture& picture) {
     return options_.kept->find(picture.key());
@@ -156,18 +158,11 @@ Result<Kept> MapPictures::legend(const PictureLayer& layer) {
 render::EarthBox MapPictures::box_of(const std::string& domain, const grid::GridSpec& spec) {
     {
         const std::scoped_lock lock(boxes_mutex_);
-        const auto known = std::ranges::find_if(
-            boxes_, [&](const KnownBox& box) { return box.domain == domain && box.spec == spec; });
-        if (known != boxes_.end()) {
-            boxes_.splice(boxes_.begin(), boxes_, known);
-            return known->box;
-        }
+        if (const auto* known = boxes_.find({domain, spec})) return *known;
     }
     const render::EarthBox box = render::earth_box_of(spec);
     const std::scoped_lock lock(boxes_mutex_);
-    boxes_.push_front({domain, spec, box});
-    if (boxes_.size() > most_boxes_known) boxes_.pop_back();
-    return box;
+    return boxes_.keep({domain, spec}, box);
 }
 
 int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,

@@ -10,14 +10,15 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/recently_used.h"
 #include "render/still/plane_picture.h"
 #include "stormcellar/base/result.h"
 #include "web/data/grids/grids.h"
@@ -85,15 +86,11 @@ class MapPictures {
     [[nodiscard]] Result<render::Image> drawn(const PictureLayer& layer,
                                               const render::PlaneWindow& window);
 
-    struct KnownBox {
-        std::string domain;
-        grid::GridSpec spec;
-        render::EarthBox box;
-    };
+    using DomainSpec = std::pair<std::string, grid::GridSpec>;
     MapPicturesOptions options_;
     FlatMaps maps_;
     std::mutex boxes_mutex_;
-    std::list<KnownBox> boxes_;  // the most recently used first
+    RecentlyUsed<DomainSpec, render::EarthBox> boxes_;
 };
 
 // Returns how often to halve a field for pixels of this window: until a cell has at least 0.87 of

@@ -251,23 +251,14 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
 
 std::optional<OpenedRaw> RawOpener::find_joined(const std::string& key) {
     const std::scoped_lock lock(mutex_);
-    const auto known = std::ranges::find(joined_, key, [](const auto& one) { return one.first; });
-    if (known == joined_.end()) return std::nullopt;
-    joined_.splice(joined_.begin(), joined_, known);
-    return joined_.front().second;
+    const OpenedRaw* known = joined_.find(key);
+    return known == nullptr ? std::nullopt : std::optional(*known);
 }
 
 void RawOpener::keep_joined(const std::string& key, const OpenedRaw& joined) {
+    if (budget_.values == 0 || joined.size_bytes > budget_.weight) return;
     const std::scoped_lock lock(mutex_);
-    // Two clients may have asked at the same time.
-    std::erase_if(joined_, [&](const auto& one) { return one.first == key; });
-    joined_.emplace_front(key, joined);
-    std::uint64_t bytes = 0;
-    std::size_t count = 0;
-    std::erase_if(joined_, [&](const auto& one) {
-        bytes += one.second.size_bytes;
-        return ++count > most_joined_ || bytes > most_joined_bytes_;
-    });
+    joined_.keep(key, joined, joined.size_bytes);
 }
 
 Result<RawFacts> RawOpener::facts_of(const CatalogReader& catalog, const CatalogEntry& entry) {

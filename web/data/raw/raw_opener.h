@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,6 +15,7 @@
 
 #include <sys/stat.h>
 
+#include "base/recently_used.h"
 #include "stormcellar/base/descriptor.h"
 #include "stormcellar/catalog/catalog.h"
 #include "web/data/raw/raw_files.h"
@@ -44,8 +44,8 @@ class RawOpener {
     RawOpener(std::filesystem::path scratch, std::size_t most_joined,
               std::uint64_t most_joined_bytes)
         : scratch_(std::move(scratch)),
-          most_joined_(most_joined),
-          most_joined_bytes_(most_joined_bytes) {}
+          budget_{.weight = most_joined_bytes, .values = most_joined},
+          joined_(budget_) {}
 
     [[nodiscard]] OpenedRawOrMissing open(const catalog::CatalogReader& catalog,
                                           const catalog::CatalogEntry& entry);
@@ -68,12 +68,11 @@ class RawOpener {
     void remember_facts(const catalog::CatalogEntry& entry, const RawFacts& facts);
 
     const std::filesystem::path scratch_;
-    const std::size_t most_joined_;
-    const std::uint64_t most_joined_bytes_;
-    std::mutex mutex_;  // guards what follows
+    const KeptBudget budget_;  // of joined_
+    std::mutex mutex_;         // guards what follows
     std::map<State, std::uint64_t> hashes_;
-    std::list<std::pair<std::string, OpenedRaw>> joined_;  // the most recently used first
-    std::map<std::string, RawFacts> facts_;                // of settled volumes of chunks
+    RecentlyUsed<std::string, OpenedRaw> joined_;
+    std::map<std::string, RawFacts> facts_;  // of settled volumes of chunks
 };
 
 }  // namespace stormcellar::web

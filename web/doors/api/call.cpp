@@ -38,21 +38,20 @@ Result<double> bounded_number(std::string_view name, std::string_view text, doub
 
 }  // namespace
 
+ApiState::ApiState(ApiSources sources)
+    : sources_(std::move(sources)),
+      catalog_(sources_.catalog, sources_.reader),
+      halved_({.values = most_halved_kept}) {}
+
 ApiState::Halved ApiState::find_halved(const std::string& key) {
     const std::scoped_lock lock(mutex_);
-    for (auto entry = halved_.begin(); entry != halved_.end(); ++entry) {
-        if (entry->first != key) continue;
-        halved_.splice(halved_.begin(), halved_, entry);
-        return entry->second;
-    }
-    return nullptr;
+    const Halved* found = halved_.find(key);
+    return found == nullptr ? nullptr : *found;
 }
 
 void ApiState::keep_halved(const std::string& key, const Halved& halved) {
     const std::scoped_lock lock(mutex_);
-    halved_.emplace_front(key, halved);
-    while (halved_.size() > most_halved_kept)
-        halved_.pop_back();
+    halved_.keep(key, halved);
 }
 
 ApiState::DecodedVolume ApiState::find_volume(const std::string& key) {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -17,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/recently_used.h"
 #include "stormcellar/catalog/catalog.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/site_frame.h"
@@ -46,8 +46,7 @@ struct ApiSources {
 
 class ApiState {
   public:
-    explicit ApiState(ApiSources sources)
-        : sources_(std::move(sources)), catalog_(sources_.catalog, sources_.reader) {}
+    explicit ApiState(ApiSources sources);
     [[nodiscard]] const ApiSources& sources() const { return sources_; }
 
     // Returns the catalog. It is opened when it is first asked for, since it may come later.
@@ -67,8 +66,8 @@ class ApiState {
   private:
     const ApiSources sources_;
     ServedCatalog catalog_;
-    std::mutex mutex_;                                  // guards what follows
-    std::list<std::pair<std::string, Halved>> halved_;  // the most recently used first
+    std::mutex mutex_;  // guards what follows
+    RecentlyUsed<std::string, Halved> halved_;
     std::string volume_key_;
     DecodedVolume volume_;
 };
