@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/checksum.h"
 #include "base/floating_point.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/data/grids/text_answer.h"
@@ -63,6 +64,24 @@ void ApiState::keep_volume(const std::string& key, DecodedVolume volume) {
     const std::scoped_lock lock(mutex_);
     volume_key_ = key;
     volume_ = std::move(volume);
+}
+
+Result<Kept> kept_compressed(std::string_view bytes, Coding coding) {
+    auto sent = compressed(bytes, coding);
+    if (!sent) return pass_on(sent);
+    std::string etag = fmt::format("\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(bytes))),
+                                   coding_name(coding));
+    return Kept{text_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
+}
+
+Entity entity_of(const Kept& kept, std::string content_type) {
+    Entity entity;
+    entity.bytes = {kept.bytes};
+    entity.content_type = std::move(content_type);
+    entity.etag = kept.etag;
+    entity.coding = kept.notes;
+    entity.varies = true;
+    return entity;
 }
 
 std::string ApiCall::path_value(std::string_view name) const {

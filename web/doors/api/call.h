@@ -21,6 +21,7 @@
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/site_frame.h"
 #include "stormcellar/level2/volume.h"
+#include "web/data/grids/compressed.h"
 #include "web/data/grids/grids.h"
 #include "web/data/grids/kept_answers.h"
 #include "web/data/grids/region.h"
@@ -83,6 +84,11 @@ struct ApiCall {
     [[nodiscard]] Grids& grids() const { return *state.sources().grids; }
     [[nodiscard]] std::string path_value(std::string_view name) const;
 };
+
+// Compresses an answer to be kept. Its ETag is that of the bytes before compression.
+[[nodiscard]] Result<Kept> kept_compressed(std::string_view bytes, Coding coding);
+// The answer with kept bytes in the coding that its notes name.
+[[nodiscard]] Entity entity_of(const Kept& kept, std::string content_type);
 
 // A value, or the answer that says what went wrong.
 template <class T>

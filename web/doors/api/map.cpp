@@ -175,11 +175,7 @@ Result<Kept> make_map(const MapRequest& wanted, Coding coding) {
     if (Status added = add_lines(*map, wanted, json["lines"]); !added) return pass_on(added);
     json["cities"] = wanted.cities ? cities_json(*map, wanted) : ApiJson::array();
     const std::string text = json.dump() + "\n";
-    auto sent = compressed(text, coding);
-    if (!sent) return pass_on(sent);
-    std::string etag =
-        fmt::format("\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(text))), coding_name(coding));
-    return Kept{text_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
+    return kept_compressed(text, coding);
 }
 
 }  // namespace
@@ -192,12 +188,7 @@ Answer api_map(const ApiCall& call) {
         fmt::format("map/{}/{}", wanted->text(), coding_name(coding)),
         [&] { return make_map(*wanted, coding); });
     if (!kept) return json_error(kept.error());
-    Entity entity;
-    entity.bytes = {kept->bytes};
-    entity.content_type = "application/json";
-    entity.etag = kept->etag;
-    entity.coding = kept->notes;
-    entity.varies = true;
+    Entity entity = entity_of(*kept, "application/json");
     entity.max_age = std::chrono::hours{1};
     return answer_with(call.request, std::move(entity));
 }

@@ -215,12 +215,7 @@ Result<Kept> make_packed(ApiState& state, const OpenGrid& grid, const PackedRequ
 
 Answer packed_answer(const Request& request, const Kept& kept,
                      std::optional<std::chrono::seconds> max_age = {}) {
-    Entity entity;
-    entity.bytes = {kept.bytes};
-    entity.content_type = "application/octet-stream";
-    entity.etag = kept.etag;
-    entity.coding = kept.notes;
-    entity.varies = true;
+    Entity entity = entity_of(kept, "application/octet-stream");
     entity.max_age = max_age;
     entity.never_changes = max_age == a_year;
     return answer_with(request, std::move(entity));

@@ -175,23 +175,12 @@ Answer api_gates(const ApiCall& call) {
             const auto bytes =
                 pack_sweep(**volume, sweep->first, *moment, static_cast<std::size_t>(*kind));
             if (!bytes) return pass_on(bytes);
-            auto sent = compressed(*bytes, coding);
-            if (!sent) return pass_on(sent);
-            std::string etag = fmt::format(
-                "\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(*bytes))), coding_name(coding));
-            return Kept{text_of(std::move(*sent)), std::move(etag),
-                        std::string(coding_name(coding))};
+            return kept_compressed(*bytes, coding);
         });
         if (!made) return json_error(made.error());
         kept = std::move(*made);
     }
-    Entity entity;
-    entity.bytes = {kept->bytes};
-    entity.content_type = "application/octet-stream";
-    entity.etag = kept->etag;
-    entity.coding = kept->notes;
-    entity.varies = true;
-    return answer_with(call.request, std::move(entity));
+    return answer_with(call.request, entity_of(*kept, "application/octet-stream"));
 }
 
 }  // namespace stormcellar::web

@@ -31,29 +31,19 @@ Result<Kept> make_tables(Coding coding) {
         usual[std::string(level2::moment_name(moment))] = render::smooth_color_table(moment).name;
     const std::string text =
         ApiJson{{"tables", std::move(tables)}, {"usual", std::move(usual)}}.dump() + "\n";
-    auto sent = compressed(text, coding);
-    if (!sent) return pass_on(sent);
-    std::string etag =
-        fmt::format("\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(text))), coding_name(coding));
-    return Kept{text_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
+    return kept_compressed(text, coding);
 }
 
 }  // namespace
 
-// The tables are the same as long as the program runs, and as text they are as large as a small
-// grid.
+// The tables never change while the program runs, and their JSON is as large as a small grid, so it
+// is kept.
 Answer api_tables(const ApiCall& call) {
     const Coding coding = coding_for(call.request);
     const auto kept = call.state.sources().kept->find_or_make(
         fmt::format("tables/{}", coding_name(coding)), [&] { return make_tables(coding); });
     if (!kept) return json_error(kept.error());
-    Entity entity;
-    entity.bytes = {kept->bytes};
-    entity.content_type = "application/json";
-    entity.etag = kept->etag;
-    entity.coding = kept->notes;
-    entity.varies = true;
-    return answer_with(call.request, std::move(entity));
+    return answer_with(call.request, entity_of(*kept, "application/json"));
 }
 
 }  // namespace stormcellar::web
