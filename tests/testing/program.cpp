@@ -1,16 +1,15 @@
 #include "tests/testing/program.h"
 
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <stdexcept>
-#include <thread>
 
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 extern char** environ;
 
@@ -78,9 +77,7 @@ int interrupt_program(const std::filesystem::path& program,
                       const std::vector<std::string>& arguments,
                       const std::function<bool()>& seen) {
     const pid_t child = start(program, arguments, nullptr);
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!seen() && std::chrono::steady_clock::now() < limit)
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    (void)eventually(seen);
     kill(child, SIGINT);
     int status = 0;
     waitpid(child, &status, 0);
@@ -104,12 +101,7 @@ std::string RunningProgram::err() const {
 }
 
 bool RunningProgram::wait_for(const std::function<bool()>& seen) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!seen()) {
-        if (std::chrono::steady_clock::now() > limit) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return true;
+    return eventually(seen);
 }
 
 int RunningProgram::end(int signal) {
