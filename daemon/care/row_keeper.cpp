@@ -17,7 +17,7 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
     if (now < rested_) return;
     const bool deletes = gone_rows_kept_for.count() > 0 && now >= next_deletion_;
     const auto work = [this, deletes, gone_rows_kept_for] {
-        const SteadyTime began = std::chrono::steady_clock::now();
+        const SteadyTime began = clock_();
         try {
             const AtWork at_work(pulse_);
             mark_missing();
@@ -27,7 +27,7 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
             log_warning({Event::files_gone_failed},
                         "cannot check which cataloged files are gone: {}", error.what());
         }
-        return std::chrono::steady_clock::now() - began;
+        return clock_() - began;
     };
     try {
         work_ = std::async(std::launch::async, work);

@@ -9,7 +9,9 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <future>
+#include <utility>
 
 #include "base/steady_time.h"
 #include "daemon/queue/sink.h"
@@ -22,7 +24,9 @@ class RowKeeper {
     static constexpr int rest = 10;  // It rests this many times as long as it worked.
     static constexpr std::chrono::hours between_deletions{1};
 
-    explicit RowKeeper(Sink& sink) : sink_(sink) {}
+    // The clock measures how long the work takes, in the thread that works.
+    explicit RowKeeper(Sink& sink, std::function<SteadyTime()> clock = steady_now)
+        : sink_(sink), clock_(std::move(clock)) {}
 
     // Starts the work, unless it is running or resting. Rows of files that are gone are kept for
     // `gone_rows_kept_for` after their last registration; 0: forever.
@@ -35,6 +39,7 @@ class RowKeeper {
     void delete_gone(std::chrono::milliseconds gone_rows_kept_for);
 
     Sink& sink_;
+    const std::function<SteadyTime()> clock_;
     Pulse pulse_;
     SteadyTime began_{}, rested_{}, next_deletion_{};
     // Gives how long the work took. The last member: its thread is waited for before the others are

@@ -2,14 +2,16 @@
 #include "daemon/care/row_keeper.h"
 
 #include <atomic>
+#include <optional>
 #include <stdexcept>
-#include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "daemon/log/log.h"
 #include "tests/daemon/journal_socket.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -24,10 +26,8 @@ class RowSink final : public Sink {
         return Taken{};
     }
     Result<int> mark_missing(const OnStep& /*step*/) override {
-        while (hold) {
-            is_held = true;
-            std::this_thread::sleep_for(milliseconds{1});
-        }
+        is_held = hold.load();
+        EXPECT_TRUE(testing::eventually([this] { return !hold; }));
         if (throws) throw std::runtime_error("no memory");
         ++looks;
         return 0;
@@ -51,28 +51,31 @@ class RowKeeperTest : public ::testing::Test {
     void TearDown() override { set_up_logging("info"); }
     // Waits until it has looked this often.
     void look(int looks, milliseconds gone_rows_kept_for = {}) {
-        for (int i = 0; i < 10'000 && sink_.looks < looks; ++i) {
-            keeper_.look(now_, gone_rows_kept_for);
-            std::this_thread::sleep_for(milliseconds{1});
-        }
+        EXPECT_TRUE(testing::eventually([&] {
+            keeper_->look(now_, gone_rows_kept_for);
+            return sink_.looks >= looks;
+        }));
         wait_for_rest();
     }
     void wait_for_rest() {
-        for (int i = 0; i < 10'000 && keeper_.pulse().since(); ++i)
-            std::this_thread::sleep_for(milliseconds{1});
+        EXPECT_TRUE(testing::eventually([this] { return !keeper_->pulse().since(); }));
     }
     // Returns the next line of the log; "" if none comes.
     std::string next_line() {
-        for (int i = 0; i < 10'000; ++i) {
-            if (const auto fields = journal_.receive_fields()) return fields->at("MESSAGE");
-            std::this_thread::sleep_for(milliseconds{1});
-        }
-        return {};
+        std::string line;
+        (void)testing::eventually([&] {
+            const auto fields = journal_.receive_fields();
+            if (fields) line = fields->at("MESSAGE");
+            return fields.has_value();
+        });
+        return line;
     }
     testing::TemporaryDirectory directory_;
     JournalSocket journal_{directory_ / "journal"};
     RowSink sink_;
-    RowKeeper keeper_{sink_};
+    std::atomic<milliseconds> ahead_{};  // of the clock that measures the work
+    std::optional<RowKeeper> keeper_{std::in_place, sink_,
+                                     [this] { return steady_now() + ahead_.load(); }};
     SteadyTime now_{seconds{100'000}};
 };
 
@@ -106,27 +109,22 @@ TEST_F(RowKeeperTest, ForgetsOnceAnHour) {
 
 TEST_F(RowKeeperTest, TakesATenthOfTheTimeAtMost) {
     sink_.hold = true;
-    keeper_.look(now_, {});
-    // The time of the look counts from here: the system may start its thread late.
-    while (!sink_.is_held)
-        std::this_thread::sleep_for(milliseconds{1});
-    std::this_thread::sleep_for(milliseconds{200});
-    keeper_.look(now_ + seconds{60}, {});
+    keeper_->look(now_, {});
+    EXPECT_TRUE(testing::eventually([this] { return sink_.is_held.load(); }));
+    ahead_ = milliseconds{200};
+    keeper_->look(now_ + seconds{60}, {});
     sink_.hold = false;
     wait_for_rest();
     EXPECT_EQ(sink_.looks, 1) << "not while it is at work";
-    keeper_.look(now_ + seconds{1}, {});
-    keeper_.look(now_ + milliseconds{1900}, {});
-    wait_for_rest();
+    keeper_->look(now_ + seconds{1}, {});
+    keeper_->look(now_ + milliseconds{2199}, {});
+    keeper_.reset();  // waits for what has begun
     EXPECT_EQ(sink_.looks, 1) << "nor while it rests";
-    now_ += hours{1};
-    look(2);
-    EXPECT_EQ(sink_.looks, 2);
 }
 
 TEST_F(RowKeeperTest, GoesOnWhenALookFails) {
     sink_.throws = true;
-    keeper_.look(now_, {});
+    keeper_->look(now_, {});
     EXPECT_EQ(next_line(), "cannot check which cataloged files are gone: no memory");
     sink_.throws = false;
     now_ += hours{1};
