@@ -111,6 +111,7 @@ void PartialsKeeper::wait() {
 }
 
 void PartialsKeeper::scan(Machine& machine) {
+    ++machine.scans;
     const Status scanned = machine.directory->scan();
     machine.next_scan = steady_now() + (machine.directory->is_blind() || !scanned
                                             ? std::min(times_.poll, times_.rescan)
@@ -303,10 +304,16 @@ void PartialsKeeper::judge() {
 
 void PartialsKeeper::publish() {
     std::vector<MachineFacts> facts;
-    for (const Machine& machine : machines_)
+    std::uint64_t scans = machines_.front().scans;
+    for (const Machine& machine : machines_) {
         facts.push_back(machine.facts);
-    const std::scoped_lock lock(mutex_);
-    published_ = std::move(facts);
+        scans = std::min(scans, machine.scans);
+    }
+    {
+        const std::scoped_lock lock(mutex_);
+        published_ = std::move(facts);
+    }
+    published_scans_ = scans;
 }
 
 }  // namespace stormcellar::daemon

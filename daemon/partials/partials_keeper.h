@@ -17,7 +17,8 @@
 // is that much older than the newest of any machine. The frames themselves decide for each instant
 // (pipeline/options/partial_sources.h); this is what the log, the status and the metrics say.
 //
-// Threads   facts() and pulse() from any thread. The destructor waits for what has begun (one
+// Threads   facts(), scans() and pulse() from any thread. The destructor waits for what has begun
+// (one
 //           partial with its frames).
 #pragma once
 
@@ -60,11 +61,14 @@ class PartialsKeeper {
     ~PartialsKeeper();
 
     [[nodiscard]] std::vector<MachineFacts> facts() const;
+    // Returns how often each directory has been scanned, counted when the turn of a scan has ended.
+    [[nodiscard]] std::uint64_t scans() const { return published_scans_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 
   private:
     struct Machine {
         std::unique_ptr<MachineDirectory> directory;
+        std::uint64_t scans = 0;
         SteadyTime next_scan{};
         SteadyTime last_news = steady_now();
         MachineFacts facts;
@@ -93,6 +97,7 @@ class PartialsKeeper {
     SteadyTime next_mending_{};      // of the thread
     mutable std::mutex mutex_;
     std::vector<MachineFacts> published_;  // guarded by mutex_
+    std::atomic<std::uint64_t> published_scans_{0};
     WakeUp wake_up_;
     Pulse pulse_;
     std::atomic<bool> stopping_{false};

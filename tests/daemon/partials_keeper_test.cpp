@@ -10,6 +10,7 @@
 
 #include "tests/pipeline/invented_partials.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -19,6 +20,7 @@ using pipeline::InventedPartial;
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
+const InventedPartial first_of_all{"KBGM", 38, 0, 20};
 const InventedPartial early{"KBGM", 44, 0, 20}, later{"KBGM", 50, 0, 25};
 const InventedPartial other{"KOKX", 51, 48, 35};
 
@@ -64,10 +66,10 @@ class PartialsKeeperTest : public ::testing::Test {
         return fs::exists(*store_.path_of("north." + partial.station, level2::Moment::ref,
                                           pipeline::minute(partial.minute)));
     }
-    static bool comes(const std::function<bool()>& seen) {
-        for (int i = 0; i < 500 && !seen(); ++i)
-            std::this_thread::sleep_for(milliseconds{20});
-        return seen();
+    // Waits until each directory has been scanned so often again, from the beginning to the end.
+    bool is_scanned_again(std::uint64_t times) {
+        const std::uint64_t until = keeper_->scans() + 1 + times;  // one may be under way
+        return testing::eventually([&] { return keeper_->scans() >= until; });
     }
     [[nodiscard]] MachineFacts north() const { return keeper_->facts().at(0); }
     [[nodiscard]] MachineFacts south() const { return keeper_->facts().at(1); }
@@ -84,10 +86,10 @@ class PartialsKeeperTest : public ::testing::Test {
 TEST_F(PartialsKeeperTest, TakesWhatIsThereAndWhatComesAndMakesFrames) {
     bring("north", early);
     start();
-    EXPECT_TRUE(comes([&] { return is_kept(early); })) << "it was there at the start";
+    EXPECT_TRUE(testing::eventually([&] { return is_kept(early); })) << "it was there at the start";
     bring("north", later);
     bring("south", other);
-    EXPECT_TRUE(comes([&] { return north().taken == 2 && south().taken == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return north().taken == 2 && south().taken == 1; }));
     EXPECT_EQ(north().newest, pipeline::minute(52));
     EXPECT_TRUE(north().arrived);
     EXPECT_TRUE(fs::exists(*store_.path_of("north", level2::Moment::ref, pipeline::minute(50))))
@@ -109,12 +111,12 @@ TEST_F(PartialsKeeperTest, AFileThatIsBeingWrittenIsTakenOnceItIsWhole) {
     std::ofstream file(path, std::ios::binary);
     file << std::string_view{bytes}.substr(0, bytes.size() / 2);
     file.flush();
-    std::this_thread::sleep_for(milliseconds{1200});
+    EXPECT_TRUE(is_scanned_again(1));
     EXPECT_FALSE(is_kept(early));
     EXPECT_EQ(north().refused, 0U) << "nobody complains of what is still coming";
     file << std::string_view{bytes}.substr(bytes.size() / 2);
     file.close();
-    EXPECT_TRUE(comes([&] { return is_kept(early); }));
+    EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
 }
 
 TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
@@ -126,12 +128,12 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     // The file seems to have been written an hour ago.
     fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours{1});
     start();
-    EXPECT_TRUE(comes([&] { return north().refused == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return north().refused == 1; }));
     EXPECT_THAT(north().last_problem, HasSubstr("1 of"));
-    std::this_thread::sleep_for(milliseconds{3200});
+    EXPECT_TRUE(is_scanned_again(3));
     EXPECT_EQ(north().refused, 1U) << "through several scans";
     bring("north", early);
-    EXPECT_TRUE(comes([&] { return is_kept(early); }));
+    EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
 }
 
 // 2026-11-28: one part with other codes, or of a place that the earth does not have, ended all
@@ -149,7 +151,7 @@ TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
         // The keeper waits for a younger file, because it may still be coming.
         fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours{1});
         start();
-        EXPECT_TRUE(comes([&] { return south().refused == 1; })) << why;
+        EXPECT_TRUE(testing::eventually([&] { return south().refused == 1; })) << why;
         EXPECT_THAT(south().last_problem, HasSubstr(why));
         EXPECT_FALSE(is_kept(part)) << why;
         keeper_.reset();
@@ -164,7 +166,7 @@ TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
     bring("south", invented);
     bring("north", listed);
     start();
-    EXPECT_TRUE(comes([&] { return south().refused == 1 && north().taken == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return south().refused == 1 && north().taken == 1; }));
     EXPECT_THAT(south().last_problem, HasSubstr("QAAA is no known station"));
     EXPECT_FALSE(is_kept(invented));
     EXPECT_TRUE(is_kept(listed));
@@ -175,12 +177,12 @@ TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     stations_ = {{"north", {"KBGM"}}};
     start();
     bring("south", early);
-    EXPECT_TRUE(comes([&] { return south().refused == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return south().refused == 1; }));
     EXPECT_THAT(south().last_problem, HasSubstr("[partials.stations] does not give it KBGM"));
     EXPECT_FALSE(is_kept(early));
     bring("north", later);
     bring("south", other);
-    EXPECT_TRUE(comes([&] { return north().taken == 1 && south().taken == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return north().taken == 1 && south().taken == 1; }));
     EXPECT_EQ(south().refused, 1U);
 }
 
@@ -190,14 +192,14 @@ TEST_F(PartialsKeeperTest, APartThatReplacesThatOfAnotherMachineIsNamed) {
     start();
     bring("north", early);
     bring("north", later);
-    ASSERT_TRUE(comes([&] { return north().taken == 2; }));
+    ASSERT_TRUE(testing::eventually([&] { return north().taken == 2; }));
     InventedPartial forged = early;
     forged.longer_ms = 1;
     std::string log;
     {
         ::testing::internal::CaptureStdout();
         bring("south", forged);
-        EXPECT_TRUE(comes([&] { return south().replaced == 1; }));
+        EXPECT_TRUE(testing::eventually([&] { return south().replaced == 1; }));
         bring("north", early);
         keeper_.reset();
         log = ::testing::internal::GetCapturedStdout();
@@ -212,21 +214,23 @@ TEST_F(PartialsKeeperTest, APartThatCameBeforeThatOfAnotherMachineIsNamedToo) {
     forged.longer_ms = 1;
     start();
     bring("south", forged);
-    ASSERT_TRUE(comes([&] { return south().taken == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return south().taken == 1; }));
     bring("north", early);
-    EXPECT_TRUE(comes([&] { return south().replaced == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return south().replaced == 1; }));
     EXPECT_EQ(north().replaced, 0U);
 }
 
 TEST_F(PartialsKeeperTest, TheSamePartOfTwoMachinesReplacesNothing) {
     start();
     bring("north", early);
-    ASSERT_TRUE(comes([&] { return north().taken == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return north().taken == 1; }));
     bring("south", early);
     bring("south", later);
-    ASSERT_TRUE(comes([&] { return south().taken == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return south().taken == 1; }));
     bring("south", later);
-    std::this_thread::sleep_for(milliseconds{700});
+    // The newest comes first, so this one comes after all others.
+    bring("south", first_of_all);
+    EXPECT_TRUE(testing::eventually([&] { return south().taken == 2; }));
     EXPECT_EQ(north().replaced + south().replaced, 0U);
 }
 
@@ -237,9 +241,9 @@ TEST_F(PartialsKeeperTest, AVolumeOfTheFutureMakesNoOtherMachineLate) {
     start(std::chrono::seconds{600});
     bring("north", {"KBGM", minute - 7, 0, 20});
     bring("south", {"KOKX", minute + 5, 48, 35});
-    EXPECT_TRUE(comes([&] { return north().taken == 1 && south().taken == 1; }));
-    EXPECT_TRUE(comes([&] { return south().newest.has_value(); }));
-    std::this_thread::sleep_for(milliseconds{1200});
+    EXPECT_TRUE(testing::eventually([&] { return north().taken == 1 && south().taken == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return south().newest.has_value(); }));
+    EXPECT_TRUE(is_scanned_again(1));
     EXPECT_FALSE(north().is_late) << north().why;
 }
 
@@ -250,7 +254,7 @@ TEST_F(PartialsKeeperTest, AfterAStartFramesThatLackAPartAreMade) {
     for (const InventedPartial& partial : {early, later, other})
         pipeline::commit(store_, partial);  // a daemon that was killed before it made a frame
     start();
-    EXPECT_TRUE(comes([&] {
+    EXPECT_TRUE(testing::eventually([&] {
         return fs::exists(*store_.path_of("north", level2::Moment::ref, pipeline::minute(50)));
     }));
 }
@@ -266,36 +270,38 @@ TEST_F(PartialsKeeperTest, OtherFilesAreNotLookedAt) {
         write(directory_ / "north" / name, bytes);
     fs::create_directory_symlink(directory_ / "made", directory_ / "north" / "linked");
     bring("south", other);
-    EXPECT_TRUE(comes([&] { return is_kept(other); }));
-    std::this_thread::sleep_for(milliseconds{700});
-    EXPECT_EQ(north().taken, 0U);
+    bring("north", first_of_all);
+    EXPECT_TRUE(testing::eventually([&] { return is_kept(other) && north().taken > 0; }));
+    EXPECT_TRUE(is_scanned_again(2));
+    EXPECT_EQ(north().taken, 1U) << "the last one alone";
     EXPECT_EQ(north().refused, 0U);
 }
 
 TEST_F(PartialsKeeperTest, ALostPartialIsTakenAgain) {
     start();
     bring("north", early);
-    ASSERT_TRUE(comes([&] { return north().taken == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return north().taken == 1; }));
     cache::StoreEntry entry;
     entry.domain = "north.KBGM";
     entry.time = pipeline::minute(early.minute);
     ASSERT_TRUE(store_.remove(entry));
-    EXPECT_TRUE(comes([&] { return is_kept(early); }));
+    EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
 }
 
 TEST_F(PartialsKeeperTest, AMachineThatBringsNothingIsLateAndComesBack) {
     fs::remove(directory_ / "south");
     start(std::chrono::seconds{2});
-    EXPECT_TRUE(comes([&] { return !south().last_problem.empty(); })) << "it is not mounted";
+    EXPECT_TRUE(testing::eventually([&] { return !south().last_problem.empty(); }))
+        << "it is not mounted";
     bring("north", early);
-    EXPECT_TRUE(comes([&] {
+    EXPECT_TRUE(testing::eventually([&] {
         bring("north", early);
         return south().is_late && !north().is_late;
     }));
     EXPECT_THAT(south().why, HasSubstr("nothing came for "));
     fs::create_directory(directory_ / "south");
     bring("south", other);
-    EXPECT_TRUE(comes([&] { return !south().is_late; }));
+    EXPECT_TRUE(testing::eventually([&] { return !south().is_late; }));
     EXPECT_EQ(south().why, "");
 }
 
@@ -303,11 +309,11 @@ TEST_F(PartialsKeeperTest, AMachineThatIsBehindTheOthersIsLate) {
     start(std::chrono::seconds{300});
     bring("north", early);
     bring("south", other);
-    EXPECT_TRUE(comes([&] { return north().is_late; }));
+    EXPECT_TRUE(testing::eventually([&] { return north().is_late; }));
     EXPECT_THAT(north().why, HasSubstr("420 s behind the others"));
     EXPECT_FALSE(south().is_late);
     bring("north", later);
-    EXPECT_TRUE(comes([&] { return !north().is_late; }));
+    EXPECT_TRUE(testing::eventually([&] { return !north().is_late; }));
 }
 
 }  // namespace
