@@ -1,12 +1,11 @@
 // The feed over real volumes that come chunk by chunk: what a client of the hub hears.
 #include "web/data/events/event_feed.h"
 
-#include <thread>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/waiting.h"
 #include "tests/web/served_volumes.h"
 #include "web/doors/api/door.h"
 
@@ -24,20 +23,17 @@ class Ear {
     // Reads until an event of this type has come; gives the data of all up to it.
     std::vector<json> hear_until(std::string_view type) {
         std::vector<json> all;
-        const auto until = std::chrono::steady_clock::now() + 20s;
-        while (std::chrono::steady_clock::now() < until) {
+        const bool has_come = testing::eventually([&] {
             text_ += listener_->read(1 << 20);
-            const std::size_t end = text_.find("\n\n");
-            if (end == std::string::npos) {
-                std::this_thread::sleep_for(2ms);
-                continue;
+            for (std::size_t end; (end = text_.find("\n\n")) != std::string::npos;) {
+                const std::size_t data = text_.find("data: ");
+                if (data < end) all.push_back(json::parse(text_.substr(data + 6, end - data - 6)));
+                text_.erase(0, end + 2);
+                if (data < end && all.back()["type"] == type) return true;
             }
-            const std::size_t data = text_.find("data: ");
-            if (data < end) all.push_back(json::parse(text_.substr(data + 6, end - data - 6)));
-            text_.erase(0, end + 2);
-            if (data < end && all.back()["type"] == type) return all;
-        }
-        ADD_FAILURE() << "no " << type << " came";
+            return false;
+        });
+        EXPECT_TRUE(has_come) << "no " << type << " came";
         return all;
     }
 
@@ -181,7 +177,7 @@ TEST(EventFeed, WhatIsThereWhenItBeginsIsNotTold) {
                                        .catalog = served_volumes().state() / "catalog",
                                        .hub = hub,
                                        .look_every = 5ms});
-    std::this_thread::sleep_for(50ms);
+    ASSERT_TRUE(testing::eventually([&] { return feed->looks() >= 5; }));
     EXPECT_EQ(hub->published(), 0u);
     const auto pages = feed->stations();
     ASSERT_GE(pages.size(), 2u);

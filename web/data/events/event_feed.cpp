@@ -111,6 +111,7 @@ struct EventFeed::Impl {
     };
     std::map<std::string, Asked> asked;
     std::atomic<std::uint64_t> unreadable{0};
+    std::atomic<std::uint64_t> looks{0};  // at the catalog
     const std::shared_ptr<WaitingChanges> waiting = std::make_shared<WaitingChanges>();
     std::thread thread;
 };
@@ -195,6 +196,7 @@ void EventFeed::Impl::take_turn(SteadyTime& next_tick, SteadyTime& next_look) {
         next_look = now + options.look_every;
         look_at_catalog(now);
         publish(book.look(now_utc()));
+        ++looks;
     }
     if (now >= next_tick) {
         next_tick = now + tick_every;
@@ -237,6 +239,10 @@ EventFeed::~EventFeed() {
 
 std::vector<StationNews::Page> EventFeed::stations() const {
     return impl_->book.pages();
+}
+
+std::uint64_t EventFeed::looks() const {
+    return impl_->looks;
 }
 
 std::uint64_t EventFeed::unreadable() const {

@@ -43,6 +43,8 @@ class EventFeed {
 
     // Returns what is known of the stations, sorted.
     [[nodiscard]] std::vector<StationNews::Page> stations() const;
+    // Counts its looks at the catalog that have ended, with what they found told.
+    [[nodiscard]] std::uint64_t looks() const;
     // Counts grids that could not be read.
     [[nodiscard]] std::uint64_t unreadable() const;
 
