@@ -28,10 +28,11 @@ struct FeedConfig {
     std::string proxy;               // empty: none
     std::string ca_file;             // empty: the certificates of the system
     std::string log_level = "info";  // debug, info, warning or error
-    // Not in the file: listings of a station within a minute that bring nothing, and when a station
-    // is called silent.
+    // Not in the file: listings of a station within a minute that bring nothing, when a station is
+    // called silent, and how often the ages of volumes are looked at.
     std::size_t most_in_vain = 20;
     std::chrono::milliseconds silent_after = std::chrono::minutes{10};
+    std::chrono::seconds between_prunes{20};
     bool operator==(const FeedConfig&) const = default;
 };
 

@@ -12,7 +12,6 @@ namespace stormcellar::feed {
 namespace {
 
 constexpr std::chrono::minutes gone_on_with{20};
-constexpr std::chrono::seconds between_prunes{20};
 constexpr std::size_t volumes_gone_on_with = 2;
 
 }  // namespace
@@ -61,7 +60,7 @@ void FeedService::run(const std::atomic<bool>& stop, const std::function<void()>
 }
 
 void FeedService::prune() {
-    next_prune_ = steady_now() + between_prunes;
+    next_prune_ = steady_now() + config_.between_prunes;
     removed_ += drop_.prune(now_utc());
     if (const auto lines = lines_.take_held_back(steady_now()))
         say(LogLevel::warning, "{} about stations were left out", counted(*lines, "line"));

@@ -13,6 +13,7 @@
 #include "tests/fetch/feed/chunk_bucket.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::feed {
 namespace {
@@ -50,7 +51,7 @@ class FeedPrograms : public ::testing::Test {
         feed_.emplace(STORMCELLAR_FEED, std::vector<std::string>{"--config", file.native()});
     }
     [[nodiscard]] bool wait_for_files(std::size_t count) const {
-        return RunningProgram::wait_for([&] { return files().size() >= count; });
+        return testing::eventually([&] { return files().size() >= count; });
     }
     // Without temporary files.
     [[nodiscard]] std::map<std::string, std::string> files() const {
@@ -111,8 +112,7 @@ TEST_F(FeedPrograms, KilledInTheMiddleOfAVolumeItLosesNothing) {
     bucket_.change = [&](const std::string& asked, pull::Reply reply) {
         if (asked.starts_with("GET") && ++gets % 17 == 0 && gets < 60) {
             is_killed = false;
-            while (!is_killed)
-                std::this_thread::sleep_for(std::chrono::milliseconds{5});
+            EXPECT_TRUE(testing::eventually([&] { return is_killed.load(); }));
         }
         return reply;
     };
@@ -120,7 +120,7 @@ TEST_F(FeedPrograms, KilledInTheMiddleOfAVolumeItLosesNothing) {
     put(chunks("OPENRADAR_KLOT", "KLOT/901/"));
     for (int kills = 0; kills < 3; ++kills) {
         start_feed("[\"KLOT\"]");
-        ASSERT_TRUE(RunningProgram::wait_for([&] { return !is_killed; })) << feed_->err();
+        ASSERT_TRUE(testing::eventually([&] { return !is_killed; })) << feed_->err();
         EXPECT_LT(files().size(), bucket_.objects().size()) << "in the middle of the volume";
         EXPECT_EQ(feed_->end(SIGKILL), -SIGKILL);
         is_killed = true;
@@ -146,7 +146,7 @@ TEST_F(FeedPrograms, AReloadFollowsOtherStations) {
         ASSERT_EQ(::kill(feed_->id(), SIGHUP), 0);
     };
     rewrite("[\"nonsense\"]");
-    ASSERT_TRUE(RunningProgram::wait_for([&] {
+    ASSERT_TRUE(testing::eventually([&] {
         return feed_->err().find("the configuration stays as it was") != std::string::npos;
     }));
     rewrite("[\"KFDR\"]");

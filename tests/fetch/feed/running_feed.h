@@ -12,6 +12,7 @@
 #include "fetch/feed/feed_service.h"
 #include "tests/fetch/feed/chunk_bucket.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::feed {
 
@@ -58,14 +59,8 @@ class RunningFeed {
                       [](const auto& one) { return one.first.find("/.") != std::string::npos; });
         return files;
     }
-    // Waits at most a minute.
-    static bool wait_for(const std::function<bool()>& seen) {
-        for (int i = 0; i < 6000 && !seen(); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        return seen();
-    }
     bool wait_for_files(std::size_t count) const {
-        return wait_for([&] { return files().size() >= count; });
+        return testing::eventually([&] { return files().size() >= count; });
     }
     FeedService& service() { return *service_; }
 
