@@ -11,8 +11,7 @@
 //
 // Cost      A lease takes 0.1 microseconds. Closing a database that was written makes a checkpoint
 //           of its WAL, which is synced: 0.4 ms. Opening it again takes 0.5 ms (medians of 200,
-//           2026-11-25, a shared cloud machine of two cores; tests/catalog/open_databases_test.cpp
-//           prints them).
+//           2026-11-25, a shared cloud machine of two cores).
 // Threads   Any thread; a slot's mutex guards what the slot holds.
 #pragma once
 

@@ -14,6 +14,7 @@
 #include "tests/catalog/power_cut_vfs.h"
 #include "tests/testing/slow_down.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::catalog {
 namespace {
@@ -188,7 +189,7 @@ TEST(CatalogDurability, KilledAtAnyMoment) {
         const std::size_t enough = random() % 40;
         while (progress.answered.size() < enough && ::read(ends[0], &number, sizeof number) > 0)
             progress.answered[facts_of(number, FileState::complete).path] = FileState::complete;
-        ::usleep(static_cast<useconds_t>(random() % 3000));
+        testing::pass_time(std::chrono::microseconds{random() % 3000});
         ::kill(child, SIGKILL);
         while (::read(ends[0], &number, sizeof number) > 0)
             progress.answered[facts_of(number, FileState::complete).path] = FileState::complete;

@@ -18,7 +18,6 @@ namespace stormcellar::catalog {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 std::string station(int k) {
     return fmt::format("X{:03}", k);
@@ -166,36 +165,6 @@ TEST_F(OpenDatabasesTest, ADatabaseThatIsDeletedWhileItIsClosedIsMadeAgainAndSai
     EXPECT_EQ(*catalog.register_file(file("/d/KTLX_b", {}, "KTLX")), Registered::added);
     EXPECT_EQ(catalog.take_repairs().size(), 1U) << "so that its files are offered again";
     EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
-}
-
-// The figures in the header.
-TEST_F(OpenDatabasesTest, WhatACloseAndAnOpenCost) {
-    std::vector<double> close_ms, open_ms;
-    const fs::path path = directory_ / "KTLX.sqlite";
-    for (int k = 0; k < 200; ++k) {
-        auto start = Clock::now();
-        auto database = StationDatabase::open_for_writing(path, "KTLX");
-        const std::chrono::duration<double, std::milli> opened = Clock::now() - start;
-        ASSERT_TRUE(database);
-        (*database)->register_file(file("/d/" + std::to_string(k), {}));
-        start = Clock::now();
-        database->reset();
-        const std::chrono::duration<double, std::milli> closed = Clock::now() - start;
-        if (k > 0) open_ms.push_back(opened.count());
-        close_ms.push_back(closed.count());
-    }
-    OpenDatabases all(2);
-    const auto start = Clock::now();
-    for (int k = 0; k < 100'000; ++k)
-        (void)all.lease("KTLX");
-    const std::chrono::duration<double, std::micro> leased = Clock::now() - start;
-    std::sort(close_ms.begin(), close_ms.end());
-    std::sort(open_ms.begin(), open_ms.end());
-    std::cout << fmt::format("close {:.2f} ms, open {:.2f} ms (medians), lease {:.2f} us\n",
-                             close_ms[close_ms.size() / 2], open_ms[open_ms.size() / 2],
-                             leased.count() / 100'000);
-    EXPECT_LT(close_ms[close_ms.size() / 2], 500.0);
-    EXPECT_LT(open_ms[open_ms.size() / 2], 50.0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/synth/replay_fixture.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::synth {
 namespace {
@@ -92,8 +93,7 @@ TEST_F(Replay, StoppedInTheMiddleOfAFileItIsNamedAsUnfinished) {
     options.interval_s = 3600;  // an hour over nine pieces
     options.stop = &stop;
     std::thread watcher([&] {
-        while (!fs::exists(drop() / "a"))
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(testing::eventually([&] { return fs::exists(drop() / "a"); }));
         stop = true;
     });
     const auto report = play(options);
@@ -122,13 +122,27 @@ TEST_F(Replay, StoppedBetweenFilesNothingIsUnfinished) {
 
 TEST_F(Replay, TimeBetweenFilesComesFromTheirHeadersOrTheInterval) {
     put("a", volume_at(0));
-    put("b", volume_at(1000));
+    put("b", volume_at(3'600'000));
+    std::atomic<bool> stop{false};
+    double wait_s = 0;
     ReplayOptions options;
+    options.stop = &stop;
+    options.waits = [&](double seconds, const fs::path& source) {
+        EXPECT_EQ(source, directory_ / "in/b");
+        wait_s = seconds;
+        stop = true;
+    };
     options.speed = 5;
-    const auto begin = std::chrono::steady_clock::now();
     ASSERT_TRUE(play(options));
-    // 1 s, five times faster; a sleep never ends early.
-    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(200));
+    // An hour, five times faster, less the time that the first file took.
+    EXPECT_LE(wait_s, 720);
+    EXPECT_GT(wait_s, 600);
+    stop = false;
+    fs::remove(drop() / "a");
+    options.interval_s = 1800;
+    ASSERT_TRUE(play(options));
+    EXPECT_LE(wait_s, 1800);
+    EXPECT_GT(wait_s, 1500);
 }
 
 }  // namespace
