@@ -76,9 +76,5 @@ TEST_F(BunzipC, Paths) {
     EXPECT_EQ(bunzip_use_path(before.c_str()), 1);
 }
 
-TEST_F(BunzipC, NothingIsFreed) {
-    bunzip_workspace_free(nullptr);
-}
-
 }  // namespace
 }  // namespace stormcellar::bunzip

@@ -144,11 +144,5 @@ TEST(NetcdfBuilder, TheFirstFailureSticksAndIsNamed) {
     EXPECT_NE(bytes.error().message.find("x: "), std::string::npos) << bytes.error().message;
 }
 
-TEST(NetcdfBuilder, AnUnfinishedFileIsDropped) {
-    const std::lock_guard lock(library_mutex());
-    NetcdfBuilder builder;
-    builder.dimension("x", 3);
-}
-
 }  // namespace
 }  // namespace stormcellar::netcdf
