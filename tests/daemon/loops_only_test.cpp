@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +10,8 @@
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/status_client.h"
 #include "tests/daemon/write_file.h"
-#include "tests/testing/data.h"
+#include "tests/testing/small_sequence.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -36,16 +36,13 @@ class LoopsOnly : public ::testing::Test {
         return "[[loop]]\nname = \"binghamton\"\nscene = \"scene.toml\"\ndomain = \"KBGM\"\n"
                "outputs = [\"out/kbgm.webp\"]\n";
     }
-    // Returns true if the metric has this line within 20 s; the daemon reads the file every few
-    // seconds.
+    // Returns true once the metric has this line; the daemon reads the file every few seconds.
     static bool has_metric(const RunningDaemon& daemon, const std::string& line) {
         const fs::path socket = daemon.root() / "state/status.sock";
-        for (int i = 0; i < 200; ++i) {
+        return testing::eventually([&] {
             const std::string said = StatusClient::at_path(socket).ask(get("/metrics"));
-            if (said.find(line) != std::string::npos) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds{100});
-        }
-        return false;
+            return said.find(line) != std::string::npos;
+        });
     }
     [[nodiscard]] bool comes(const std::function<bool(const json&)>& wanted) const {
         return loops_.wait_for(wanted, its_status);
@@ -55,7 +52,6 @@ class LoopsOnly : public ::testing::Test {
 };
 
 TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
-    STORMCELLAR_NEED_DATA();
     RunningDaemon ingest;
     fs::create_directory_symlink(ingest.root() / "cache", loops_.root() / "cache");
     fs::create_directory(ingest.root() / "cache");
@@ -65,8 +61,8 @@ TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
     ingest.start(one_loop(), with_program(), {"--no-loops"});
     loops_.start(one_loop(), with_program(), {"--loops-only"});
     ASSERT_TRUE(comes([](const json& s) { return s["loops"]["running"] == 1; })) << loops_.log();
-    fs::copy_file(*testing::data_directory() / "sequence-kbgm/KBGM20050822_024414.gz",
-                  ingest.drop() / "KBGM20050822_024414.gz");
+    testing::write_small_volume(testing::small_sequence[0],
+                                ingest.drop() / testing::small_sequence[0]);
     ASSERT_TRUE(comes([](const json& s) { return s["loops"]["made"] >= 1; })) << loops_.log();
     EXPECT_GT(fs::file_size(loops_.root() / "out/kbgm.webp"), 1000U);
     EXPECT_EQ(ingest.status()["loops"]["elsewhere"], true) << "it leaves them alone";

@@ -4,15 +4,15 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
-#include "tests/testing/data.h"
 #include "tests/testing/program.h"
+#include "tests/testing/small_sequence.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -38,9 +38,7 @@ class Loops : public ::testing::Test {
         write_file(daemon_.root() / "scene.toml",
                    "[picture]\nproduct = \"composite\"\nwidth = 480\nheight = 360\n");
     }
-    void drop(const std::string& name) {
-        fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, daemon_.drop() / name);
-    }
+    void drop(const std::string& name) { testing::write_small_volume(name, daemon_.drop() / name); }
     // Returns the process of the loop that was started last.
     pid_t process() const {
         const std::string log = daemon_.log();
@@ -61,16 +59,15 @@ class Loops : public ::testing::Test {
 };
 
 TEST_F(Loops, AVolumeThatComesIsInTheLoop) {
-    STORMCELLAR_NEED_DATA();
     daemon_.start(one_loop, with_program());
     ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["loops"]["running"] == 1; }))
         << daemon_.log();
     EXPECT_FALSE(fs::exists(output()));
-    drop("KBGM20050822_024414.gz");
+    drop(testing::small_sequence[0]);
     ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["loops"]["made"] >= 1; }))
         << daemon_.log();
     EXPECT_GT(fs::file_size(output()), 1000U);
-    drop("KBGM20050822_025001.gz");
+    drop(testing::small_sequence[1]);
     ASSERT_TRUE(daemon_.wait_for([](const json& s) {
         return s["loops"]["each"][0]["frames"] == 2;
     })) << daemon_.log();
@@ -91,12 +88,11 @@ TEST_F(Loops, ThatOneWaitsForItsFirstGridIsSaidOnce) {
 }
 
 TEST_F(Loops, IngestGoesOnWithoutTheProgram) {
-    STORMCELLAR_NEED_DATA();
     daemon_.start(one_loop, {{"PATH", "/nowhere"}});
     ASSERT_TRUE(
         daemon_.wait_for_log("loop binghamton: cannot be started: there is no program stormcellar"))
         << daemon_.log();
-    drop("KBGM20050822_024414.gz");
+    drop(testing::small_sequence[0]);
     EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 1; }));
     EXPECT_EQ(daemon_.status()["loops"]["running"], 0);
     EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
@@ -119,12 +115,7 @@ TEST_F(Loops, ALoopEndsWithADaemonThatIsKilled) {
     const pid_t loop = process();
     daemon_.signal(SIGKILL);
     EXPECT_EQ(daemon_.wait(), -SIGKILL);
-    bool is_over = false;
-    for (int i = 0; i < 3000 && !is_over; ++i) {
-        is_over = is_gone(loop);
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    }
-    EXPECT_TRUE(is_over);
+    EXPECT_TRUE(testing::eventually([&] { return is_gone(loop); }));
 }
 
 TEST_F(Loops, AReloadStartsAndStopsThem) {

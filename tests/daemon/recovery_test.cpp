@@ -1,8 +1,8 @@
 // The real program after damage: a database, grids and a whole cache that come back by themselves.
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +12,8 @@
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"
+#include "tests/testing/small_sequence.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -21,11 +23,7 @@ using nlohmann::json;
 
 class Recovery : public ::testing::Test {
   protected:
-    void SetUp() override { STORMCELLAR_NEED_DATA(); }
-
-    void put(const std::string& name) {
-        fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, daemon_.drop() / name);
-    }
+    void put(const std::string& name) { testing::write_small_volume(name, daemon_.drop() / name); }
     void run_until_ingested(int files) {
         fs::remove(daemon_.root() / "state/status.json");
         daemon_.start("[ingest]\nquiet_seconds = 2\nspacing_km = 4\n");
@@ -42,8 +40,8 @@ class Recovery : public ::testing::Test {
         auto catalog = *catalog::CatalogReader::open(daemon_.catalog());
         return *catalog.list("KBGM", {});
     }
-    static constexpr const char* first = "KBGM20050822_024414.gz";
-    static constexpr const char* second = "KBGM20050822_025001.gz";
+    static constexpr const char* first = testing::small_sequence[0];
+    static constexpr const char* second = testing::small_sequence[1];
     RunningDaemon daemon_;
 };
 
@@ -104,9 +102,7 @@ TEST_F(Recovery, ADeletedStateDirectoryIsMadeAgain) {
                                      " was deleted; the service made it again"));
     EXPECT_TRUE(fs::exists(daemon_.root() / "state/stormcellard.lock"));
     const fs::path socket = daemon_.root() / "state/status.sock";
-    for (int i = 0; i < 3000 && !fs::is_socket(socket); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    EXPECT_TRUE(fs::is_socket(socket));
+    EXPECT_TRUE(testing::eventually([&] { return fs::is_socket(socket); }));
     EXPECT_EQ(daemon_.terminate(), 0);
     EXPECT_EQ(rows().size(), 2U);
 }
@@ -205,29 +201,39 @@ TEST_F(Recovery, AMosaicThatNobodyConfiguresAnyMoreIsDroppedWithTheReason) {
     EXPECT_FALSE(fs::exists(frames[0].path));
 }
 
-TEST_F(Recovery, WithoutRefillAWipedCacheStaysEmpty) {
+TEST_F(Recovery, WithoutRefillAMissingGridStaysMissing) {
     put(first);
-    run_until_ingested(1);
+    put(second);
+    run_until_ingested(2);
     EXPECT_EQ(daemon_.terminate(), 0);
-    fs::remove_all(daemon_.cache() / "KBGM");
+    const auto made = grids();
+    ASSERT_EQ(made.size(), 2U);
+    fs::remove(made[0].path);
+    // Damage among the values is found when a round has looked for missing grids.
+    std::fstream file(made[1].path, std::ios::in | std::ios::out | std::ios::binary);
+    const auto at = static_cast<std::streamoff>(fs::file_size(made[1].path) / 4 * 3);
+    const int byte = file.seekg(at).get();
+    file.seekp(at).put(static_cast<char>(byte ^ 1));
+    file.close();
     daemon_.start(
         "[ingest]\nspacing_km = 4\n[cache]\nrefill_hours = 0\n[log]\nlevel = \"debug\"\n");
-    ASSERT_TRUE(daemon_.wait_for_log("unchanged "));
-    std::this_thread::sleep_for(std::chrono::milliseconds{500});
+    EXPECT_TRUE(daemon_.wait_for_log("unchanged "));
+    EXPECT_TRUE(daemon_.wait_for_log("damaged grid ")) << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
-    EXPECT_FALSE(fs::exists(daemon_.cache() / "KBGM"));
+    EXPECT_FALSE(fs::exists(made[0].path));
 }
 
 // Killed again and again while it takes volumes in: what stands in the cache is whole at any time,
 // and in the end everything is there.
 TEST_F(Recovery, KilledWhileItWorks) {
+    STORMCELLAR_NEED_DATA();  // simulated volumes take too little time
     const fs::path sequence = *testing::data_directory() / "sequence-kbgm";
     for (const auto& volume : fs::directory_iterator(sequence))
         fs::copy_file(volume, daemon_.drop() / volume.path().filename());
     std::size_t whole = 0;
     for (int kills = 0; kills < 8; ++kills) {
         daemon_.start("[ingest]\nspacing_km = 2\n");
-        std::this_thread::sleep_for(std::chrono::milliseconds{40 + 60 * kills});
+        testing::pass_time(std::chrono::milliseconds{40 + 60 * kills});
         daemon_.signal(SIGKILL);
         EXPECT_EQ(daemon_.wait(), -SIGKILL);
         if (!fs::exists(daemon_.cache())) continue;
