@@ -17,6 +17,7 @@
 #include "tests/batch/failing_reads.h"
 #include "tests/batch/small_archive.h"
 #include "tests/fetch/mock_bucket.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::batch {
 namespace {
@@ -306,8 +307,8 @@ TEST_F(BatchTasks, AnotherPlansGridOfTheDayDoesNotStandForOurs) {
 TEST_F(BatchTasks, ACacheThatIsReplacedMeanwhileLeavesATaskUndone) {
     const Plan plan = plan_of(recipe("one"), "plan");
     std::thread mount([&] {
-        while (!fs::exists(partials("one")) || fs::is_empty(partials("one")))
-            std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        EXPECT_TRUE(testing::eventually(
+            [&] { return fs::exists(partials("one")) && !fs::is_empty(partials("one")); }));
         fs::rename(directory_ / "one", directory_ / "beneath");
         fs::create_directory(directory_ / "one");
     });

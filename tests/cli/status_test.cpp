@@ -16,6 +16,7 @@
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -32,11 +33,7 @@ testing::ProgramResult status(std::vector<std::string> arguments) {
 
 // The daemon is ready once it answers.
 bool wait_until_it_answers(const fs::path& state) {
-    for (int i = 0; i < 1000; ++i) {
-        if (status({"--state", state}).status == 0) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    }
-    return false;
+    return testing::eventually([&] { return status({"--state", state}).status == 0; });
 }
 
 bool is_asked_for_files(const json& document) {

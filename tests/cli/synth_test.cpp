@@ -10,6 +10,7 @@
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar {
 namespace {
@@ -180,8 +181,8 @@ TEST_F(Synth, AReplayThatWaitsSaysSoAndAnInterruptedOneWhatWasDone) {
     fs::create_directory(at("drop"));
     testing::RunningProgram replay(
         STORMCELLAR_PROGRAM, {"replay", at("volumes"), at("drop"), "--interval", "3600", "--json"});
-    ASSERT_TRUE(testing::RunningProgram::wait_for(
-        [&] { return replay.err().find("waiting") != std::string::npos; }));
+    ASSERT_TRUE(
+        testing::eventually([&] { return replay.err().find("waiting") != std::string::npos; }));
     EXPECT_EQ(replay.end(SIGINT), -SIGINT);
     EXPECT_THAT(replay.err(),
                 HasSubstr("stormcellar: 2 files of 2024-06-01T22:00:00Z to 2024-06-01T22:01:00Z; "

@@ -10,6 +10,7 @@
 #include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 #include "tests/web/raw_client.h"
 #include "web/doors/viewer/viewer_files.h"
 
@@ -66,8 +67,7 @@ class ViewCommand : public ::testing::Test {
 
 TEST_F(ViewCommand, ServesTheViewerAndItsGridsUntilCtrlC) {
     testing::RunningProgram view(STORMCELLAR_PROGRAM, {"view", at("volumes"), "--no-browser"});
-    ASSERT_TRUE(testing::RunningProgram::wait_for([&] { return port_in(view.out()) > 0; }))
-        << view.err();
+    ASSERT_TRUE(testing::eventually([&] { return port_in(view.out()) > 0; })) << view.err();
     const int port = port_in(view.out());
     EXPECT_NE(view.out().find("open this address in a browser; Ctrl-C ends it"), std::string::npos);
     const std::string page = web::RawClient::get(port, "/view/");
@@ -84,7 +84,7 @@ TEST_F(ViewCommand, OpensTheBrowserOfTheDesktop) {
     const Environment path("PATH", at("bin") + ":" + std::getenv("PATH"));
     const Environment display("DISPLAY", ":0");
     testing::RunningProgram view(STORMCELLAR_PROGRAM, {"view", at("volumes")});
-    ASSERT_TRUE(testing::RunningProgram::wait_for([&] {
+    ASSERT_TRUE(testing::eventually([&] {
         return !opened().empty() && view.out().find("Ctrl-C") != std::string::npos;
     })) << view.err();
     EXPECT_NE(view.out().find("the viewer is at " + opened() + "\nCtrl-C ends it\n"),
@@ -98,7 +98,7 @@ TEST_F(ViewCommand, LeavesTheBrowserAloneIfItIsAsked) {
     const Environment path("PATH", at("bin") + ":" + std::getenv("PATH"));
     const Environment display("DISPLAY", ":0");
     testing::RunningProgram view(STORMCELLAR_PROGRAM, {"view", at("volumes"), "--no-browser"});
-    ASSERT_TRUE(testing::RunningProgram::wait_for([&] { return port_in(view.out()) > 0; }));
+    ASSERT_TRUE(testing::eventually([&] { return port_in(view.out()) > 0; }));
     EXPECT_EQ(view.end(SIGINT), 0);
     EXPECT_EQ(opened(), "");
 }

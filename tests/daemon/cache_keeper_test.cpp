@@ -1,11 +1,11 @@
 #include "daemon/care/cache_keeper.h"
 
 #include <atomic>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "tests/daemon/fake_sink.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -20,8 +20,7 @@ class RollingSink final : public Sink {
     }
     Result<int> mark_missing(const OnStep& /*step*/) override { return 0; }
     CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& /*step*/) override {
-        while (hold)
-            std::this_thread::sleep_for(milliseconds{1});
+        EXPECT_TRUE(testing::eventually([this] { return !hold; }));
         ++rolls;
         CacheRolled rolled;
         rolled.usage.emplace();
@@ -35,17 +34,16 @@ class RollingSink final : public Sink {
 
 class CacheKeeperTest : public ::testing::Test {
   protected:
-    // Polls at one time until the current roll has ended and was taken.
-    std::optional<cache::StoreUsage> take(int rolls) {
-        while (sink_.rolls < rolls)
-            std::this_thread::sleep_for(milliseconds{1});
+    [[nodiscard]] bool has_ended(int rolls) const {
+        return testing::eventually([&] { return woken_ >= rolls; });
+    }
+    // Polls until a roll has something new to tell, each time so much later.
+    std::optional<cache::StoreUsage> next_news(seconds later = {}) {
         std::optional<cache::StoreUsage> usage;
-        for (int i = 0; i < 1000 && woken_ < rolls; ++i)
-            std::this_thread::sleep_for(milliseconds{1});
-        for (int i = 0; i < 100 && !usage; ++i) {
-            usage = keeper_.poll(now_, budgets_);
-            std::this_thread::sleep_for(milliseconds{1});
-        }
+        (void)testing::eventually([&] {
+            now_ += later;
+            return (usage = keeper_.poll(now_, budgets_)).has_value();
+        });
         return usage;
     }
     RollingSink sink_;
@@ -56,25 +54,30 @@ class CacheKeeperTest : public ::testing::Test {
 };
 
 TEST_F(CacheKeeperTest, RollsAtOnceThenEveryFiveSecondsAndTellsNews) {
-    EXPECT_LE(CacheKeeper::period, seconds{10}) << "the percentage acts within 10 s";
+    static_assert(CacheKeeper::period <= seconds{10}, "the percentage acts within 10 s");
+    const SteadyTime began = now_;
     EXPECT_FALSE(keeper_.poll(now_, budgets_));
-    EXPECT_EQ(keeper_.next_time(), now_ + CacheKeeper::period);
-    const auto usage = take(1);
+    EXPECT_EQ(keeper_.next_time(), began + CacheKeeper::period);
+    ASSERT_TRUE(has_ended(1));
+    auto usage = next_news();
     ASSERT_TRUE(usage);
     EXPECT_EQ(usage->budget_bytes, std::nullopt);
-    EXPECT_EQ(sink_.rolls, 1) << "not due again";
+    EXPECT_FALSE(keeper_.poll(began + CacheKeeper::period - milliseconds{1}, budgets_));
+    EXPECT_EQ(keeper_.next_time(), began + CacheKeeper::period) << "not due again";
 
     budgets_.total.bytes = 7;
     now_ += CacheKeeper::period;
     keeper_.poll(now_, budgets_);
-    EXPECT_EQ(take(2)->budget_bytes, 7U) << "a reload's budgets count";
+    usage = next_news();
+    ASSERT_TRUE(usage);
+    EXPECT_EQ(usage->budget_bytes, 7U) << "a reload's budgets count";
     now_ += CacheKeeper::period;
-    keeper_.poll(now_, budgets_);
-    EXPECT_FALSE(take(3)) << "nothing new";
-    now_ += CacheKeeper::period;
+    EXPECT_FALSE(keeper_.poll(now_, budgets_));
+    ASSERT_TRUE(has_ended(3));
     sink_.grids = 3;
-    keeper_.poll(now_, budgets_);
-    EXPECT_EQ(take(4)->grids, 3U);
+    usage = next_news(seconds{1});
+    ASSERT_TRUE(usage);
+    EXPECT_EQ(usage->grids, 3U) << "the roll before had nothing new to tell";
 }
 
 TEST_F(CacheKeeperTest, ALongRollHoldsNobodyUpAndRunsOnce) {
@@ -86,7 +89,8 @@ TEST_F(CacheKeeperTest, ALongRollHoldsNobodyUpAndRunsOnce) {
     }
     EXPECT_EQ(sink_.rolls, 0);
     sink_.hold = false;
-    EXPECT_TRUE(take(1));
+    EXPECT_TRUE(has_ended(1));
+    EXPECT_TRUE(next_news());
 }
 
 }  // namespace

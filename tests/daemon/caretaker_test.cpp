@@ -7,6 +7,7 @@
 
 #include "daemon/service/ingest_sink.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -30,12 +31,6 @@ class CaretakerTest : public ::testing::Test {
     [[nodiscard]] CareOf all() {
         return {sink_->catalog(), sink_->store(), sink_->mender(), sink_->site_watch()};
     }
-    static bool wait_for(const std::function<bool()>& seen) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{60};
-        while (!seen())
-            if (std::chrono::steady_clock::now() > end) return false;
-        return true;
-    }
 
     testing::TemporaryDirectory directory_;
     std::unique_ptr<IngestSink> sink_;
@@ -53,17 +48,17 @@ TEST_F(CaretakerTest, RestsWhileThereIsNothingToDo) {
                                 return idle.load();
                             },
                             [](pipeline::PairReport) {}});
-    ASSERT_TRUE(wait_for([&] { return asked >= 3; }));
+    ASSERT_TRUE(testing::eventually([&] { return asked >= 3; }));
     for (int i = 0; i < 1000; ++i)
         EXPECT_FALSE(keeper.pulse().since()) << "files come first";
     const SteadyTime before = std::chrono::steady_clock::now();
     idle = true;
-    EXPECT_TRUE(wait_for([&] {
+    EXPECT_TRUE(testing::eventually([&] {
         const auto since = keeper.pulse().since();
         return since && *since >= before;
     }));
     idle = false;
-    EXPECT_TRUE(wait_for([&] { return !keeper.pulse().since(); }));
+    EXPECT_TRUE(testing::eventually([&] { return !keeper.pulse().since(); }));
 }
 
 TEST_F(CaretakerTest, RestsBetweenItsRounds) {
@@ -75,8 +70,9 @@ TEST_F(CaretakerTest, RestsBetweenItsRounds) {
                                 return true;
                             },
                             [](pipeline::PairReport) {}});
-    ASSERT_TRUE(wait_for([&] { return asked >= 100; })) << "its first round is long over";
-    EXPECT_TRUE(wait_for([&] { return !keeper.pulse().since(); }));
+    ASSERT_TRUE(testing::eventually([&] { return asked >= 100; }))
+        << "its first round is long over";
+    EXPECT_TRUE(testing::eventually([&] { return !keeper.pulse().since(); }));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <map>
 #include <regex>
 #include <sstream>
-#include <thread>
 
 #include <fcntl.h>
 #include <sys/socket.h>
@@ -18,6 +17,7 @@
 #include <unistd.h>
 
 #include "tests/testing/program.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -126,7 +126,7 @@ TEST_F(HostileDrop, NamesThatAreSwappedForLinksLeadNowhere) {
         exchange(drop() / "day", drop() / "link");
         exchange(drop() / "KTLX_b", drop() / "file-link");
         append_to_file(drop() / (i % 2 == 0 ? "file-link" : "KTLX_b"), "");
-        std::this_thread::sleep_for(std::chrono::milliseconds{5});
+        testing::pass_time(std::chrono::milliseconds{5});
     }
     put(drop() / "KTLX_last", volume());
     ASSERT_TRUE(wait_until_gridded("KTLX_last")) << daemon_.log();

@@ -1,6 +1,5 @@
 // Runs the real program on files and directories that could take all memory or time: huge ones, and
 // small ones that unpack to as much.
-#include <thread>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,6 +7,7 @@
 
 #include "tests/daemon/hostile_drop.h"
 #include "tests/testing/program.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -109,7 +109,7 @@ TEST_F(HostileSizes, BombsThatGrowOrComeAsChunksAreGivenUp) {
     for (int i = 0; i < 20; ++i) {
         append_to_file(drop() / "KTLX_growing",
                        {reinterpret_cast<const char*>(record.data()), record.size()});
-        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+        testing::pass_time(std::chrono::milliseconds{20});
     }
     for (int site = 0; site < 2; ++site) {
         const fs::path directory = drop() / "KTLX" / std::to_string(site);

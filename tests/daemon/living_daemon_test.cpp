@@ -1,9 +1,7 @@
 // The real program on files that grow: what stands in the cache while the antenna still climbs.
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +11,7 @@
 #include "synth/replay_pieces.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/testing/data.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -56,12 +55,10 @@ class LivingDaemon : public ::testing::Test {
         return file->description();
     }
     bool wait_for_grid(const std::function<bool(const cache::GridDescription&)>& is_so) const {
-        for (int i = 0; i < 3000; ++i) {
+        return testing::eventually([&] {
             const auto grid = newest();
-            if (grid && is_so(*grid)) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds{20});
-        }
-        return false;
+            return grid && is_so(*grid);
+        });
     }
     static bool is_living(const cache::GridDescription& grid) {
         const auto& notes = grid.provenance.notes;

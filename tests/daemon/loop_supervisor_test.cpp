@@ -6,7 +6,6 @@
 #include <fstream>
 #include <functional>
 #include <memory>
-#include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -15,6 +14,7 @@
 
 #include "tests/daemon/write_file.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -37,12 +37,10 @@ class LoopKeeperTest : public ::testing::Test {
             "/the/cache", [this] { ++wakes_; }, program);
     }
     bool wait_for(const std::function<bool()>& seen) {
-        for (int i = 0; i < 6000; ++i) {
+        return testing::eventually([&] {
             if (auto states = keeper_->news()) states_ = std::move(*states);
-            if (seen()) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        }
-        return false;
+            return seen();
+        });
     }
     std::vector<std::string> starts() const {
         std::ifstream file(log());
@@ -191,20 +189,20 @@ TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
 
 // The thread is blocked in the middle of its turn, when it reports news.
 TEST_F(LoopKeeperTest, IsSeenToHangInATurn) {
-    std::atomic<bool> hangs = true;
+    std::atomic<bool> hangs = true, is_reporting = false;
     keeper_ = std::make_unique<LoopSupervisor>(
         "/the/cache",
         [&] {
-            while (hangs)
-                std::this_thread::sleep_for(std::chrono::milliseconds{1});
+            is_reporting = true;
+            (void)testing::eventually([&] { return !hangs; });
         },
         program("sleep 100\n"));
     const SteadyTime before = std::chrono::steady_clock::now();
     keeper_->set({loop("one", "KTLX")});
-    ASSERT_TRUE(wait_for([&] { return starts().size() == 1; }));
-    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    const bool is_blocked = testing::eventually([&] { return is_reporting.load(); });
     const auto since = keeper_->pulse().since();
     hangs = false;
+    ASSERT_TRUE(is_blocked);
     ASSERT_TRUE(since) << "it does not rest";
     EXPECT_GE(*since, before);
     EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); })) << "it goes on";

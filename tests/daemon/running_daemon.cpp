@@ -4,7 +4,6 @@
 #include <csignal>
 #include <fstream>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -13,14 +12,12 @@
 #include <unistd.h>
 
 #include "tests/daemon/write_file.h"
+#include "tests/testing/waiting.h"
 
 extern char** environ;
 
 namespace stormcellar::daemon {
 namespace {
-
-constexpr std::chrono::milliseconds step{20};
-constexpr int steps_a_minute = 3000;
 
 std::vector<std::string> environment_with(const std::map<std::string, std::string>& more) {
     std::vector<std::string> all;
@@ -92,11 +89,10 @@ std::optional<int> RunningDaemon::ended() {
 }
 
 int RunningDaemon::wait() {
-    for (int i = 0; i < steps_a_minute; ++i) {
-        if (const auto status = ended()) return *status;
-        std::this_thread::sleep_for(step);
-    }
-    throw std::runtime_error("stormcellard does not end");
+    std::optional<int> status;
+    if (!testing::eventually([&] { return (status = ended()).has_value(); }))
+        throw std::runtime_error("stormcellard does not end");
+    return *status;
 }
 
 int RunningDaemon::terminate() {
@@ -117,20 +113,14 @@ nlohmann::json RunningDaemon::status(const std::string& name) const {
 
 bool RunningDaemon::wait_for(const std::function<bool(const nlohmann::json&)>& wanted,
                              const std::string& name) const {
-    for (int i = 0; i < steps_a_minute; ++i) {
+    return testing::eventually([&] {
         const nlohmann::json now = status(name);
-        if (!now.is_null() && wanted(now)) return true;
-        std::this_thread::sleep_for(step);
-    }
-    return false;
+        return !now.is_null() && wanted(now);
+    });
 }
 
 bool RunningDaemon::wait_for_log(const std::string& text) const {
-    for (int i = 0; i < steps_a_minute; ++i) {
-        if (log().find(text) != std::string::npos) return true;
-        std::this_thread::sleep_for(step);
-    }
-    return false;
+    return testing::eventually([&] { return log().find(text) != std::string::npos; });
 }
 
 }  // namespace stormcellar::daemon

@@ -17,6 +17,7 @@
 #include "tests/daemon/fake_sink.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -46,7 +47,7 @@ class ServiceTest : public ::testing::Test {
         events_ = events ? std::move(events) : *open_inotify();
         service_ = std::make_unique<Service>(
             config_, root_ / "stormcellard.toml",
-            ServiceParts{*sink_, *events_, notifier_, real_file_system(), signals_});
+            ServiceParts{*sink_, *events_, notifier_, real_file_system(), signals_, clock_});
         if (needs_) service_->need(needs_);
         thread_ = std::thread([this] { stopped_ = service_->run(); });
     }
@@ -61,12 +62,7 @@ class ServiceTest : public ::testing::Test {
                            [&](const auto& text) { return text.starts_with(start); });
     }
     bool wait_for_message(const std::string& start) {
-        return wait_for([&] { return has_message(start); });
-    }
-    static bool wait_for(const std::function<bool()>& condition) {
-        for (int i = 0; i < 2000 && !condition(); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        return condition();
+        return testing::eventually([&] { return has_message(start); });
     }
     [[nodiscard]] nlohmann::json status() const {
         std::ifstream file(root_ / "state/status.json");
@@ -80,6 +76,7 @@ class ServiceTest : public ::testing::Test {
     Config config_;
     FakeNotifier notifier_;
     const Signals* signals_ = nullptr;
+    Clock clock_ = real_clock();
     std::function<void(const Sink::OnStep&)> looks_, rolls_;
     Readiness::Check needs_;
     std::unique_ptr<FakeSink> sink_;
@@ -138,7 +135,7 @@ TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
     ASSERT_TRUE(wait_for_message("READY=1"));
     write_file(config_.fixed.paths.drop / "slow1", "1");
     write_file(config_.fixed.paths.drop / "slow2", "1");
-    ASSERT_TRUE(wait_for([&] { return held == 2; }));
+    ASSERT_TRUE(testing::eventually([&] { return held == 2; }));
     write_file(config_.fixed.paths.drop / "waits1", "1");
     write_file(config_.fixed.paths.drop / "waits2", "1");
     EXPECT_EQ(sink_->wait_for_noted(2), (std::vector<std::string>{"waits1", "waits2"}));
@@ -249,7 +246,7 @@ TEST_F(ServiceTest, GoesOnWhenTheDropDirectoryVanishesAndReturns) {
     start(always(IngestResult::gridded));
     ASSERT_TRUE(wait_for_message("READY=1"));
     fs::remove_all(config_.fixed.paths.drop);
-    std::this_thread::sleep_for(std::chrono::milliseconds{300});
+    ASSERT_TRUE(testing::eventually([&] { return !status()["drop_lost"].is_null(); }));
     fs::create_directory(config_.fixed.paths.drop);
     write_file(config_.fixed.paths.drop / "a", "1");
     EXPECT_TRUE(sink_->wait_for_calls(1));
@@ -261,11 +258,11 @@ TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
     config_.reloadable.rescan = std::chrono::hours{1};
     start(always(IngestResult::gridded));
     ASSERT_TRUE(wait_for_message("READY=1"));
-    ASSERT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return status()["directories"] == 1; }));
     fs::create_directories(config_.fixed.paths.drop / "KTLX/494");
-    EXPECT_TRUE(wait_for([&] { return status()["directories"] == 3; }));
+    EXPECT_TRUE(testing::eventually([&] { return status()["directories"] == 3; }));
     fs::remove_all(config_.fixed.paths.drop / "KTLX");
-    EXPECT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return status()["directories"] == 1; }));
 }
 
 // 2026-11-22: a drop directory that was mounted late, or that a group was let into late, ended the
@@ -277,7 +274,7 @@ TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
     const std::string why = config_.fixed.paths.drop.native() + ": No such file or directory";
     EXPECT_TRUE(wait_for_message("READY=1"));
     EXPECT_TRUE(wait_for_message("STATUS=waiting for the drop directory " + why + "; ingested 0"));
-    ASSERT_TRUE(wait_for([&] { return status()["state"] == "running"; }));
+    ASSERT_TRUE(testing::eventually([&] { return status()["state"] == "running"; }));
     EXPECT_EQ(status()["drop_lost"], why);
     EXPECT_FALSE(fs::exists(config_.fixed.paths.drop)) << "it belongs to LDM, so it is not made";
     EXPECT_EQ(sink_->missing_looks(), 0)
@@ -349,7 +346,7 @@ TEST_F(ServiceTest, StopsWithoutTakingTheRestOfTheQueue) {
         wait_for_message("STOPPING=1");
         return outcome_of(IngestResult::gridded);
     });
-    ASSERT_TRUE(wait_for([&] { return held > 0; }));
+    ASSERT_TRUE(testing::eventually([&] { return held > 0; }));
     EXPECT_EQ(stop(), Stopped::cleanly);
     EXPECT_LE(sink_->calls().size(), 2U) << "a worker ends what it has, and begins nothing";
     EXPECT_EQ(status()["ingested"], sink_->calls().size()) << "what ended while stopping counts";
@@ -375,15 +372,30 @@ class HangingThread : public ServiceTest, public ::testing::WithParamInterface<c
     std::atomic<bool> hung_{false};
     void hold(const Sink::OnStep& step, bool moves_on) {
         hung_ = true;
-        while (hangs_) {
-            std::this_thread::sleep_for(std::chrono::milliseconds{5});
+        EXPECT_TRUE(testing::eventually([&] {
             if (moves_on) step();
-        }
+            return !hangs_;
+        }));
+    }
+    bool wait_until_it_hangs() {
+        return testing::eventually([&] { return hung_.load(); });
     }
 };
 
+// The service takes a turn whenever the watchdog is due, and reads its clock several times in each.
 TEST_P(HangingThread, StarvesTheWatchdog) {
-    notifier_.period = std::chrono::milliseconds{200};
+    constexpr std::chrono::milliseconds period{200};
+    constexpr int a_turn = 50, many_turns = 150;  // readings of the clock
+    notifier_.period = period;
+    std::atomic<int> readings = 0;
+    std::atomic<std::chrono::milliseconds> ahead{};
+    clock_.steady = [&] {
+        ++readings;
+        return steady_now() + ahead.load();
+    };
+    const auto reads = [&](int times) {
+        return testing::eventually([&, until = readings + times] { return readings >= until; });
+    };
     const std::string who = GetParam();
     const bool ingests = who == "ingest";
     if (ingests) write_file(config_.fixed.paths.drop / "file", "1");
@@ -397,16 +409,15 @@ TEST_P(HangingThread, StarvesTheWatchdog) {
         if (ingests) hold([] {}, false);
         return outcome_of(IngestResult::gridded);
     });
-    while (!hung_)
-        std::this_thread::sleep_for(std::chrono::milliseconds{1});
-    std::this_thread::sleep_for(std::chrono::milliseconds{400});
+    EXPECT_TRUE(wait_until_it_hangs());
+    ahead = 2 * period;
+    EXPECT_TRUE(reads(a_turn)) << "one may have begun before";
     const std::ptrdiff_t before = meals(notifier_);
-    std::this_thread::sleep_for(std::chrono::milliseconds{400});
-    EXPECT_EQ(meals(notifier_), before) << "two periods, and nobody says that all is well";
+    EXPECT_TRUE(reads(many_turns));
+    EXPECT_EQ(meals(notifier_), before) << "nobody says that all is well";
     hangs_ = false;
-    for (int i = 0; i < 2000 && meals(notifier_) == before; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    EXPECT_GT(meals(notifier_), before) << "it goes on";
+    EXPECT_TRUE(testing::eventually([&] { return meals(notifier_) > before; })) << "it goes on";
+    stop();  // it refers to the clock above
 }
 
 // A file has no steps.
@@ -414,7 +425,7 @@ class SteppingThread : public HangingThread {};
 
 TEST_P(SteppingThread, DoesNot) {
     const std::string who = GetParam();
-    notifier_.period = std::chrono::milliseconds{1000};
+    notifier_.period = std::chrono::milliseconds{400};
     looks_ = [&](const Sink::OnStep& step) {
         if (who == "missing") hold(step, true);
     };
@@ -422,13 +433,11 @@ TEST_P(SteppingThread, DoesNot) {
         if (who == "cache") hold(step, true);
     };
     start(always(IngestResult::gridded));
-    while (!hung_)
-        std::this_thread::sleep_for(std::chrono::milliseconds{1});
-    std::this_thread::sleep_for(std::chrono::milliseconds{2200});
-    const std::ptrdiff_t before = meals(notifier_);
-    for (int i = 0; i < 2000 && meals(notifier_) == before; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    EXPECT_GT(meals(notifier_), before) << "longer than two periods, and never at one step";
+    EXPECT_TRUE(wait_until_it_hangs());
+    // It is fed four times a period.
+    EXPECT_TRUE(testing::eventually([&, before = meals(notifier_)] {
+        return meals(notifier_) >= before + 12;
+    })) << "for more than two periods, and never at one step";
     hangs_ = false;
 }
 
@@ -452,7 +461,7 @@ TEST_F(ServiceTest, ReloadsOnHangUpAndStopsOnTermination) {
     ASSERT_TRUE(wait_for_message("READY=1"));
     ::pthread_kill(thread_.native_handle(), SIGHUP);
     ASSERT_TRUE(wait_for_message("RELOADING=1\nMONOTONIC_USEC="));
-    EXPECT_TRUE(wait_for([&] {
+    EXPECT_TRUE(testing::eventually([&] {
         const auto sent = notifier_.sent();
         return std::count(sent.begin(), sent.end(), "READY=1") == 2;
     })) << "ready again";

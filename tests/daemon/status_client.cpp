@@ -2,10 +2,8 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <functional>
-#include <thread>
 #include <utility>
 
 #include <netinet/in.h>
@@ -14,23 +12,24 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "tests/testing/waiting.h"
+
 namespace stormcellar::daemon {
 namespace {
 
-constexpr int tries = 1000;
-constexpr std::chrono::milliseconds between_tries{20};
 constexpr int longest_wait_ms = 20'000;
 
 template <class Address>
 int connect_to(int family, const Address& address) {
-    for (int i = 0; i < tries; ++i) {
-        const int descriptor = ::socket(family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    int descriptor = -1;
+    const bool is_connected = testing::eventually([&] {
+        descriptor = ::socket(family, SOCK_STREAM | SOCK_CLOEXEC, 0);
         if (::connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
-            return descriptor;
+            return true;
         ::close(descriptor);
-        std::this_thread::sleep_for(between_tries);
-    }
-    return -1;
+        return false;
+    });
+    return is_connected ? descriptor : -1;
 }
 
 }  // namespace
@@ -85,6 +84,11 @@ std::optional<std::string> StatusClient::read_to_end() const {
         if (got <= 0) return all;  // also if the connection was reset
         all.append(buffer.data(), static_cast<std::size_t>(got));
     }
+}
+
+bool StatusClient::is_cut_off() const {
+    pollfd source{descriptor_, 0, 0};
+    return ::poll(&source, 1, 0) == 1 && (source.revents & (POLLHUP | POLLERR)) != 0;
 }
 
 std::string StatusClient::ask(const std::string& request) const {

@@ -9,7 +9,7 @@ namespace stormcellar::daemon {
 
 class StatusClient {
   public:
-    // Waits up to 20 s until somebody listens there.
+    // Waits at most a minute until somebody listens there.
     static StatusClient at_path(const std::filesystem::path& path);
     static StatusClient at_port(bool ipv6, int port);
     StatusClient(StatusClient&& other) noexcept;
@@ -23,6 +23,8 @@ class StatusClient {
     bool send(const std::string& text) const;
     // Returns everything up to the end of the connection; none if it does not end within 20 s.
     [[nodiscard]] std::optional<std::string> read_to_end() const;
+    // Returns true if the other side has closed the connection, whatever is left to be read.
+    [[nodiscard]] bool is_cut_off() const;
     // Sends and reads; returns "" if nothing comes.
     [[nodiscard]] std::string ask(const std::string& request) const;
 

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <future>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,6 +19,7 @@
 #include "stormcellar/base/descriptor.h"
 #include "tests/daemon/status_client.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -67,38 +67,22 @@ class StatusServerTest : public ::testing::Test {
 // The watchdog must see a server that hangs in the middle of an answer, but not one that waits for
 // a request.
 TEST_F(StatusServerTest, IsSeenToHang) {
-    std::atomic<bool> hangs = true;
+    std::atomic<bool> hangs = true, is_at_a_page = false;
     const StatusServer server(quick(), [&](StatusPage) {
-        while (hangs)
-            std::this_thread::sleep_for(milliseconds{1});
+        is_at_a_page = true;
+        EXPECT_TRUE(testing::eventually([&] { return !hangs; }));
         return metrics_;
     });
     const SteadyTime before = std::chrono::steady_clock::now();
-    std::thread client;
-    while (!std::filesystem::exists(path()))
-        std::this_thread::sleep_for(milliseconds{1});
-    client = std::thread([&] {
-        for (int i = 0; i < 100 && hangs; ++i)
-            (void)ask(get("/metrics"));
-    });
-    // If two looks see the same step, the thread hangs in it.
-    std::optional<SteadyTime> since;
-    for (int i = 0; i < 1000; ++i) {
-        const auto first = server.pulse().since();
-        std::this_thread::sleep_for(milliseconds{20});
-        since = server.pulse().since();
-        if (since && first == since) break;
-    }
+    const StatusClient client = StatusClient::at_path(path());
+    client.send(get("/metrics"));
+    const bool hung = testing::eventually([&] { return is_at_a_page.load(); });
+    const auto since = server.pulse().since();
+    hangs = false;
+    ASSERT_TRUE(hung);
     ASSERT_TRUE(since);
     EXPECT_GE(*since, before);
-    hangs = false;
-    client.join();
-    bool rests = false;
-    for (int i = 0; i < 1000 && !rests; ++i) {
-        rests = !server.pulse().since();
-        std::this_thread::sleep_for(milliseconds{1});
-    }
-    EXPECT_TRUE(rests);
+    EXPECT_TRUE(testing::eventually([&] { return !server.pulse().since(); }));
 }
 
 bool says_how_to_take_it(const std::string& answer) {
@@ -181,10 +165,7 @@ TEST_F(StatusServerTest, WhoSaysNothingOrDripsIsCutOff) {
     // A byte now and then does not help.
     const StatusClient dripping = StatusClient::at_path(path());
     int sent = 0;
-    while (sent < 1000 && dripping.send("G")) {
-        ++sent;
-        std::this_thread::sleep_for(milliseconds{20});
-    }
+    EXPECT_TRUE(testing::eventually([&] { return !dripping.send("G") || ++sent == 1000; }));
     EXPECT_LT(sent, 1000);
 }
 
@@ -196,7 +177,8 @@ TEST_F(StatusServerTest, WhoNeverReadsIsCutOff) {
         lazy.push_back(StatusClient::at_path(path()));
         lazy.back().send(get("/metrics"));
     }
-    std::this_thread::sleep_for(milliseconds{600});
+    for (const StatusClient& client : lazy)
+        EXPECT_TRUE(testing::eventually([&] { return client.is_cut_off(); }));
     for (const StatusClient& client : lazy)
         EXPECT_LT(client.read_to_end().value_or(metrics_).size(), metrics_.size());
 }
@@ -358,18 +340,15 @@ TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     };
     // The server's thread is making a page while they arrive.
     auto first = std::async(std::launch::async, ask_it);
-    while (!is_at_a_page)
-        std::this_thread::sleep_for(milliseconds{1});
+    EXPECT_TRUE(testing::eventually([&] { return is_at_a_page.load(); }));
     const std::ptrdiff_t before = open_descriptors();
     const auto many = silent_connections(options.http_port, silent);
     // Nobody accepts meanwhile, so one that the kernel dropped would never be there.
     EXPECT_TRUE(all_are_connected(many));
-    auto second = std::async(std::launch::async, ask_it);
-    std::this_thread::sleep_for(milliseconds{100});
-    const SteadyTime begins = std::chrono::steady_clock::now();
+    const StatusClient second = StatusClient::at_port(false, options.http_port);
+    second.send(get("/metrics"));
     go_on.set_value();
-    EXPECT_EQ(body_of(second.get()), metrics_);
-    EXPECT_LT(std::chrono::steady_clock::now() - begins, options.retry / 3) << "the server slept";
+    EXPECT_EQ(body_of(second.read_to_end().value_or("")), metrics_) << "the server slept";
     EXPECT_EQ(body_of(first.get()), metrics_);
     EXPECT_LE(open_descriptors(), before + silent + std::ptrdiff_t{options.most_connections} + 1);
 }
@@ -388,7 +367,10 @@ TEST_F(StatusServerTest, ASocketOfAKilledDaemonIsTakenOver) {
 TEST_F(StatusServerTest, WhatCannotBeOpenedIsTriedAgain) {
     std::ofstream(path()) << "somebody's file";
     const StatusServer server(quick(), render());
-    std::this_thread::sleep_for(milliseconds{100});
+    EXPECT_TRUE(testing::eventually([&] {
+        const Status answers = server.answers();
+        return !answers && answers.error().message.find(path().native()) != std::string::npos;
+    })) << "it has tried";
     std::ifstream file(path());
     EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), "somebody's file");
     std::filesystem::remove(path());

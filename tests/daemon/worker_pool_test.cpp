@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/daemon/fake_sink.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -30,12 +31,11 @@ WorkerPool::Work work_of(Sink& sink) {
 // Waits until so many jobs have ended.
 std::vector<Finished> collect(WorkerPool& pool, std::size_t count) {
     std::vector<Finished> all;
-    const auto until = std::chrono::steady_clock::now() + seconds{20};
-    while (all.size() < count && std::chrono::steady_clock::now() < until) {
+    (void)testing::eventually([&] {
         for (Finished& finished : pool.collect())
             all.push_back(std::move(finished));
-        std::this_thread::sleep_for(milliseconds{1});
-    }
+        return all.size() >= count;
+    });
     return all;
 }
 
@@ -113,60 +113,65 @@ TEST(WorkerPool, SaysWhichJobRunsLongestAndSinceWhen) {
     const SteadyTime before = std::chrono::steady_clock::now();
     pool.submit(job("a"));
     EXPECT_FALSE(pool.has_free_worker());
-    while (!pool.oldest())
-        std::this_thread::yield();
-    EXPECT_GE(pool.oldest()->since, before);
-    EXPECT_EQ(pool.oldest()->path, job("a").path);
+    EXPECT_TRUE(testing::eventually([&] { return pool.oldest().has_value(); }));
+    const auto oldest = pool.oldest();
     release.count_down();
+    ASSERT_TRUE(oldest);
+    EXPECT_GE(oldest->since, before);
+    EXPECT_EQ(oldest->path, job("a").path);
     EXPECT_EQ(collect(pool, 1).size(), 1U);
     EXPECT_FALSE(pool.oldest());
 }
 
 TEST(WorkerPool, CanGrowAndShrink) {
-    std::atomic<int> running = 0, most = 0;
+    std::atomic<int> running = 0;
+    std::atomic<bool> is_held = false;
     FakeSink sink([&](const auto&, bool) {
-        const int now = ++running;
-        most = std::max(most.load(), now);
-        std::this_thread::sleep_for(milliseconds{20});
+        ++running;
+        EXPECT_TRUE(testing::eventually([&] { return !is_held; }));
         --running;
         return outcome_of(IngestResult::gridded);
     });
     WorkerPool pool(work_of(sink), "ingest", 1, [] {});
-    const auto run = [&](int jobs) {
-        most = 0;
-        std::size_t ended = 0;
-        for (int left = jobs; ended < static_cast<std::size_t>(jobs);) {
-            while (left > 0 && pool.has_free_worker()) {
-                pool.submit(job("x"));
-                --left;
-            }
-            ended += pool.collect().size();
-            std::this_thread::sleep_for(milliseconds{1});
-        }
-        return most.load();
+    // Gives jobs to all workers that are free, holds them until all run, and returns their number.
+    const auto run_at_once = [&] {
+        is_held = true;
+        int jobs = 0;
+        for (; jobs < 10 && pool.has_free_worker(); ++jobs)
+            pool.submit(job("x"));
+        EXPECT_TRUE(testing::eventually([&] { return running == jobs; }));
+        is_held = false;
+        EXPECT_EQ(collect(pool, static_cast<std::size_t>(jobs)).size(),
+                  static_cast<std::size_t>(jobs));
+        return jobs;
     };
-    EXPECT_EQ(run(4), 1);
+    EXPECT_EQ(run_at_once(), 1);
     pool.resize(4);
-    EXPECT_GT(run(12), 1);
+    EXPECT_EQ(run_at_once(), 4);
     pool.resize(1);
-    EXPECT_EQ(run(4), 1);
+    EXPECT_EQ(run_at_once(), 1);
 }
 
 TEST(WorkerPool, DrainingEndsRunningJobsAndBeginsNone) {
     std::latch begun(1);
+    std::atomic<bool> is_held = true;
     FakeSink sink([&](const auto&, bool) {
         begun.count_down();
-        std::this_thread::sleep_for(milliseconds{50});
+        EXPECT_TRUE(testing::eventually([&] { return !is_held; }));
         return outcome_of(IngestResult::gridded);
     });
-    WorkerPool pool(work_of(sink), "ingest", 1, [] {});
-    pool.submit(job("a"));
-    begun.wait();
-    EXPECT_TRUE(pool.drain(seconds{20}));
-    EXPECT_EQ(pool.collect().size(), 1U);
-    EXPECT_FALSE(pool.has_free_worker()) << "so nobody submits another";
-    std::this_thread::sleep_for(milliseconds{50});
-    EXPECT_EQ(sink.calls().size(), 1U);
+    {
+        WorkerPool pool(work_of(sink), "ingest", 1, [] {});
+        pool.submit(job("a"));
+        begun.wait();
+        pool.submit(job("b"));  // the one worker cannot have begun it
+        EXPECT_FALSE(pool.drain(milliseconds{1})) << "the first still runs";
+        is_held = false;
+        EXPECT_TRUE(pool.drain(seconds{20}));
+        EXPECT_EQ(pool.collect().size(), 1U);
+        EXPECT_FALSE(pool.has_free_worker()) << "so nobody submits another";
+    }
+    EXPECT_EQ(sink.calls(), std::vector<std::string>{"a"}) << "its threads have ended";
 }
 
 TEST(WorkerPool, DrainingGivesUpOnAJobThatHangs) {

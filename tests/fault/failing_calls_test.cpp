@@ -7,13 +7,13 @@
 #include <future>
 #include <mutex>
 #include <ostream>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/load.h"
 #include "tests/fault/steering_file.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -65,9 +65,9 @@ class FailingCalls : public ::testing::TestWithParam<Failure> {
 
 // Waits until all is settled. Returns true if the daemon ended instead.
 bool ends_before(FaultyDaemon& daemon, SteeringFile& steering, bool lasts, std::size_t files) {
-    const auto limit = Clock::now() + std::chrono::seconds{60};
     std::optional<Clock::time_point> first;
-    while (Clock::now() < limit) {
+    bool has_ended = false;
+    const bool comes_to_an_end = testing::eventually([&] {
         if (lasts && steering->failed > 0 && !first) first = Clock::now();
         if (first && Clock::now() - *first > std::chrono::milliseconds{200}) steering.end();
         if (const auto status = daemon.running().ended()) {
@@ -75,13 +75,12 @@ bool ends_before(FaultyDaemon& daemon, SteeringFile& steering, bool lasts, std::
             EXPECT_EQ(daemon.log_end().find("ready: watching"), std::string::npos)
                 << "it may give up at its start alone\n"
                 << daemon.log_end();
-            return true;
+            has_ended = true;
         }
-        if (daemon.settled() >= files) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    }
-    ADD_FAILURE() << "does not catch up\n" << daemon.log_end();
-    return false;
+        return has_ended || daemon.settled() >= files;
+    });
+    EXPECT_TRUE(comes_to_an_end) << "does not catch up\n" << daemon.log_end();
+    return has_ended;
 }
 
 Tried FailingCalls::run(std::uint64_t at) {

@@ -4,11 +4,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
-#include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "tests/fault/load.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -67,17 +67,14 @@ std::size_t FaultyDaemon::settled() const {
 }
 
 bool FaultyDaemon::catches_up(std::size_t files, int seconds) const {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds{seconds};
-    while (std::chrono::steady_clock::now() < limit) {
-        const json now = running_.status();
-        if (!now.is_null() && now["state"] == "running" && now["pending"]["waiting"] == 0 &&
-            now["pending"]["running"] == 0 && now["pending"]["growing"] == 0 &&
-            settled() >= files) {
-            return true;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds{50});
-    }
-    return false;
+    return testing::eventually(
+        [&] {
+            const json now = running_.status();
+            return !now.is_null() && now["state"] == "running" && now["pending"]["waiting"] == 0 &&
+                   now["pending"]["running"] == 0 && now["pending"]["growing"] == 0 &&
+                   settled() >= files;
+        },
+        std::chrono::seconds{seconds});
 }
 
 std::string FaultyDaemon::log_end() const {

@@ -69,7 +69,8 @@ TEST_P(OneDatabase, ThatCannotBeOpenedIsItsStationsTroubleAlone) {
     put("misc/no-radar-data", Bytes(300, std::byte{'x'}));
     EXPECT_TRUE(comes_true(prompt_s, [&] { return complaints_about("KTLX.sqlite") > before; }))
         << log_end();
-    std::this_thread::sleep_for(seconds{4});
+    const std::uint64_t scans = daemon_.status()["scans"];
+    EXPECT_TRUE(daemon_.wait_for([&](const nlohmann::json& s) { return s["scans"] >= scans + 2; }));
     EXPECT_EQ(complaints_about("KTLX.sqlite"), before + 1) << log_end();
     EXPECT_NE(daemon_.status().dump().find("KTLX.sqlite"), std::string::npos)
         << "the status does not name it";

@@ -13,6 +13,7 @@
 #include "stormcellar/level2/encode.h"
 #include "tests/fault/feed_volume.h"
 #include "tests/fault/hostile_watch.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -190,7 +191,7 @@ void RealFeed::write() {
         if (ending_ && first->pieces.empty()) return;
         const auto now = Clock::now();
         if (first->next_piece > now) {
-            std::this_thread::sleep_for(
+            testing::pass_time(
                 std::min<Clock::duration>(first->next_piece - now, milliseconds{50}));
             continue;
         }
@@ -228,7 +229,7 @@ void RealFeed::watch() {
     std::vector<std::int64_t> seen_ns;
     while (is_watched_) {
         look_at_waiting(seen_ns);
-        std::this_thread::sleep_for(milliseconds{5});
+        testing::pass_time(milliseconds{5});
     }
 }
 

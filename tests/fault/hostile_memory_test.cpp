@@ -119,7 +119,7 @@ TEST_F(LivingMemory, WhatOnlyBeginsTakesNoPlaceFromWhatGoesOn) {
         const std::string kind{"SIE"[sweep]};
         put("KFWS/77/20241003-020000-00" + std::to_string(sweep + 1) + "-" + kind,
             record(of_chunks));
-        std::this_thread::sleep_for(milliseconds{700});
+        EXPECT_TRUE(rests(20 * slow_down)) << log_end();
     }
     const auto time_of = [](const Claims& claims) {
         return time_from_nexrad(claims.time.day, claims.time.milliseconds);

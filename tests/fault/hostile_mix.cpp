@@ -16,6 +16,7 @@
 
 #include "stormcellar/base/station_table.h"
 #include "tests/fault/hostile_feed.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -438,7 +439,7 @@ void HostileMix::run() {
         for (; done < seconds_ * options_.rate && !stopping_; ++done)
             strike();
         make_room();
-        std::this_thread::sleep_for(milliseconds{5});
+        testing::pass_time(milliseconds{5});
     }
 }
 

@@ -19,6 +19,7 @@
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/hostile_feed.h"
 #include "tests/fault/hostile_watch.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -88,7 +89,7 @@ class Sampler {
                     std::max(peaks_.cache_bytes, disk_bytes_below(daemon_.cache()));
                 peaks_.unnamed_bytes = std::max(peaks_.unnamed_bytes, unnamed_bytes(process));
             }
-            std::this_thread::sleep_for(milliseconds{250});
+            (void)testing::eventually([this] { return ending_.load(); }, milliseconds{250});
         }
     }
 
@@ -225,7 +226,7 @@ TEST_F(HostileMixTest, RealStationsGoOnAsBefore) {
     Sampler sampler(daemon_);
     feed.begin();
     mix.begin();
-    std::this_thread::sleep_for(std::chrono::seconds{seconds_});
+    testing::pass_time(std::chrono::seconds{seconds_});  // as long as the attack is to last
     const auto volumes = feed.finish(10);
     mix.end();
     const Peaks peaks = sampler.end();

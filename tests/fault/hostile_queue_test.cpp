@@ -2,7 +2,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <sys/inotify.h>
@@ -10,6 +9,7 @@
 
 #include "tests/fault/hostile_cases.h"
 #include "tests/fault/hostile_watch.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -28,7 +28,9 @@ TEST_F(HostileCases, FilesThatCannotBeGriddedAreSettledAtOnceAndFillNoQueue) {
         names.emplace_back("KTLX_bad" + std::to_string(i));
         put(names.back(), overflowing_bytes(claims_of("KTLX", start_time + milliseconds{i})));
     }
-    std::this_thread::sleep_for(seconds{1});
+    const std::string none_rejected = not_rejected(names);
+    EXPECT_TRUE(comes_true(15 * slow_down, [&] { return not_rejected(names) != none_rejected; }))
+        << log_end();
     expect_gridded("KFWS", put_good("KFWS"));
     EXPECT_TRUE(comes_true(15 * slow_down, [&] { return not_rejected(names).empty(); }))
         << not_rejected(names);
@@ -97,7 +99,7 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
         for (int volume = 0; volume < volumes; ++volume) {
             put_chunk(volume, chunk);
             openings.count();
-            std::this_thread::sleep_for(milliseconds{3});  // so that the daemon looks at each
+            testing::pass_time(milliseconds{3});  // so that the daemon looks at each
         }
     }
     expect_gridded("KFWS", put_good("KFWS"), 2 * prompt_s);

@@ -137,12 +137,12 @@ TEST_F(HostileCases, AnInventedStationHasNoLivingGridEither) {
     fs::create_directories(daemon_.drop() / "KTLX/7");
     const std::string chunk = "KTLX/7/20241003-010000-00";
     append(chunk + "1-S", wire::join({file_header(nameless), sweep}));
-    std::this_thread::sleep_for(milliseconds{500});
+    EXPECT_TRUE(rests(15 * slow_down)) << log_end();
     append("nameless", sweep);
     append("KTLX_other", wire::join({file_header(claims), sweep}));
     append(chunk + "2-I", wire::ldm_record(sweep_messages(claims, 1)));
     for (const char* name : {"nameless", "KTLX_other"}) {
-        std::this_thread::sleep_for(milliseconds{500});
+        EXPECT_TRUE(rests(15 * slow_down)) << log_end();
         append(name, wire::ldm_record(sweep_messages(claims, 1)));
     }
     expect_gridded("KTLX", put_good("KTLX"));

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sys/stat.h>
@@ -14,6 +13,7 @@
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/grid_name.h"
 #include "tests/daemon/notify_socket.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -136,26 +136,25 @@ bool has_whole_grid(const fs::path& cache, const std::string& station, UtcTime t
 }
 
 bool comes_true(double seconds, const std::function<bool()>& wanted) {
-    const auto limit = Clock::now() + std::chrono::duration<double>(seconds);
-    while (!wanted()) {
-        if (Clock::now() >= limit) return false;
-        std::this_thread::sleep_for(milliseconds{20});
-    }
-    return true;
+    return testing::eventually(wanted, std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(seconds)));
 }
 
 bool comes_to_rest(const daemon::RunningDaemon& daemon, double seconds) {
     constexpr double hardly_s = 0.1;
-    const auto limit = Clock::now() + std::chrono::duration<double>(seconds);
-    while (Clock::now() < limit) {
-        const double before_s = cpu_seconds(daemon.id());
-        std::this_thread::sleep_for(milliseconds{1200});
+    constexpr milliseconds long_rest{1200};
+    auto since = Clock::now();
+    double before_s = cpu_seconds(daemon.id());
+    return comes_true(seconds, [&] {
         const nlohmann::json now = daemon.status();
-        if (now.is_null() || now["pending"]["waiting"] != 0 || now["pending"]["running"] != 0)
-            continue;
-        if (cpu_seconds(daemon.id()) - before_s < hardly_s) return true;
-    }
-    return false;
+        const bool is_at_work =
+            now.is_null() || now["pending"]["waiting"] != 0 || now["pending"]["running"] != 0;
+        if (is_at_work || cpu_seconds(daemon.id()) - before_s >= hardly_s) {
+            since = Clock::now();
+            before_s = cpu_seconds(daemon.id());
+        }
+        return Clock::now() - since >= long_rest;
+    });
 }
 
 // The socket is closed after READY: nobody reads later messages, and the daemon must not block.

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdio>
 #include <random>
-#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include "tests/daemon/write_file.h"
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/load.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -48,7 +48,7 @@ TEST(Kill, AtRandomMomentsUnderLoad) {
     for (int kill = 0; kill < kills; ++kill) {
         feed.allow(10 + 4 * kill);
         daemon.start();
-        std::this_thread::sleep_for(
+        testing::pass_time(
             std::chrono::microseconds{kill % 3 == 0 ? start_us(random) : work_us(random)});
         daemon.kill();
         if (!std::filesystem::exists(daemon.places().state / "status.json")) ++at_start;

@@ -13,6 +13,7 @@
 #include "synth/replay_pieces.h"
 #include "tests/fault/feed_volume.h"
 #include "tests/testing/data.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -253,7 +254,7 @@ void Feed::run() {
             if (growing_[index].next >= growing_[index].shipment.pieces.size())
                 growing_.erase(growing_.begin() + static_cast<std::ptrdiff_t>(index));
         }
-        std::this_thread::sleep_for(growing_.empty() ? std::chrono::milliseconds{2} : pause_);
+        testing::pass_time(growing_.empty() ? std::chrono::milliseconds{2} : pause_);
     }
     expect(open_.close());
 }

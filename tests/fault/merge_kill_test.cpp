@@ -2,7 +2,6 @@
 // there once: the mosaic is afterwards, to the byte, what it would be without that.
 #include <cerrno>
 #include <map>
-#include <thread>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -11,9 +10,11 @@
 #include "stormcellar/base/file_system.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/fault/faulty_daemon.h"
+#include "tests/fault/hostile_watch.h"
 #include "tests/fault/steering_file.h"
 #include "tests/pipeline/invented_partials.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -52,21 +53,15 @@ class Merging : public ::testing::Test {
     [[nodiscard]] Files undisturbed() const {
         daemon::RunningDaemon daemon;
         daemon.start(configuration());
-        Files files, before;
-        for (int i = 0; i < 300 && (files.size() < 20 || files != before); ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds{200});
-            before = std::exchange(files, grids_of(daemon));
-        }
+        EXPECT_TRUE(testing::eventually([&] { return grids_of(daemon).size() > 20; }));
+        EXPECT_TRUE(comes_to_rest(daemon, 60)) << daemon.log();
+        Files files = grids_of(daemon);
         EXPECT_EQ(daemon.terminate(), 0);
         EXPECT_GT(files.size(), 20U) << daemon.log();
         return files;
     }
     static bool comes_to(const daemon::RunningDaemon& daemon, const Files& wanted) {
-        for (int i = 0; i < 150; ++i) {
-            if (grids_of(daemon) == wanted) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds{200});
-        }
-        return false;
+        return testing::eventually([&] { return grids_of(daemon) == wanted; });
     }
     static std::string difference(const Files& is, const Files& wanted) {
         std::string text;
@@ -88,8 +83,7 @@ TEST_F(Merging, AKilledDaemonMakesTheFramesOfOneMachine) {
         // Wait until so many grids stand, then kill at once.
         const std::size_t until =
             2 + wanted.size() * static_cast<std::size_t>(kill) / static_cast<std::size_t>(kills);
-        while (grids_of(daemon).size() < until && !daemon.ended())
-            std::this_thread::sleep_for(std::chrono::microseconds{300});
+        ASSERT_TRUE(testing::eventually([&] { return grids_of(daemon).size() >= until; }));
         daemon.signal(SIGKILL);
         EXPECT_EQ(daemon.wait(), -SIGKILL);
         daemon.start(configuration());

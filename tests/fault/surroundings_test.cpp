@@ -4,7 +4,6 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
-#include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "tests/daemon/write_file.h"
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/load.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::fault {
 namespace {
@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 using daemon::write_file;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
 
 constexpr Way ways[] = {Way::whole, Way::growing, Way::open, Way::chunks};
 
@@ -58,6 +57,16 @@ class Surroundings : public ::testing::Test {
         return after;
     }
     bool log_says(const std::string& text) { return daemon_.running().wait_for_log(text); }
+    // Counts how often the log names one of the texts.
+    std::size_t complaints(std::initializer_list<const char*> texts) {
+        const std::string log = daemon_.running().log();
+        std::size_t count = 0;
+        for (const std::string text : texts)
+            for (auto at = log.find(text); at != std::string::npos; at = log.find(text, at + 1))
+                ++count;
+        return count;
+    }
+    std::size_t complaints_of_space() { return complaints({"No space left", "is full"}); }
 
     FaultyDaemon daemon_;
     Shipments shipments_{daemon_.drop(), 11};
@@ -105,8 +114,8 @@ TEST_F(Surroundings, AFullDisk) {
     expect_to_catch_up();
     disk.fill();
     deliver_some(8);
-    EXPECT_TRUE(log_says("No space left") || log_says("is full")) << daemon_.log_end();
-    std::this_thread::sleep_for(milliseconds{1500});
+    EXPECT_TRUE(testing::eventually([&] { return complaints_of_space() > 1; }))
+        << daemon_.log_end();
     EXPECT_FALSE(daemon_.running().ended()) << daemon_.log_end();
     disk.free();
     expect_to_catch_up();
@@ -114,10 +123,15 @@ TEST_F(Surroundings, AFullDisk) {
     EXPECT_EQ(daemon_.stop(), 0) << daemon_.log_end();
     disk.fill();
     deliver_some(8);
+    const std::size_t before = complaints_of_space();
     daemon_.start();
-    std::this_thread::sleep_for(milliseconds{1500});
+    std::optional<int> ended;
+    EXPECT_TRUE(testing::eventually([&] {
+        ended = daemon_.running().ended();
+        return ended || complaints_of_space() > before;
+    }));
     disk.free();
-    if (daemon_.running().ended()) daemon_.start();
+    if (ended || daemon_.running().ended()) daemon_.start();
     expect_to_catch_up();
     stop_and_look();
 }
@@ -133,8 +147,8 @@ TEST_F(Surroundings, NoDescriptorsLeft) {
     const rlimit few{3, before.rlim_max};
     ASSERT_EQ(::prlimit(id, RLIMIT_NOFILE, &few, nullptr), 0);
     deliver_some(8);
-    EXPECT_TRUE(log_says("Too many open files")) << daemon_.log_end();
-    std::this_thread::sleep_for(milliseconds{2500});
+    EXPECT_TRUE(testing::eventually([&] { return complaints({"Too many open files"}) > 1; }))
+        << daemon_.log_end();
     EXPECT_FALSE(daemon_.running().ended()) << daemon_.log_end();
     ASSERT_EQ(::prlimit(id, RLIMIT_NOFILE, &before, nullptr), 0);
     expect_to_catch_up();
@@ -152,7 +166,6 @@ TEST_F(Surroundings, ADatabaseThatAnotherProcessKeepsBusy) {
         other.exec("BEGIN EXCLUSIVE");
         deliver_some(8);
         EXPECT_TRUE(log_says("database is locked")) << daemon_.log_end();
-        std::this_thread::sleep_for(milliseconds{2000});
         other.exec("ROLLBACK");
     }
     expect_to_catch_up();
@@ -192,7 +205,6 @@ TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
     const fs::path away = daemon_.running().root() / "away";
     fs::rename(daemon_.drop(), away);
     EXPECT_TRUE(log_says("; looking again every")) << daemon_.log_end();
-    std::this_thread::sleep_for(milliseconds{300});
     fs::rename(away, daemon_.drop());
     deliver_some(4);
     expect_to_catch_up();
@@ -201,8 +213,9 @@ TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
     // Another directory in its place, into which the files are then written.
     fs::rename(daemon_.drop(), away);
     fs::create_directory(daemon_.drop());
+    const std::uint64_t scans = daemon_.running().status()["scans"];
     deliver_some(4);
-    std::this_thread::sleep_for(milliseconds{300});
+    EXPECT_TRUE(daemon_.running().wait_for([&](const json& s) { return s["scans"] > scans; }));
     for (const auto& entry : fs::recursive_directory_iterator(away)) {
         const fs::path target = daemon_.drop() / fs::relative(entry.path(), away);
         if (entry.is_directory()) fs::create_directories(target);

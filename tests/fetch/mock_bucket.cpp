@@ -12,6 +12,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "tests/testing/waiting.h"
+
 namespace stormcellar::fetch {
 namespace {
 
@@ -214,8 +216,8 @@ void MockBucket::answer(int connection) {
                                      modified, said, said + rest.size() - 1, body.size()));
     const bool half = fault == Fault::cut || fault == Fault::stalled;
     send_all(connection, std::string_view{rest}.substr(0, half ? rest.size() / 2 : rest.size()));
-    for (int i = 0; fault == Fault::stalled && i < 200 && !stop_; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    if (fault == Fault::stalled)
+        (void)testing::eventually([this] { return stop_.load(); }, std::chrono::seconds{4});
 }
 
 }  // namespace stormcellar::fetch

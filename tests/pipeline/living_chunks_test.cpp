@@ -13,6 +13,7 @@
 #include "pipeline/ingest/chunk_volumes.h"
 #include "stormcellar/cache/grid_file.h"
 #include "tests/pipeline/living_house.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -354,7 +355,7 @@ TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
     for (std::size_t i = 0; i < 20; ++i) {
         workers.emplace_back([&, i] {
             const fs::path& name = i == 0 ? names_.back() : names_[i];
-            std::this_thread::sleep_for(std::chrono::milliseconds{10 * i});
+            testing::pass_time(std::chrono::milliseconds{10 * i});
             const auto outcome = house_.ingestor->ingest(drop_ / name, false);
             EXPECT_TRUE(outcome);
             gridded += outcome && outcome->result() == IngestResult::gridded ? 1 : 0;

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <mutex>
 #include <new>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "stormcellar/cache/store.h"
 #include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::web {
 namespace {
@@ -41,15 +41,14 @@ TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
         const std::scoped_lock lock(mutex);
         return std::ranges::count(told, event) > 0;
     };
-    for (int i = 0; i < 500 && !has_told(CacheEvent::everything); ++i) {
+    EXPECT_TRUE(testing::eventually([&] {
         try {
             watch->catch_up();
         } catch (const std::bad_alloc&) {
             // It was this thread that met it.
         }
-        std::this_thread::sleep_for(10ms);
-    }
-    EXPECT_TRUE(has_told(CacheEvent::everything));
+        return has_told(CacheEvent::everything);
+    }));
     ASSERT_TRUE(store.remove(store.list("KBGM", level2::Moment::ref, noon, noon)->front()));
     watch->catch_up();
     EXPECT_TRUE(has_told(CacheEvent::went)) << "it goes on";

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/testing/waiting.h"
 #include "tests/web/asked.h"
 #include "tests/web/raw_client.h"
 #include "web/doors/api/door.h"
@@ -40,11 +41,6 @@ class EventsOverHttp : public ::testing::Test {
         client->send("GET /api/v1/events" + query + " HTTP/1.1\r\nHost: localhost\r\n" + headers +
                      "\r\n");
         return client;
-    }
-    static bool wait_until(const std::function<bool()>& condition) {
-        for (int i = 0; i < 1000 && !condition(); ++i)
-            std::this_thread::sleep_for(5ms);
-        return condition();
     }
 
     const std::shared_ptr<EventHub> hub_ = EventHub::make({.kept = 16, .run = "abc"});
@@ -133,19 +129,19 @@ TEST_F(EventsOverHttp, StreamsHaveLimitsOfTheirOwn) {
     }
     // A stream that ends makes room.
     open.erase(open.begin());
-    ASSERT_TRUE(wait_until([&] { return hub_->listeners() == 5; }));
+    ASSERT_TRUE(testing::eventually([&] { return hub_->listeners() == 5; }));
     open.push_back(listener("", "", "127.0.0.2"));
     EXPECT_EQ(status_in(open.back()->read_until("id: abc-0\n\n")), 200);
     open.clear();
-    EXPECT_TRUE(
-        wait_until([&] { return hub_->listeners() == 0 && running_->facts().connections == 0; }));
+    EXPECT_TRUE(testing::eventually(
+        [&] { return hub_->listeners() == 0 && running_->facts().connections == 0; }));
 }
 
 TEST_F(EventsOverHttp, AClientThatReadsNothingHoldsNoEvents) {
     start();
     auto slow = std::make_unique<RawClient>(port_, 4096);
     slow->send("GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    ASSERT_TRUE(wait_until([&] { return hub_->listeners() == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return hub_->listeners() == 1; }));
     const auto quick = listener();
     (void)quick->read_until("id: abc-0\n\n");
     Event event = event_of("KTLX");

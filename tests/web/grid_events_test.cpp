@@ -2,7 +2,6 @@
 #include "web/data/events/grid_events.h"
 
 #include <fstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "stormcellar/cache/store.h"
 #include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 
 namespace stormcellar::web {
 namespace {
@@ -127,11 +127,8 @@ TEST_F(EventsOfGrids, EvictedGridsAreOneEventOfAMoment) {
 
 TEST_F(EventsOfGrids, AGridThatCameAndWentIsToldAsGone) {
     const auto next_told = [&] {
-        Types told = types(events());
-        for (int i = 0; i < 500 && told.empty(); ++i) {
-            std::this_thread::sleep_for(10ms);
-            told = types(events());
-        }
+        Types told;
+        (void)testing::eventually([&] { return !(told = types(events())).empty(); });
         return told;
     };
     // The directories are watched from their first grid on.

@@ -13,6 +13,7 @@
 #include "stormcellar/cache/store.h"
 #include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 #include "tests/web/raw_client.h"
 #include "tests/web/setup_below.h"
 #include "web/service/web_service.h"
@@ -62,11 +63,6 @@ class HostileClients : public ::testing::Test {
     [[nodiscard]] int status_at(std::string_view target) const {
         return status_in(RawClient::get(port_, target));
     }
-    static bool wait_for(const std::function<bool()>& condition) {
-        for (int i = 0; i < 3000 && !condition(); ++i)
-            std::this_thread::sleep_for(10ms);
-        return condition();
-    }
 
     static constexpr const char* grid_path = "/api/v1/grids/KBGM/REF/2005-08-22T02:44:14.123Z";
 
@@ -99,7 +95,7 @@ TEST_F(HostileClients, IdleConnectionsBeyondTheLimitAreRefused) {
     EXPECT_LE(service_->facts().connections, clients / 8);
     EXPECT_LE(resident_mib() - before_mib, 64 + 0.06 * static_cast<double>(clients));
     // The server ends idle connections, so that an honest client finds a place in time.
-    EXPECT_TRUE(wait_for([&] { return status_at(grid_path) == 200; }));
+    EXPECT_TRUE(testing::eventually([&] { return status_at(grid_path) == 200; }));
     for (const auto& client : idle)
         ASSERT_TRUE(!client->is_connected() || client->is_closed(10s));
 }
@@ -273,20 +269,20 @@ TEST_F(HostileClients, AGridThatIsEvictedWhileItIsSentArrivesWhole) {
     fs::remove_all(directory_ / "cache" / "KBGM");
     answer += slow.read_to_end();
     EXPECT_EQ(body_in(answer), whole);
-    EXPECT_TRUE(wait_for([&] { return status_at(path) == 410; }));
+    EXPECT_TRUE(testing::eventually([&] { return status_at(path) == 410; }));
 }
 
 TEST_F(HostileClients, ACacheMayVanishAndComeBack) {
     start();
     ASSERT_EQ(status_at(grid_path), 200);
     fs::rename(directory_ / "cache", directory_ / "away");
-    EXPECT_TRUE(wait_for([&] {
+    EXPECT_TRUE(testing::eventually([&] {
         const int status = status_at(grid_path);
         return status == 404 || status == 410 || status == 503;
     }));
     EXPECT_EQ(status_at("/api/v1/domains"), 200) << "the server goes on";
     fs::rename(directory_ / "away", directory_ / "cache");
-    EXPECT_TRUE(wait_for([&] {
+    EXPECT_TRUE(testing::eventually([&] {
         service_->look_again();
         return status_at(grid_path) == 200;
     }));

@@ -14,6 +14,7 @@
 #include "base/steady_time.h"
 #include "stormcellar/base/file_system.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/waiting.h"
 #include "tests/web/raw_client.h"
 #include "tests/web/setup_below.h"
 #include "web/service/web_service.h"
@@ -107,8 +108,7 @@ TEST_F(Reload, AClientThatHasJustConnectedIsAnswered) {
     for (int i = 0; i < 10; ++i) {
         RawClient client(port_);
         // The server knows the connection, and not yet what it wants.
-        while (service_->facts().connections == 0)
-            std::this_thread::yield();
+        ASSERT_TRUE(testing::eventually([&] { return service_->facts().connections > 0; }));
         auto reloaded = std::async(std::launch::async, [&] { return service_->reload(setup_); });
         client.send("GET /api/v1 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
         EXPECT_NE(status_in(client.read_to_end()), 0) << "503 is an answer, too";
@@ -136,8 +136,7 @@ TEST_F(Reload, AnAddressThatIsTakenLeavesTheServerAsItWas) {
 TEST_F(Reload, AnAddressOfAnotherMachineLeavesTheServerAsItWas) {
     start();
     RawClient kept(port_);
-    while (service_->facts().connections == 0)
-        std::this_thread::yield();
+    ASSERT_TRUE(testing::eventually([&] { return service_->facts().connections > 0; }));
     setup_.web.listen = {{"203.0.113.9", port_}};
     EXPECT_FALSE(service_->reload(setup_));
     EXPECT_TRUE(kept.send("GET /api/v1 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"));
@@ -179,8 +178,7 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
                 }
             }
         });
-        while (!has_all)
-            std::this_thread::yield();
+        EXPECT_TRUE(testing::eventually([&] { return has_all.load(); }));
         // The one address is in the way of the other, so the old server must end first.
         setup_.web.listen = {{i % 2 == 0 ? "0.0.0.0" : "127.0.0.1", port_}};
         const Status done = service_->reload(setup_);

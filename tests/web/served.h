@@ -44,11 +44,6 @@ class WebServer : public ::testing::Test {
     [[nodiscard]] std::string get(std::string_view target, std::string_view headers = "") const {
         return RawClient::get(port_, target, headers);
     }
-    static bool wait_for(const std::function<bool()>& condition) {
-        for (int i = 0; i < 1000 && !condition(); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        return condition();
-    }
 
     ServerOptions options_;
     std::shared_ptr<Doors> doors_ = std::make_shared<Doors>();

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/testing/waiting.h"
 #include "tests/web/served.h"
 
 namespace stormcellar::web {
@@ -22,9 +23,9 @@ TEST_F(WebServer, ConnectionsBeyondTheLimitAreClosedAndTheServerGoesOn) {
     std::vector<std::unique_ptr<RawClient>> idle;
     for (int i = 0; i < 200; ++i)
         idle.push_back(std::make_unique<RawClient>(port_));
-    EXPECT_TRUE(wait_for([&] { return server_->facts().connections <= 16; }));
+    EXPECT_TRUE(testing::eventually([&] { return server_->facts().connections <= 16; }));
     // The idle ones are ended in time, so that others find a place.
-    EXPECT_TRUE(wait_for([&] { return status_in(get("/")) == 200; }));
+    EXPECT_TRUE(testing::eventually([&] { return status_in(get("/")) == 200; }));
     for (const auto& client : idle)
         EXPECT_TRUE(client->is_closed(5s));
 }
@@ -35,7 +36,7 @@ TEST_F(WebServer, OneAddressDoesNotTakeAllPlaces) {
     std::vector<std::unique_ptr<RawClient>> held;
     for (int i = 0; i < 8; ++i)
         held.push_back(std::make_unique<RawClient>(port_));
-    EXPECT_TRUE(wait_for([&] { return server_->facts().connections == 4; }));
+    EXPECT_TRUE(testing::eventually([&] { return server_->facts().connections == 4; }));
     int closed = 0;
     for (const auto& client : held)
         closed += client->is_closed(200ms) ? 1 : 0;
@@ -68,8 +69,8 @@ TEST_F(WebServer, AClientThatTakesNothingIsCutOff) {
     start();
     RawClient client(port_, 4096);
     client.send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    ASSERT_TRUE(wait_for([&] { return server_->facts().connections == 1; }));
-    EXPECT_TRUE(wait_for([&] { return server_->facts().connections == 0; }));
+    ASSERT_TRUE(testing::eventually([&] { return server_->facts().connections == 1; }));
+    EXPECT_TRUE(testing::eventually([&] { return server_->facts().connections == 0; }));
 }
 
 // 2026-11-28: 120 clients that took ranges of a kept answer slowly held 120 copies of it, and the
@@ -103,7 +104,7 @@ TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     EXPECT_EQ(take_slowly("/own", "127.0.0.4", "HEAD "), 503) << "the answer to HEAD is held, too";
     EXPECT_EQ(status_in(get("/")), 200) << "small answers pass";
     slow.clear();
-    EXPECT_TRUE(wait_for([&] { return server_->facts().answer_bytes == 0; }));
+    EXPECT_TRUE(testing::eventually([&] { return server_->facts().answer_bytes == 0; }));
     EXPECT_EQ(body_in(get("/own")).size(), large);
 }
 
@@ -125,7 +126,7 @@ TEST_F(WebServer, ASlowBodyGivesWayWhenMemoryIsShort) {
     slow.send("GET /own HTTP/1.1\r\nHost: localhost\r\n\r\n");
     ASSERT_EQ(status_in(slow.read_until("\r\n\r\n")), 200);
     EXPECT_EQ(status_in(get("/own")), 503);
-    EXPECT_TRUE(wait_for([&] { return status_in(get("/own")) == 200; }));
+    EXPECT_TRUE(testing::eventually([&] { return status_in(get("/own")) == 200; }));
 }
 
 // 2026-11-28: a client that took 1,000 bytes a second held a connection for ten hours.
@@ -143,8 +144,8 @@ TEST_F(WebServer, AnAnswerHasATotalTime) {
     EXPECT_EQ(body_in(get("/large")).size(), large->size());
     RawClient client(port_, 4096);
     client.send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    ASSERT_TRUE(wait_for([&] { return server_->facts().connections == 1; }));
-    EXPECT_TRUE(wait_for([&] {
+    ASSERT_TRUE(testing::eventually([&] { return server_->facts().connections == 1; }));
+    EXPECT_TRUE(testing::eventually([&] {
         (void)client.read_until("never", 1ms);
         return server_->facts().connections == 0;
     }));
@@ -168,7 +169,7 @@ TEST_F(WebServer, TheSlowestBodiesGiveWay) {
         slow.back()->send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
         EXPECT_EQ(status_in(slow.back()->read_until("\r\n\r\n")), 200);
     }
-    EXPECT_TRUE(wait_for([&] { return status_in(get("/")) == 200; }));
+    EXPECT_TRUE(testing::eventually([&] { return status_in(get("/")) == 200; }));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/testing/waiting.h"
 #include "tests/web/served.h"
 
 namespace stormcellar::web {
@@ -26,7 +27,7 @@ class WebServerWorkers : public WebServer {
         std::vector<std::future<std::string>> answers;
         for (int i = 0; i < 3; ++i)
             answers.push_back(std::async(std::launch::async, [=, this] { return get(target); }));
-        EXPECT_TRUE(wait_for([&] {
+        EXPECT_TRUE(testing::eventually([&] {
             const ServerFacts facts = server_->facts();
             return facts.working == 1 && facts.waiting == 2;
         }));
@@ -50,7 +51,7 @@ TEST_F(WebServerWorkers, ADoorWithWorkersOfItsOwnHoldsUpNoOther) {
     std::vector<std::future<std::string>> pictures;
     for (int i = 0; i < 2; ++i) {
         pictures.push_back(std::async(std::launch::async, [&] { return get("/slow"); }));
-        ASSERT_TRUE(wait_for([&] {
+        ASSERT_TRUE(testing::eventually([&] {
             const ServerFacts facts = server_->facts();
             return facts.working + facts.waiting == pictures.size();
         }));
@@ -110,9 +111,9 @@ TEST_F(WebServerWorkers, WorkersDoNotHoldUpOthersAndBeyondTheQueueClientsComeBac
     doors_->add("/quick", std::make_shared<QuickDoor>());
     start();
     auto first = std::async(std::launch::async, [&] { return get("/slow"); });
-    ASSERT_TRUE(wait_for([&] { return server_->facts().working == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return server_->facts().working == 1; }));
     auto second = std::async(std::launch::async, [&] { return get("/slow"); });
-    ASSERT_TRUE(wait_for([&] { return server_->facts().waiting == 1; }));
+    ASSERT_TRUE(testing::eventually([&] { return server_->facts().waiting == 1; }));
     EXPECT_EQ(status_in(get("/quick")), 200);
     const std::string third = get("/slow");
     EXPECT_EQ(status_in(third), 503);

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/testing/waiting.h"
+
 namespace stormcellar::web {
 namespace {
 
@@ -30,8 +32,8 @@ class SharedQueue : public ::testing::Test {
     }
     void go_on() {
         released_.set_value();
-        while (queue_.waiting() + queue_.working() > 0)
-            std::this_thread::yield();
+        EXPECT_TRUE(
+            testing::eventually([this] { return queue_.waiting() + queue_.working() == 0; }));
     }
 
     std::promise<void> released_;
