@@ -1,0 +1,118 @@
+// Tests wait for conditions, not for the clock. tests/testing/waiting.h has the one sleep; these
+// tests find another one when it is written.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/repository/text_of.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* the_one_place = "testing/waiting.h";
+
+// Who lets time pass has a load with a rate, a simulated peer, or a kill at a random moment.
+const std::set<std::string> with_a_pace = {
+    "cache/processes_test.cpp",         // kills a writer at a random moment
+    "catalog/durability_test.cpp",      // likewise
+    "cli/loop_test.cpp",                // cuts and mends a file in turn
+    "daemon/end_to_end_test.cpp",       // appends pieces as LDM does
+    "daemon/hostile_drop_test.cpp",     // swaps names
+    "daemon/hostile_sizes_test.cpp",    // appends bombs
+    "daemon/recovery_test.cpp",         // kills the daemon, each time a bit later
+    "daemon/watch_facts_test.cpp",      // deletes files at any moment
+    "fault/hostile_feed.cpp",           // feeds the pieces of volumes when they are due
+    "fault/hostile_mix.cpp",            // so many hostile files a second
+    "fault/hostile_mix_test.cpp",       // the attack lasts so long
+    "fault/hostile_queue_test.cpp",     // brings chunks in turn
+    "fault/kill_test.cpp",              // kills the daemon at a random moment
+    "fault/load.cpp",                   // delivers volumes, piece by piece
+    "pipeline/living_chunks_test.cpp",  // workers come one after the other
+};
+
+// The code of the tests by paths below tests/, without comments. tests/bench measures times, and
+// tests/viewer is the browser's.
+const std::map<std::string, std::string>& code_of_tests() {
+    static const auto all = [] {
+        const fs::path root = testing::source_directory() / "tests";
+        std::map<std::string, std::string> code;
+        for (const auto& entry : fs::recursive_directory_iterator(root)) {
+            const std::string ending = entry.path().extension();
+            const std::string name = fs::relative(entry.path(), root);
+            if (ending != ".cpp" && ending != ".h") continue;
+            if (name.starts_with("bench/") || name.starts_with("viewer/")) continue;
+            if (name == "repository/waits_test.cpp") continue;
+            std::istringstream lines(testing::text_of(entry.path()));
+            for (std::string line; std::getline(lines, line);)
+                code[name] += line.substr(0, line.find("//")) + '\n';
+        }
+        return code;
+    }();
+    return all;
+}
+
+// Returns the first line that waits for a time; empty: none does.
+std::string wait_in(const std::string& code) {
+    static const std::regex waits(
+        R"(\b(sleep_for|sleep_until|usleep|nanosleep|clock_nanosleep|sleep|yield)\s*\()"
+        R"(|\b(poll|ppoll|select|pselect)\s*\(\s*(nullptr|NULL|0)\b)");
+    std::istringstream lines(code);
+    for (std::string line; std::getline(lines, line);) {
+        const auto has = [&](const char* word) { return line.find(word) != std::string::npos; };
+        const bool is_worth_a_look = has("sleep") || has("yield") || has("poll") || has("select");
+        if (is_worth_a_look && std::regex_search(line, waits)) return line;
+    }
+    return {};
+}
+
+TEST(Waits, NobodySleepsButTheOneHelper) {
+    EXPECT_GT(code_of_tests().size(), 300U);
+    for (const auto& [name, code] : code_of_tests()) {
+        if (name == the_one_place) continue;
+        EXPECT_EQ(wait_in(code), "")
+            << "in tests/" << name << "; wait for a condition with testing::eventually() of tests/"
+            << the_one_place;
+    }
+}
+
+TEST(Waits, ASleepIsFound) {
+    EXPECT_NE(wait_in(code_of_tests().at(the_one_place)), "");
+    for (const char* line :
+         {"std::this_thread::sleep_for(1s);", "::usleep (20);", "std::this_thread::yield();",
+          "::poll(nullptr, 0, 100);", "::select(0, nullptr, nullptr, nullptr, &time);"})
+        EXPECT_EQ(wait_in(line), line);
+    for (const char* line : {"program(\"sleep 100\\n\");", "::poll(&source, 1, 100);"})
+        EXPECT_EQ(wait_in(line), "");
+}
+
+// It would be a fixed wait in disguise.
+TEST(Waits, EachConditionMayComeTrue) {
+    for (const auto& [name, code] : code_of_tests()) {
+        const std::string call = "eventually(";
+        for (auto at = code.find(call); at != std::string::npos; at = code.find(call, at + 1)) {
+            const std::string begin = code.substr(at, code.find(';', at) - at);
+            EXPECT_EQ(begin.find("] { return false"), std::string::npos) << "tests/" << name;
+        }
+    }
+}
+
+TEST(Waits, WhoLetsTimePassIsListed) {
+    std::set<std::string> found;
+    for (const auto& [name, code] : code_of_tests())
+        if (name != the_one_place && code.find("pass_time(") != std::string::npos)
+            found.insert(name);
+    EXPECT_EQ(found, with_a_pace)
+        << "a load may have a pace; whoever waits for somebody takes testing::eventually()";
+}
+
+}  // namespace
+}  // namespace stormcellar
