@@ -10,8 +10,8 @@
 #include "pipeline/keep/instance_lock.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/catalog/catalog.h"
-#include "tests/testing/data.h"
 #include "tests/testing/program.h"
+#include "tests/testing/small_sequence.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
@@ -24,13 +24,10 @@ using testing::ProgramResult;
 class CatalogCare : public ::testing::Test {
   protected:
     void SetUp() override {
-        STORMCELLAR_NEED_DATA();
         fs::create_directory(directory_ / "state");
         fs::create_directories(drop_ / "KBGM");
-        for (const std::string& name : {first_, second_}) {
-            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw(name));
-            fs::permissions(raw(name), fs::perms::owner_write, fs::perm_options::add);
-        }
+        for (const std::string& name : {first_, second_})
+            testing::write_small_volume(name, raw(name));
         const auto rebuilt = run({"rebuild", "--drop", drop_});
         ASSERT_EQ(rebuilt.status, 0) << rebuilt.err;
     }
@@ -62,7 +59,7 @@ class CatalogCare : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     fs::path drop_ = directory_ / "drop";
     fs::path catalog_ = directory_ / "state/catalog";
-    std::string first_ = "KBGM20050822_024414.gz", second_ = "KBGM20050822_025001.gz";
+    std::string first_ = testing::small_sequence[0], second_ = testing::small_sequence[1];
 };
 
 // 2026-11-24: a link in a file's place was followed with the rights of who asked.

@@ -1,4 +1,4 @@
-// A catalog made again from real files, and from what is left of a damaged one.
+// A catalog made again from raw files, and from what is left of a damaged one.
 #include "pipeline/care/rebuild_catalog.h"
 
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include "catalog/check_catalog.h"
 #include "pipeline/ingest/ingest.h"
-#include "tests/testing/data.h"
+#include "tests/testing/small_sequence.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
@@ -24,11 +24,10 @@ class RebuildCatalog : public ::testing::Test {
         options_.catalog = catalog_;
         options_.drop = drop_;
     }
-    // Two real volumes and a file that is none.
+    // Two volumes and a file that is none.
     void fill_drop() {
-        for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"})
-            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name,
-                          drop_ / "KBGM" / name);
+        for (const std::string name : {first_, second_})
+            testing::write_small_volume(name, drop_ / "KBGM" / name);
         std::ofstream(drop_ / "noise") << std::string(5000, 'x');
         std::ofstream(drop_ / ".hidden") << "not done";
     }
@@ -40,10 +39,11 @@ class RebuildCatalog : public ::testing::Test {
     fs::path drop_ = directory_ / "drop";
     fs::path catalog_ = directory_ / "state/catalog";
     RebuildOptions options_;
+    static constexpr const char *first_ = testing::small_sequence[0],
+                                *second_ = testing::small_sequence[1];
 };
 
 TEST_F(RebuildCatalog, ADeletedCatalogComesBackFromTheDropDirectory) {
-    STORMCELLAR_NEED_DATA();
     fill_drop();
     std::size_t last = 0;
     options_.progress = [&](std::size_t done, std::size_t all) {
@@ -66,10 +66,9 @@ TEST_F(RebuildCatalog, ADeletedCatalogComesBackFromTheDropDirectory) {
 }
 
 TEST_F(RebuildCatalog, ADamagedCatalogKeepsItsGoneRows) {
-    STORMCELLAR_NEED_DATA();
     fill_drop();
     ASSERT_TRUE(rebuild_catalog(options_));
-    fs::remove(drop_ / "KBGM" / "KBGM20050822_024414.gz");
+    fs::remove(drop_ / "KBGM" / first_);
     ASSERT_EQ(rebuild_catalog(options_)->gone, 1);
     fs::resize_file(catalog_ / "KBGM.sqlite", fs::file_size(catalog_ / "KBGM.sqlite") - 100);
     ASSERT_FALSE(catalog::check_catalog(catalog_, "")->is_sound());
@@ -89,7 +88,6 @@ TEST_F(RebuildCatalog, ADamagedCatalogKeepsItsGoneRows) {
 }
 
 TEST_F(RebuildCatalog, OfOneStationOnlyFilesThatMayBeItsAreRead) {
-    STORMCELLAR_NEED_DATA();
     fill_drop();
     options_.station = "KOKX";
     const auto report = rebuild_catalog(options_);
@@ -101,12 +99,10 @@ TEST_F(RebuildCatalog, OfOneStationOnlyFilesThatMayBeItsAreRead) {
 
 // 2026-11-24: one database that could not be opened ended the rebuilding of all others.
 TEST_F(RebuildCatalog, ADatabaseThatCannotBeUsedIsNamedAndTheOthersAreRebuilt) {
-    STORMCELLAR_NEED_DATA();
     fill_drop();
     fs::create_directories(catalog_ / "KAAA.sqlite");
     fs::create_directories(catalog_ / "KOKX.sqlite");
-    fs::copy_file(*testing::data_directory() / "sequence-kbgm/KBGM20050822_024414.gz",
-                  drop_ / "KOKX20050822_024414.gz");
+    fs::copy_file(drop_ / "KBGM" / first_, drop_ / "KOKX20050822_024414_V06");
     const auto report = rebuild_catalog(options_);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->registered, 2U);
@@ -119,7 +115,6 @@ TEST_F(RebuildCatalog, ADatabaseThatCannotBeUsedIsNamedAndTheOthersAreRebuilt) {
 }
 
 TEST_F(RebuildCatalog, OnlyStationsThatAreKnownGetADatabaseAndTheDropDirectoryIsToldToReaders) {
-    STORMCELLAR_NEED_DATA();
     fill_drop();
     options_.stations = std::make_shared<StationRule>(StationRule::listed({"KTLX"}));
     ASSERT_TRUE(rebuild_catalog(options_));

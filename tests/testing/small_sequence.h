@@ -19,9 +19,9 @@
 
 namespace stormcellar::testing {
 
-inline constexpr std::array small_sequence = {
-    "KBGM20050822_024414_V06", "KBGM20050822_025001_V06", "KBGM20050822_025549_V06",
-    "KBGM20050822_030243_V06", "KBGM20050822_030830_V06"};
+inline constexpr std::array small_sequence = {"KBGM20050822_024414_V06", "KBGM20050822_025001_V06",
+                                              "KBGM20050822_025549_V06", "KBGM20050822_030243_V06",
+                                              "KBGM20050822_030830_V06"};
 
 // Writes the volume of this name, which says when it begins, to the file. Throws if that fails.
 inline void write_small_volume(const std::string& name, const std::filesystem::path& file) {
