@@ -32,7 +32,6 @@ constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;
 #endif
-constexpr double most_seconds = sanitized ? 30 : 5;
 constexpr long most_memory_kib = 1L << 20;  // without the sanitizers' own memory
 constexpr unsigned hang_s = 120;
 
@@ -144,7 +143,6 @@ class MutationTest : public ::testing::TestWithParam<std::string> {
         fmt::print("{}: {} radials, {} mutants, slowest {:.3f} s, peak {} MiB\n", name,
                    oracle.radials(), mutants, oracle.slowest().count(), peak_memory_kib() >> 10);
         add(all_figures, oracle.figures());
-        EXPECT_LT(oracle.slowest().count(), most_seconds);
         if (!sanitized) {
             EXPECT_LT(peak_memory_kib(), most_memory_kib);
         }
