@@ -37,9 +37,11 @@ void OpenDatabases::give_back(Slot& slot) {
 }
 
 void OpenDatabases::drop_if_empty(Slot& slot) {
-    const bool remembers =
-        slot.is_counted_ || slot.file != FileIdentity{} || slot.strays != Strays::unknown;
-    if (slot.leases_ == 0 && !remembers) slots_.erase(slots_.find(slot.name_));
+    // A thread with a lease may be writing what the slot holds; without leases the mutex is free.
+    if (slot.leases_ > 0 || slot.is_counted_ || !slot.mutex.try_lock()) return;
+    const bool remembers = slot.file != FileIdentity{} || slot.strays != Strays::unknown;
+    slot.mutex.unlock();
+    if (!remembers) slots_.erase(slots_.find(slot.name_));
 }
 
 void OpenDatabases::make_room(Slot& slot) {

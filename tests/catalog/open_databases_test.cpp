@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <iostream>
+#include <mutex>
 #include <thread>
 
 #include <fcntl.h>
@@ -165,6 +166,20 @@ TEST_F(OpenDatabasesTest, ADatabaseThatIsDeletedWhileItIsClosedIsMadeAgainAndSai
     EXPECT_EQ(*catalog.register_file(file("/d/KTLX_b", {}, "KTLX")), Registered::added);
     EXPECT_EQ(catalog.take_repairs().size(), 1U) << "so that its files are offered again";
     EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
+}
+
+// 2026-11-29, under ThreadSanitizer: a thread that gave its lease back read the file of the slot
+// while another one, which had a lease too, wrote it.
+TEST(OpenDatabases, GivingBackALeaseReadsNothingThatAnotherThreadWrites) {
+    OpenDatabases databases(1);
+    {
+        const OpenDatabases::Lease place = databases.lease("KTLX");
+        const std::scoped_lock lock(place->mutex);
+        std::thread other([&] { (void)databases.lease("KTLX"); });
+        place->file = {1, 1};
+        other.join();
+    }
+    EXPECT_EQ(databases.slot_count(), 1U) << "the slot remembers the file";
 }
 
 }  // namespace
