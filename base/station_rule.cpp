@@ -21,7 +21,7 @@ StationRule StationRule::listed(const std::vector<std::string>& stations) {
 
 StationRule::StationRule(const StationRule& other)
     : kind_(other.kind_), most_further_(other.most_further_), listed_(other.listed_) {
-    const std::scoped_lock lock(other.mutex_);
+    const MutexLock lock(other.mutex_);
     further_ = other.further_;
 }
 
@@ -30,22 +30,23 @@ StationRule& StationRule::operator=(const StationRule& other) {
     kind_ = other.kind_;
     most_further_ = other.most_further_;
     listed_ = other.listed_;
-    const std::scoped_lock lock(mutex_, other.mutex_);
-    further_ = other.further_;
+    const std::vector<std::string> further = other.further();
+    const MutexLock lock(mutex_);
+    further_ = {further.begin(), further.end()};
     return *this;
 }
 
 bool StationRule::knows(std::string_view station) const {
     if (kind_ == Kind::listed) return listed_.contains(station);
     if (find_station(station)) return true;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return further_.contains(station);
 }
 
 bool StationRule::admits(std::string_view station) {
     if (knows(station)) return true;
     if (kind_ != Kind::any || !is_icao(station)) return false;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (further_.contains(station)) return true;
     if (further_.size() >= most_further_) return false;
     further_.emplace(station);
@@ -53,7 +54,7 @@ bool StationRule::admits(std::string_view station) {
 }
 
 std::vector<std::string> StationRule::further() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return {further_.begin(), further_.end()};
 }
 

@@ -14,11 +14,12 @@
 #pragma once
 
 #include <cstddef>
-#include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar {
 
@@ -52,8 +53,8 @@ class StationRule {
     Kind kind_ = Kind::known;
     std::size_t most_further_ = 0;
     std::set<std::string, std::less<>> listed_;
-    mutable std::mutex mutex_;  // guards further_
-    std::set<std::string, std::less<>> further_;
+    mutable Mutex mutex_;
+    std::set<std::string, std::less<>> further_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar

@@ -1,0 +1,146 @@
+// stormcellar/base/mutex.h -- mutexes that say what they guard, so that clang checks each access.
+//
+// A shared member names its mutex:    int count_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+// a function that is called with it:  void add() STORMCELLAR_REQUIRES(mutex_);
+// scripts/check-locks compiles with clang's -Wthread-safety and refuses an access to the member, or
+// a call of the function, without the lock. The analysis does not look into constructors and
+// destructors. It looks at a lambda alone, so a lambda that runs under the lock says REQUIRES too,
+// and a wait is a loop: while (!is_done_) changed_.wait(mutex_);
+//
+// Cost      None: each call is the call of the standard library. With gcc the macros are empty.
+// Threads   Any thread.
+// Errors    None.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <shared_mutex>
+
+#ifdef __clang__
+#define STORMCELLAR_LOCK_ATTRIBUTE(...) __attribute__((__VA_ARGS__))
+#else
+#define STORMCELLAR_LOCK_ATTRIBUTE(...)
+#endif
+
+// A member that is used only with the mutex held, or what a pointer points to.
+#define STORMCELLAR_GUARDED_BY(mutex) STORMCELLAR_LOCK_ATTRIBUTE(guarded_by(mutex))
+#define STORMCELLAR_POINTEE_GUARDED_BY(mutex) STORMCELLAR_LOCK_ATTRIBUTE(pt_guarded_by(mutex))
+// A function that is called with the mutex held, at least for reading, or not held.
+#define STORMCELLAR_REQUIRES(...) STORMCELLAR_LOCK_ATTRIBUTE(requires_capability(__VA_ARGS__))
+#define STORMCELLAR_REQUIRES_SHARED(...) \
+    STORMCELLAR_LOCK_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
+#define STORMCELLAR_EXCLUDES(...) STORMCELLAR_LOCK_ATTRIBUTE(locks_excluded(__VA_ARGS__))
+// A function that locks or unlocks: without an argument, its own object.
+#define STORMCELLAR_ACQUIRE(...) STORMCELLAR_LOCK_ATTRIBUTE(acquire_capability(__VA_ARGS__))
+#define STORMCELLAR_ACQUIRE_SHARED(...) \
+    STORMCELLAR_LOCK_ATTRIBUTE(acquire_shared_capability(__VA_ARGS__))
+#define STORMCELLAR_RELEASE(...) STORMCELLAR_LOCK_ATTRIBUTE(release_capability(__VA_ARGS__))
+#define STORMCELLAR_RELEASE_SHARED(...) \
+    STORMCELLAR_LOCK_ATTRIBUTE(release_shared_capability(__VA_ARGS__))
+#define STORMCELLAR_TRY_ACQUIRE(...) STORMCELLAR_LOCK_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
+// A function that the analysis cannot follow; a comment says why.
+#define STORMCELLAR_NO_LOCK_ANALYSIS STORMCELLAR_LOCK_ATTRIBUTE(no_thread_safety_analysis)
+
+namespace stormcellar {
+
+class STORMCELLAR_LOCK_ATTRIBUTE(capability("mutex")) Mutex {
+  public:
+    void lock() STORMCELLAR_ACQUIRE() { native_.lock(); }
+    void unlock() STORMCELLAR_RELEASE() { native_.unlock(); }
+    [[nodiscard]] bool try_lock() STORMCELLAR_TRY_ACQUIRE(true) { return native_.try_lock(); }
+
+  private:
+    friend class ConditionVariable;
+    std::mutex native_;
+};
+
+// Many threads may hold it for reading at once, or one for writing.
+class STORMCELLAR_LOCK_ATTRIBUTE(capability("mutex")) SharedMutex {
+  public:
+    void lock() STORMCELLAR_ACQUIRE() { native_.lock(); }
+    void unlock() STORMCELLAR_RELEASE() { native_.unlock(); }
+    void lock_shared() STORMCELLAR_ACQUIRE_SHARED() { native_.lock_shared(); }
+    void unlock_shared() STORMCELLAR_RELEASE_SHARED() { native_.unlock_shared(); }
+
+  private:
+    std::shared_mutex native_;
+};
+
+// Holds a mutex while it lives, a SharedMutex for writing.
+template <class AnyMutex = Mutex>
+class STORMCELLAR_LOCK_ATTRIBUTE(scoped_lockable) [[nodiscard]] MutexLock {
+  public:
+    explicit MutexLock(AnyMutex& mutex) STORMCELLAR_ACQUIRE(mutex) : mutex_(mutex) {
+        mutex_.lock();
+    }
+    ~MutexLock() STORMCELLAR_RELEASE() { mutex_.unlock(); }
+    MutexLock(const MutexLock&) = delete;
+    MutexLock& operator=(const MutexLock&) = delete;
+
+  private:
+    AnyMutex& mutex_;
+};
+
+// Holds a SharedMutex for reading while it lives.
+class STORMCELLAR_LOCK_ATTRIBUTE(scoped_lockable) [[nodiscard]] SharedLock {
+  public:
+    explicit SharedLock(SharedMutex& mutex) STORMCELLAR_ACQUIRE_SHARED(mutex) : mutex_(mutex) {
+        mutex_.lock_shared();
+    }
+    ~SharedLock() STORMCELLAR_RELEASE() { mutex_.unlock_shared(); }
+    SharedLock(const SharedLock&) = delete;
+    SharedLock& operator=(const SharedLock&) = delete;
+
+  private:
+    SharedMutex& mutex_;
+};
+
+// Gives up a mutex that the thread holds, and locks it again when destroyed.
+class STORMCELLAR_LOCK_ATTRIBUTE(scoped_lockable) [[nodiscard]] MutexUnlock {
+  public:
+    explicit MutexUnlock(Mutex& mutex) STORMCELLAR_RELEASE(mutex) : mutex_(mutex) {
+        mutex_.unlock();
+    }
+    ~MutexUnlock() STORMCELLAR_RELEASE() { mutex_.lock(); }
+    MutexUnlock(const MutexUnlock&) = delete;
+    MutexUnlock& operator=(const MutexUnlock&) = delete;
+
+  private:
+    Mutex& mutex_;
+};
+
+// A wait gives up the mutex, sleeps until it is notified (or for no reason) and locks it again.
+class ConditionVariable {
+  public:
+    void notify_one() noexcept { native_.notify_one(); }
+    void notify_all() noexcept { native_.notify_all(); }
+
+    void wait(Mutex& mutex) STORMCELLAR_REQUIRES(mutex) {
+        Adopted lock(mutex);
+        native_.wait(lock.native);
+    }
+    template <class Clock, class Duration>
+    std::cv_status wait_until(Mutex& mutex, const std::chrono::time_point<Clock, Duration>& end)
+        STORMCELLAR_REQUIRES(mutex) {
+        Adopted lock(mutex);
+        return native_.wait_until(lock.native, end);
+    }
+    template <class Rep, class Period>
+    std::cv_status wait_for(Mutex& mutex, const std::chrono::duration<Rep, Period>& duration)
+        STORMCELLAR_REQUIRES(mutex) {
+        Adopted lock(mutex);
+        return native_.wait_for(lock.native, duration);
+    }
+
+  private:
+    // The caller's lock, in the form that a standard condition variable takes; the caller unlocks.
+    struct Adopted {
+        explicit Adopted(Mutex& mutex) : native(mutex.native_, std::adopt_lock) {}
+        ~Adopted() { native.release(); }
+        std::unique_lock<std::mutex> native;
+    };
+    std::condition_variable native_;
+};
+
+}  // namespace stormcellar
