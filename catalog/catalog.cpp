@@ -1,13 +1,13 @@
 #include "stormcellar/catalog/catalog.h"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 
 #include "base/beneath.h"
 #include "catalog/catalog_parts.h"
 #include "catalog/drop_directory.h"
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/station_table.h"
 
 namespace stormcellar::catalog {
@@ -304,7 +304,7 @@ Status CatalogWriter::examine(std::string_view station) {
     if (!found) return pass_on(found);
     if (found->damage.empty()) return {};
     const OpenDatabases::Lease place = impl().databases.lease(*name);
-    const std::scoped_lock lock(place->mutex);
+    const MutexLock lock(place->mutex);
     if (impl().mend(*place, *name)) return {};
     return fail(ErrorCode::corrupt, "{}: {}; it cannot be mended", path.native(),
                 found->damage.front());
@@ -313,7 +313,7 @@ Status CatalogWriter::examine(std::string_view station) {
 std::vector<Repair> CatalogWriter::take_repairs() {
     std::vector<Repair> repairs;
     {
-        const std::scoped_lock lock(impl().repairs_mutex);
+        const MutexLock lock(impl().repairs_mutex);
         repairs = std::exchange(impl().repairs, {});
     }
     if (!repairs.empty()) read_archives_again();

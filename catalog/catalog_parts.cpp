@@ -125,7 +125,7 @@ void CatalogReader::Impl::note_outcome(const std::string& name, const Error* err
     const bool is_trouble =
         error != nullptr && error->code != ErrorCode::not_found && !is_shortage(error->code);
     if (!is_trouble && !has_troubles_) return;
-    const std::scoped_lock lock(troubles_mutex_);
+    const MutexLock lock(troubles_mutex_);
     if (is_trouble) {
         const auto now = std::chrono::steady_clock::now();
         troubles_.insert_or_assign(name, Standing{*error, began, now});
@@ -136,7 +136,7 @@ void CatalogReader::Impl::note_outcome(const std::string& name, const Error* err
 }
 
 std::vector<Trouble> CatalogReader::Impl::troubles() const {
-    const std::scoped_lock lock(troubles_mutex_);
+    const MutexLock lock(troubles_mutex_);
     std::vector<Trouble> found;
     for (const auto& [name, standing] : troubles_)
         found.push_back({station_of(name), standing.error});
@@ -146,7 +146,7 @@ std::vector<Trouble> CatalogReader::Impl::troubles() const {
 std::optional<CatalogReader::Impl::Standing> CatalogReader::Impl::recently_tried(
     const std::string& name) const {
     if (!has_troubles_) return std::nullopt;
-    const std::scoped_lock lock(troubles_mutex_);
+    const MutexLock lock(troubles_mutex_);
     const auto found = troubles_.find(name);
     if (found == troubles_.end()) return std::nullopt;
     const bool is_recent = std::chrono::steady_clock::now() - found->second.tried < between_tries;
@@ -178,14 +178,13 @@ Result<std::vector<std::string>> CatalogReader::Impl::names() {
 }
 
 // A path that seemed to be of no known station may now seem to be of one that was admitted.
-// listed_mutex_ must be held.
 void CatalogReader::Impl::look_for_admitted_stations() {
     if (!options.stations || options.stations->kind() != StationRule::Kind::any) return;
     const std::size_t admitted = options.stations->further().size();
     if (std::exchange(admitted_, admitted) == admitted) return;
     is_listing_old_ = true;
     const OpenDatabases::Lease place = databases.lease(std::string{unknown_station});
-    const std::scoped_lock lock(place->mutex);
+    const MutexLock lock(place->mutex);
     place->strays = Strays::unknown;
 }
 
@@ -193,7 +192,7 @@ Result<std::vector<std::string>> CatalogReader::Impl::names_that_may_have(const 
     if (!writing) return names();
     std::vector<std::string> found;
     {
-        const std::scoped_lock lock(listed_mutex_);
+        const MutexLock lock(listed_mutex_);
         look_for_admitted_stations();
         if (is_listing_old_.exchange(false) || !listed_) {
             auto now = names();
@@ -247,7 +246,7 @@ bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely
     };
     if (place->strays != Strays::unknown) return may_have();
     if (recent_trouble(name)) return true;
-    const std::scoped_lock lock(place->mutex);
+    const MutexLock lock(place->mutex);
     const auto began = std::chrono::steady_clock::now();
     // Damage is repaired when the database is used, or when files of its own station come.
     const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {

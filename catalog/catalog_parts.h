@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,6 +21,7 @@
 #include "catalog/path_filter.h"
 #include "catalog/path_homes.h"
 #include "catalog/station_database.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::catalog {
@@ -47,8 +48,8 @@ struct CatalogReader::Impl {
     const bool writing;
     OpenDatabases databases;
     PathHomes homes;
-    std::mutex repairs_mutex;  // guards repairs
-    std::vector<Repair> repairs;
+    Mutex repairs_mutex;
+    std::vector<Repair> repairs STORMCELLAR_GUARDED_BY(repairs_mutex);
 
     [[nodiscard]] std::filesystem::path path_of(const std::string& name) const {
         return directory / (name + std::string{database_ending});
@@ -64,14 +65,16 @@ struct CatalogReader::Impl {
         return guessed_home(path, options.stations.get());
     }
 
+    // The result of work on a database.
+    template <class Work>
+    using Done = Result<std::invoke_result_t<Work&, StationDatabase&>>;
     // Runs `work` on the database of that name, which is opened if necessary and repaired if it is
     // damaged. A missing database is created if the call writes and `create` is set; else
     // not_found. An error is a trouble of that station until a later call succeeds.
     template <class Work>
-    auto with(const std::string& name, bool create, Work work)
-        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
+    Done<Work> with(const std::string& name, bool create, Work work) {
         const OpenDatabases::Lease place = databases.lease(name);
-        const std::scoped_lock lock(place->mutex);
+        const MutexLock lock(place->mutex);
         if (auto slow = slow_trouble(name)) return tl::unexpected<Error>(std::move(*slow));
         const auto began = std::chrono::steady_clock::now();
         auto done = attempt(*place, name, create, work);
@@ -85,15 +88,14 @@ struct CatalogReader::Impl {
     // Does the same on behalf of another station: a database that was in trouble seconds ago is not
     // tried again, because a try may take as long as a disk takes to give up.
     template <class Work>
-    auto with_neighbor(const std::string& name, Work work)
-        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
+    Done<Work> with_neighbor(const std::string& name, Work work) {
         if (auto recent = recent_trouble(name)) return tl::unexpected<Error>(std::move(*recent));
         return with(name, false, std::move(work));
     }
 
     template <class Work>
-    auto attempt(Slot& place, const std::string& name, bool create, Work work)
-        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
+    Done<Work> attempt(Slot& place, const std::string& name, bool create, Work work)
+        STORMCELLAR_REQUIRES(place.mutex) {
         const std::filesystem::path path = path_of(name);
         if (Status ready = open(place, name, create); !ready) return pass_on(ready);
         const bool is_snapshot = place.database->is_snapshot();
@@ -111,12 +113,13 @@ struct CatalogReader::Impl {
         }
     }
 
-    Status open(Slot& place, const std::string& name, bool create);
+    Status open(Slot& place, const std::string& name, bool create)
+        STORMCELLAR_REQUIRES(place.mutex);
     // Returns true if another attempt may succeed: the damage was set aside, or was only temporary.
-    bool mend(Slot& place, const std::string& name);
+    bool mend(Slot& place, const std::string& name) STORMCELLAR_REQUIRES(place.mutex);
 
     void note_repair(Repair repair) {
-        const std::scoped_lock lock(repairs_mutex);
+        const MutexLock lock(repairs_mutex);
         repairs.push_back(std::move(repair));
     }
     [[nodiscard]] std::vector<Trouble> troubles() const;
@@ -144,7 +147,7 @@ struct CatalogReader::Impl {
     [[nodiscard]] std::optional<Strays> find_strays(StationDatabase& database,
                                                     const std::string& name,
                                                     std::int64_t most_rows);
-    void look_for_admitted_stations();
+    void look_for_admitted_stations() STORMCELLAR_REQUIRES(listed_mutex_);
     // Records a trouble, or without an error that it is over.
     void note_outcome(const std::string& name, const Error* error,
                       std::chrono::steady_clock::time_point began);
@@ -161,16 +164,17 @@ struct CatalogReader::Impl {
     };
     [[nodiscard]] std::optional<Standing> recently_tried(const std::string& name) const;
     std::atomic<bool> has_troubles_ = false;
-    mutable std::mutex troubles_mutex_;  // guards troubles_
-    std::map<std::string, Standing, std::less<>> troubles_;
+    mutable Mutex troubles_mutex_;
+    std::map<std::string, Standing, std::less<>> troubles_ STORMCELLAR_GUARDED_BY(troubles_mutex_);
 
     // The paths of strays in all databases for which they are known; null for a reader.
     const std::unique_ptr<PathFilter> strays_;
 
     // The last result of names(), until a database is opened or found missing. Only for a writer.
-    std::mutex listed_mutex_;
-    std::optional<std::vector<std::string>> listed_;
-    std::size_t admitted_ = 0;  // stations admitted by the rule `any` when names were listed last
+    Mutex listed_mutex_;
+    std::optional<std::vector<std::string>> listed_ STORMCELLAR_GUARDED_BY(listed_mutex_);
+    // Stations admitted by the rule `any` when names were listed last.
+    std::size_t admitted_ STORMCELLAR_GUARDED_BY(listed_mutex_) = 0;
     std::atomic<bool> is_listing_old_ = false;
 };
 

@@ -18,7 +18,7 @@ FileIdentity FileIdentity::of(const std::filesystem::path& path) {
 }
 
 OpenDatabases::Lease OpenDatabases::lease(const std::string& name) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     auto found = slots_.find(name);
     if (found == slots_.end()) {
         found = slots_.emplace(name, std::make_unique<Slot>()).first;
@@ -31,7 +31,7 @@ OpenDatabases::Lease OpenDatabases::lease(const std::string& name) {
 }
 
 void OpenDatabases::give_back(Slot& slot) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     --slot.leases_;
     drop_if_empty(slot);
 }
@@ -47,7 +47,7 @@ void OpenDatabases::drop_if_empty(Slot& slot) {
 void OpenDatabases::make_room(Slot& slot) {
     std::size_t beyond = 0;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (slot.is_counted_) return;
         open_.push_front(&slot);
         slot.place_ = open_.begin();
@@ -59,7 +59,7 @@ void OpenDatabases::make_room(Slot& slot) {
 
 void OpenDatabases::close(Slot& slot) {
     slot.database.reset();
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (!slot.is_counted_) return;
     open_.erase(slot.place_);
     slot.is_counted_ = false;
@@ -76,34 +76,28 @@ std::size_t OpenDatabases::close_idle(std::size_t count) {
 // that wants this database waits for its slot's mutex and opens it again.
 bool OpenDatabases::close_one_idle() {
     Slot* victim = nullptr;
-    std::unique_lock<std::mutex> hold;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         for (auto slot = open_.rbegin(); slot != open_.rend() && victim == nullptr; ++slot) {
             if ((*slot)->leases_ == 0) victim = *slot;
         }
-        if (victim == nullptr) return false;
-        ++victim->leases_;
         // Nobody has a lease, so the mutex is free.
-        hold = std::unique_lock(victim->mutex, std::try_to_lock);
-        if (!hold.owns_lock()) {
-            --victim->leases_;
-            return false;
-        }
+        if (victim == nullptr || !victim->mutex.try_lock()) return false;
+        ++victim->leases_;
     }
     close(*victim);
-    hold.unlock();
+    victim->mutex.unlock();
     give_back(*victim);
     return true;
 }
 
 std::size_t OpenDatabases::open_count() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return open_.size();
 }
 
 std::size_t OpenDatabases::slot_count() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return slots_.size();
 }
 

@@ -23,12 +23,12 @@
 #include <list>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include <sys/types.h>
 
 #include "catalog/station_database.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::catalog {
 
@@ -51,9 +51,10 @@ enum class Strays : std::uint8_t {
 
 // The place of one database.
 struct Slot {
-    std::mutex mutex;  // guards the members below
-    std::unique_ptr<StationDatabase> database;
-    FileIdentity file;                             // the file that was opened last; none: not yet
+    Mutex mutex;
+    std::unique_ptr<StationDatabase> database STORMCELLAR_GUARDED_BY(mutex);
+    // The file that was opened last; none: not yet.
+    FileIdentity file STORMCELLAR_GUARDED_BY(mutex);
     std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
 
   private:
@@ -88,9 +89,9 @@ class OpenDatabases {
 
     // Closes the least recently used databases, as far as the bound requires. Call it with a lease
     // and the slot's mutex before the slot's database is opened.
-    void make_room(Slot& slot);
+    void make_room(Slot& slot) STORMCELLAR_REQUIRES(slot.mutex);
     // Closes the slot's database, or undoes make_room(). Call it with a lease and the slot's mutex.
-    void close(Slot& slot);
+    void close(Slot& slot) STORMCELLAR_REQUIRES(slot.mutex);
     // Closes up to `count` databases without a lease, the least recently used first, and returns
     // how many were closed.
     std::size_t close_idle(std::size_t count);
@@ -101,13 +102,12 @@ class OpenDatabases {
   private:
     void give_back(Slot& slot);
     bool close_one_idle();
-    // Requires mutex_.
-    void drop_if_empty(Slot& slot);
+    void drop_if_empty(Slot& slot) STORMCELLAR_REQUIRES(mutex_);
 
     const std::size_t most_open_;
-    mutable std::mutex mutex_;  // guards what follows, but not what slots hold
-    std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots_;
-    std::list<Slot*> open_;  // the most recently used first
+    mutable Mutex mutex_;
+    std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::list<Slot*> open_ STORMCELLAR_GUARDED_BY(mutex_);  // the most recently used first
 };
 
 // Returns true if this process can open no further database at the moment.

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +18,7 @@
 #include <utility>
 
 #include "base/checksum.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/station_rule.h"
 
 namespace stormcellar::catalog {
@@ -39,7 +39,7 @@ class PathHomes {
     // must handle. Call it after the row was written there.
     std::optional<std::string> exchange(const std::filesystem::path& path,
                                         const std::string& name) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const std::string* known = find(key_of(path));
         std::optional<std::string> before;
         if (known != nullptr) before = *known;
@@ -48,25 +48,25 @@ class PathHomes {
     }
     // Does the same if no other database is known to have the path; else returns false.
     [[nodiscard]] bool set_if_free(const std::filesystem::path& path, const std::string& name) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const std::string* known = find(key_of(path));
         if (known != nullptr && !known->empty() && *known != name) return false;
         add(key_of(path), name);
         return true;
     }
     void forget(const std::filesystem::path& path) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         young_.erase(key_of(path));
         old_.erase(key_of(path));
     }
     // No database had the path when all were asked. What somebody wrote in the meantime counts.
     void set_none(const std::filesystem::path& path) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (find(key_of(path)) == nullptr) add(key_of(path), {});
     }
     // Returns an empty text if no database has the path, none if it is not known.
     [[nodiscard]] std::optional<std::string> of(const std::filesystem::path& path) const {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const std::string* name = find(key_of(path));
         return name == nullptr ? std::nullopt : std::optional{*name};
     }
@@ -75,19 +75,20 @@ class PathHomes {
     static std::uint64_t key_of(const std::filesystem::path& path) {
         return xxh3_64(std::as_bytes(std::span{path.native()}));
     }
-    [[nodiscard]] const std::string* find(std::uint64_t key) const {
+    [[nodiscard]] const std::string* find(std::uint64_t key) const STORMCELLAR_REQUIRES(mutex_) {
         for (const auto* known : {&young_, &old_}) {
             if (const auto found = known->find(key); found != known->end()) return &found->second;
         }
         return nullptr;
     }
-    void add(std::uint64_t key, const std::string& name) {
+    void add(std::uint64_t key, const std::string& name) STORMCELLAR_REQUIRES(mutex_) {
         if (young_.size() >= half) old_ = std::exchange(young_, {});
         young_.insert_or_assign(key, name);
     }
     static constexpr std::size_t half = 32'768;
-    mutable std::mutex mutex_;
-    std::unordered_map<std::uint64_t, std::string> young_, old_;
+    mutable Mutex mutex_;
+    std::unordered_map<std::uint64_t, std::string> young_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::unordered_map<std::uint64_t, std::string> old_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::catalog
