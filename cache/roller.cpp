@@ -11,7 +11,6 @@
 #include <sys/statvfs.h>
 
 #include "base/byte_size.h"
-#include "cache/pins.h"
 
 namespace stormcellar::cache {
 namespace {
@@ -75,7 +74,7 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
                                               std::move(surroundings), std::move(*lock)));
     if (Status read = roller->reread(true, {}); !read) return pass_on(read);
     RollReport report = roller->roll();
-    const std::scoped_lock guard(roller->mutex_);
+    const MutexLock guard(roller->mutex_);
     roller->reported_ = 0;
     roller->reported_bytes_ = 0;
     roller->problems_ = std::move(report.problems);
@@ -94,10 +93,11 @@ void Roller::note_reached(const std::string& group, std::uint64_t bytes) {
 
 Result<std::optional<Reservation>> Roller::reserve(const GridName& name, std::uint64_t bytes) {
     const std::string group(group_of(name.domain));
-    Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     account_.ask_who_is_known(group);
     for (;;) {
-        changed_.wait(lock, [&] { return !in_flight_.contains(name); });
+        while (in_flight_.contains(name))
+            changed_.wait(mutex_);
         account_.set_now(surroundings_.now());
         if (account_.is_expired(name, budgets_)) break;
         if (account_.fits(group, bytes, budgets_)) {
@@ -112,9 +112,9 @@ Result<std::optional<Reservation>> Roller::reserve(const GridName& name, std::ui
             victims = account_.room_for(name, bytes, budgets_, Reach::all);
         }
         if (victims && !victims->empty()) {
-            evict(lock, *victims);
+            evict(*victims);
         } else if (!in_flight_.empty()) {
-            changed_.wait(lock);  // what others write or evict may still make room
+            changed_.wait(mutex_);  // what others write or evict may still make room
         } else if (account_.is_to_stay(name)) {
             return fail(
                 ErrorCode::over_budget,
@@ -131,7 +131,7 @@ Result<std::optional<Reservation>> Roller::reserve(const GridName& name, std::ui
 }
 
 void Roller::settle(const GridName& name, std::uint64_t reserved) {
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const fs::path path = path_of(name);
     account_.set_now(surroundings_.now());
     if (const auto found = look_at_grid(path, name.time)) {
@@ -144,14 +144,8 @@ void Roller::settle(const GridName& name, std::uint64_t reserved) {
     changed_.notify_all();
 }
 
-// The victims count until the removal of their names is synced: only then is their room free even
-// after a power cut.
-void Roller::evict(Lock& lock, const std::vector<GridName>& victims) {
-    for (const GridName& name : victims) {
-        account_.set_leaving(name);
-        in_flight_.insert(name);
-    }
-    lock.unlock();
+std::vector<Result<Evicted>> Roller::remove_files(const std::vector<GridName>& victims,
+                                                  std::vector<std::string>& problems) {
     std::vector<Result<Evicted>> outcomes;
     std::set<fs::path> days;
     for (const GridName& name : victims) {
@@ -159,7 +153,6 @@ void Roller::evict(Lock& lock, const std::vector<GridName>& victims) {
         outcomes.push_back(evict_grid(file_system_, path));
         if (outcomes.back() && *outcomes.back() == Evicted::gone) days.insert(path.parent_path());
     }
-    std::vector<std::string> problems;
     for (const fs::path& day : days) {
         const Status synced = file_system_.sync_directory(day);
         if (!synced && synced.error().code != ErrorCode::not_found) {
@@ -167,7 +160,22 @@ void Roller::evict(Lock& lock, const std::vector<GridName>& victims) {
         }
         remove_empty_directories(day);
     }
-    lock.lock();
+    return outcomes;
+}
+
+// The victims count until the removal of their names is synced: only then is their room free even
+// after a power cut.
+void Roller::evict(const std::vector<GridName>& victims) {
+    for (const GridName& name : victims) {
+        account_.set_leaving(name);
+        in_flight_.insert(name);
+    }
+    std::vector<Result<Evicted>> outcomes;
+    std::vector<std::string> problems;
+    {
+        const MutexUnlock unlocked(mutex_);
+        outcomes = remove_files(victims, problems);
+    }
     for (std::size_t i = 0; i < victims.size(); ++i) {
         const Result<Evicted>& outcome = outcomes[i];
         in_flight_.erase(victims[i]);
@@ -191,22 +199,22 @@ void Roller::evict(Lock& lock, const std::vector<GridName>& victims) {
 }
 
 // Each turn takes its victims out of the account's order, removed or not, so this ends.
-void Roller::evict_all(Lock& lock, const std::function<std::vector<GridName>()>& choose) {
+void Roller::evict_all(const std::function<std::vector<GridName>()>& choose) {
     for (auto victims = choose(); !victims.empty(); victims = choose())
-        evict(lock, victims);
+        evict(victims);
 }
 
 bool Roller::make_room(const GridName& name, std::uint64_t bytes) {
-    Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (!budgets_.makes_room(group_of(name.domain))) return false;
     account_.set_now(surroundings_.now());
     const std::uint64_t before = evicted_;
-    evict(lock, account_.oldest(name, bytes, budgets_));
+    evict(account_.oldest(name, bytes, budgets_));
     return evicted_ > before;
 }
 
 bool Roller::leaves_out(const GridName& name) {
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (account_.is_known(group_of(name.domain))) return false;
     ++not_kept_;
     return true;
@@ -214,7 +222,7 @@ bool Roller::leaves_out(const GridName& name) {
 
 bool Roller::would_keep(const GridName& name) const {
     const std::string_view group = group_of(name.domain);
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     // Somebody has made the station known since the account asked: the commit will ask again.
     if (!account_.is_known(group) && surroundings_.is_known(group)) return true;
     if (account_.is_expired(name, budgets_)) return false;
@@ -224,12 +232,12 @@ bool Roller::would_keep(const GridName& name) const {
 }
 
 void Roller::set_budgets(Budgets budgets) {
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     budgets_ = std::move(budgets);
 }
 
 StoreUsage Roller::usage() const {
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     StoreUsage usage;
     usage.grids = account_.grid_count();
     usage.pinned = account_.pinned_count();

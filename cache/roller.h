@@ -11,13 +11,11 @@
 //           for another's commit or eviction holds nothing.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -26,7 +24,9 @@
 #include "cache/account.h"
 #include "cache/directories.h"
 #include "cache/file_io.h"
+#include "cache/pins.h"
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/budget.h"
 #include "stormcellar/cache/store.h"
@@ -87,7 +87,6 @@ class Roller {
 
   private:
     friend class Reservation;
-    using Lock = std::unique_lock<std::mutex>;
     struct DayState {
         std::int64_t modified_ns = -1;  // of the directory when it was read; -1: read it again
         std::uint64_t foreign_bytes = 0;
@@ -101,16 +100,22 @@ class Roller {
     Roller(FileSystem& file_system, std::filesystem::path directory, Budgets budgets,
            Surroundings surroundings, Descriptor lock);
     void settle(const GridName& name, std::uint64_t reserved);
-    void evict(Lock& lock, const std::vector<GridName>& victims);
-    void evict_all(Lock& lock, const std::function<std::vector<GridName>()>& choose);
-    void keep_budget(Lock& lock, const std::string& group, const std::optional<Filling>& filling,
-                     RollReport& report, const OnStep& step);
-    void limit_others(Lock& lock, const OnStep& step);
-    void note_reached(const std::string& group, std::uint64_t bytes);
+    // Removes the files and syncs their directories; call it without the lock.
+    [[nodiscard]] std::vector<Result<Evicted>> remove_files(const std::vector<GridName>& victims,
+                                                            std::vector<std::string>& problems)
+        STORMCELLAR_EXCLUDES(mutex_);
+    // Gives up the lock while it removes files.
+    void evict(const std::vector<GridName>& victims) STORMCELLAR_REQUIRES(mutex_);
+    void evict_all(const std::function<std::vector<GridName>()>& choose)
+        STORMCELLAR_REQUIRES(mutex_);
+    void keep_budget(const std::string& group, const std::optional<Filling>& filling,
+                     RollReport& report, const OnStep& step) STORMCELLAR_REQUIRES(mutex_);
+    void limit_others(const OnStep& step) STORMCELLAR_REQUIRES(mutex_);
+    void note_reached(const std::string& group, std::uint64_t bytes) STORMCELLAR_REQUIRES(mutex_);
     Status reread(bool all, const OnStep& step);
     Status reread_day(const Day& day, bool even_unchanged);
-    void adopt(const Day& day, const DayContents& contents);
-    void remove_leftovers();
+    void adopt(const Day& day, const DayContents& contents) STORMCELLAR_REQUIRES(mutex_);
+    void remove_leftovers() STORMCELLAR_REQUIRES(mutex_);
     [[nodiscard]] std::filesystem::path path_of(const GridName& name) const {
         return directory_ / relative_path(name);
     }
@@ -121,20 +126,23 @@ class Roller {
     const Descriptor lock_;  // on the directory itself, to exclude a second writer
     std::uint64_t block_bytes_ = 4096;
 
-    std::mutex rolling_;        // one roll at a time
-    int rolls_ = 0;             // guarded by rolling_
-    mutable std::mutex mutex_;  // guards all members below
-    std::condition_variable changed_;
-    Budgets budgets_;
-    Account account_;
-    std::set<GridName> in_flight_;  // being written or evicted
-    std::set<std::string>
-        reached_;  // groups that reached a limit since the last roll; empty name: all
-    std::map<Day, DayState> days_;
-    std::vector<Leftover> leftovers_;
-    std::uint64_t evicted_ = 0, evicted_bytes_ = 0, not_kept_ = 0;
-    std::uint64_t reported_ = 0, reported_bytes_ = 0;
-    std::vector<std::string> problems_;  // since the last roll
+    Mutex rolling_;  // one roll at a time
+    int rolls_ STORMCELLAR_GUARDED_BY(rolling_) = 0;
+    mutable Mutex mutex_;
+    ConditionVariable changed_;
+    Budgets budgets_ STORMCELLAR_GUARDED_BY(mutex_);
+    Account account_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::set<GridName> in_flight_ STORMCELLAR_GUARDED_BY(mutex_);  // being written or evicted
+    // Groups that reached a limit since the last roll; empty name: all.
+    std::set<std::string> reached_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::map<Day, DayState> days_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::vector<Leftover> leftovers_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::uint64_t evicted_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::uint64_t evicted_bytes_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::uint64_t not_kept_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::uint64_t reported_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::uint64_t reported_bytes_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::vector<std::string> problems_ STORMCELLAR_GUARDED_BY(mutex_);  // since the last roll
 };
 
 }  // namespace stormcellar::cache

@@ -49,7 +49,7 @@ Status Roller::reread(bool all, const OnStep& step) {
         if (Status read = reread_day(day, all); !read) return read;
         if (step) step();
     }
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     for (auto day = days_.begin(); day != days_.end();) {
         const bool stands = std::binary_search(days->begin(), days->end(), day->first);
         if (!stands && !fs::exists(directory_ / relative_path(day->first))) {
@@ -64,7 +64,7 @@ Status Roller::reread(bool all, const OnStep& step) {
 
 // It holds the lock, so that no grid of ours comes or goes between the reading and the account.
 Status Roller::reread_day(const Day& day, bool even_unchanged) {
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     struct stat facts {};
     if (::stat((directory_ / relative_path(day)).c_str(), &facts) != 0) return {};
     const std::int64_t modified_ns =
@@ -110,14 +110,14 @@ void Roller::adopt(const Day& day, const DayContents& contents) {
 void Roller::add_leftover(std::string_view group, const fs::path& path) {
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) return;
-    const Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const std::uint64_t bytes = static_cast<std::uint64_t>(facts.st_blocks) * 512;
     leftovers_.push_back({path, std::string(group), bytes});
     account_.reserve(group, bytes);
 }
 
 void Roller::remove_leftovers() {
-    std::erase_if(leftovers_, [&](const Leftover& leftover) {
+    std::erase_if(leftovers_, [&](const Leftover& leftover) STORMCELLAR_REQUIRES(mutex_) {
         const Status removed = file_system_.remove(leftover.path);
         if (!removed && removed.error().code != ErrorCode::not_found) return false;
         account_.release(leftover.group, leftover.bytes);
@@ -127,26 +127,29 @@ void Roller::remove_leftovers() {
 
 // Evicts what others hold beyond their share, and grids of others that nothing has replaced for
 // long.
-void Roller::limit_others(Lock& lock, const OnStep& step) {
-    const auto evict_each = [&](auto choose) {
-        evict_all(lock, [&] {
+void Roller::limit_others(const OnStep& step) {
+    const auto evict_each = [&](auto choose) STORMCELLAR_REQUIRES(mutex_) {
+        evict_all([&]() STORMCELLAR_REQUIRES(mutex_) {
             if (step) step();
             return choose();
         });
     };
-    evict_each([&] { return account_.outlived(budgets_, batch); });
+    evict_each([&]() STORMCELLAR_REQUIRES(mutex_) { return account_.outlived(budgets_, batch); });
     const auto limit = account_.others_limit(budgets_);
     if (!limit || account_.used_by_others() <= *limit) return;
-    evict_each([&] { return account_.others_down_to(budgets_.low_mark(*limit), batch); });
+    evict_each([&]() STORMCELLAR_REQUIRES(mutex_) {
+        return account_.others_down_to(budgets_.low_mark(*limit), batch);
+    });
 }
 
 // Enforces one budget: of a group, or of all if the name is empty. `filling` is what the file
 // system would hold if everything that was evicted since it was read were free by now.
-void Roller::keep_budget(Lock& lock, const std::string& group,
-                         const std::optional<Filling>& filling, RollReport& report,
-                         const OnStep& step) {
+void Roller::keep_budget(const std::string& group, const std::optional<Filling>& filling,
+                         RollReport& report, const OnStep& step) {
     const Budget budget = group.empty() ? budgets_.total : budgets_.of(group);
-    const auto held = [&] { return group.empty() ? account_.used() : account_.used(group); };
+    const auto held = [&]() STORMCELLAR_REQUIRES(mutex_) {
+        return group.empty() ? account_.used() : account_.used(group);
+    };
     const bool reached = reached_.erase(group) > 0;
     std::optional<std::uint64_t> target, limit;
     if (budget.bytes) {
@@ -167,8 +170,8 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
     }
     if (target) {
         const Protection protection{budgets_.protected_for, account_.space_of(budget)};
-        const auto bring_down = [&](Reach reach) {
-            evict_all(lock, [&] {
+        const auto bring_down = [&](Reach reach) STORMCELLAR_REQUIRES(mutex_) {
+            evict_all([&]() STORMCELLAR_REQUIRES(mutex_) {
                 if (step) step();
                 return account_.down_to(group, *target, batch, protection, reach);
             });
@@ -189,19 +192,19 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
 }
 
 RollReport Roller::roll(const OnStep& step) {
-    const std::scoped_lock one_at_a_time(rolling_);
+    const MutexLock one_at_a_time(rolling_);
     RollReport report;
     const bool all = ++rolls_ % rolls_between_full_readings == 0;
     if (const Status read = reread(all, step); !read)
         report.problems.push_back(read.error().message);
 
-    Lock lock(mutex_);
+    const MutexLock lock(mutex_);
     remove_leftovers();
     account_.set_now(surroundings_.now());
     account_.ask_who_is_known();
     const std::vector<std::string> groups = account_.groups();
     for (const std::string& group : groups)
-        evict_all(lock, [&] {
+        evict_all([&]() STORMCELLAR_REQUIRES(mutex_) {
             if (step) step();
             return account_.expired(group, budgets_, batch);
         });
@@ -210,16 +213,16 @@ RollReport Roller::roll(const OnStep& step) {
     if (!filling) report.problems.push_back(filling.error().message);
     if (filling) account_.set_capacity(filling->capacity_bytes);
     std::uint64_t counted = evicted_bytes_;
-    limit_others(lock, step);
-    const auto filling_now = [&]() -> std::optional<Filling> {
+    limit_others(step);
+    const auto filling_now = [&]() STORMCELLAR_REQUIRES(mutex_) -> std::optional<Filling> {
         if (!filling) return std::nullopt;
         const std::uint64_t freed = evicted_bytes_ - std::exchange(counted, evicted_bytes_);
         filling->used_bytes -= std::min(filling->used_bytes, freed);
         return *filling;
     };
     for (const std::string& group : groups)
-        keep_budget(lock, group, filling_now(), report, step);
-    keep_budget(lock, "", filling_now(), report, step);
+        keep_budget(group, filling_now(), report, step);
+    keep_budget("", filling_now(), report, step);
 
     report.evicted = evicted_ - std::exchange(reported_, evicted_);
     report.evicted_bytes = evicted_bytes_ - std::exchange(reported_bytes_, evicted_bytes_);

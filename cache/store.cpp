@@ -1,7 +1,6 @@
 #include "stormcellar/cache/store.h"
 
 #include <algorithm>
-#include <mutex>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "cache/directories.h"
 #include "cache/leftover_watch.h"
 #include "cache/roller.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::cache {
 namespace {
@@ -33,8 +33,8 @@ Status make_cache_directory(FileSystem& file_system, const fs::path& directory) 
 }  // namespace
 
 struct StoreWriter::DurableDirectories {
-    std::mutex mutex;
-    std::set<fs::path> paths;  // guarded by mutex
+    Mutex mutex;
+    std::set<fs::path> paths STORMCELLAR_GUARDED_BY(mutex);
 };
 
 Result<StoreReader> StoreReader::open(fs::path directory) {
@@ -94,13 +94,13 @@ Status StoreWriter::make_directory(const fs::path& directory) {
     const bool created = fs::create_directory(directory, error);
     if (error) return directory_failure(directory, error);
     if (!created) {
-        const std::scoped_lock lock(durable_->mutex);
+        const MutexLock lock(durable_->mutex);
         if (durable_->paths.contains(directory)) return {};
     }
     if (Status synced = file_system_->sync_directory(directory.parent_path()); !synced) {
         return synced;
     }
-    const std::scoped_lock lock(durable_->mutex);
+    const MutexLock lock(durable_->mutex);
     durable_->paths.insert(directory);
     return {};
 }
