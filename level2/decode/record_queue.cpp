@@ -18,7 +18,7 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
       may_wait_(threads <= most_waiting_threads) {
     threads = std::min(threads, most_threads);
     {
-        const std::lock_guard lock{mutex_};
+        const MutexLock lock(mutex_);
         fill();
     }
     try {
@@ -34,7 +34,7 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
 
 RecordQueue::~RecordQueue() {
     {
-        const std::lock_guard lock{mutex_};
+        const MutexLock lock(mutex_);
         stopping_ = true;
     }
     changed_.notify_all();
@@ -76,8 +76,9 @@ RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
 }
 
 std::uint64_t RecordQueue::wait_for_turn(const Slot& slot) {
-    std::unique_lock lock{mutex_};
-    changed_.wait(lock, [&] { return stopping_ || has_turn(slot); });
+    const MutexLock lock(mutex_);
+    while (!stopping_ && !has_turn(slot))
+        changed_.wait(mutex_);
     return stopping_ ? 0 : std::max<std::uint64_t>(*turn_bytes_, 1);
 }
 
@@ -96,15 +97,16 @@ ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
 
 // Decodes the part of a slot without holding the mutex. A slot that outgrew its share goes back to
 // waiting, without its fragment.
-void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who,
-                       std::unique_lock<std::mutex>& lock) {
+void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who) {
     slot.state = State::working;
     slot.large = false;
     ArrayRoom room = room_for(slot, who);
-    lock.unlock();
-    Fragment fragment = decoder.decode(slot.part, std::move(room));
-    if (slot.large) fragment = {};
-    lock.lock();
+    Fragment fragment;
+    {
+        const MutexUnlock unlocked(mutex_);
+        fragment = decoder.decode(slot.part, std::move(room));
+        if (slot.large) fragment = {};
+    }
     slot.fragment = std::move(fragment);
     slot.state = slot.large ? State::waiting : State::ready;
     changed_.notify_all();
@@ -112,40 +114,41 @@ void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who,
 
 void RecordQueue::run() {
     PartDecoder decoder{limit_bytes_, selection_};
-    std::unique_lock lock{mutex_};
+    const MutexLock lock(mutex_);
     while (!stopping_) {
         if (Slot* slot = first_waiting(Who::worker)) {
-            work(*slot, decoder, Who::worker, lock);
+            work(*slot, decoder, Who::worker);
         } else {
-            changed_.wait(lock);
+            changed_.wait(mutex_);
         }
     }
 }
 
 // Decodes the head with all the room that there is, and not with the share of a record that is
 // decoded ahead.
-void RecordQueue::decode_alone(Slot& head, std::unique_lock<std::mutex>& lock) {
-    changed_.wait(lock, [&] { return head.state != State::working; });
+void RecordQueue::decode_alone(Slot& head) {
+    while (head.state == State::working)
+        changed_.wait(mutex_);
     head.fragment = {};
-    work(head, own_decoder_, Who::caller, lock);
+    work(head, own_decoder_, Who::caller);
 }
 
 // Hands out the head of the ring. If it is not ready, the caller decodes too: the head, or any
 // other part that waits. When less room is left than a share, parts that were decoded ahead might
 // not fit, so from then on the caller decodes everything alone.
 std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
-    std::unique_lock lock{mutex_};
+    const MutexLock lock(mutex_);
     if (used_ == 0) return std::nullopt;
     turn_bytes_ = limit_bytes;
     changed_.notify_all();
     Slot& head = slots_[head_];
     alone_ = alone_ || limit_bytes < share_bytes_;
-    if (alone_) decode_alone(head, lock);
+    if (alone_) decode_alone(head);
     while (head.state != State::ready) {
         if (Slot* slot = first_waiting(Who::caller)) {
-            work(*slot, own_decoder_, Who::caller, lock);
+            work(*slot, own_decoder_, Who::caller);
         } else {
-            changed_.wait(lock);
+            changed_.wait(mutex_);
         }
     }
     Fragment fragment = std::exchange(head.fragment, {});

@@ -12,17 +12,16 @@
 // Threads   next() may be called by one thread.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
 
 #include "level2/containers/ldm_framer.h"
 #include "level2/decode/part_decoder.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/level2/fragment.h"
 
 namespace stormcellar::level2 {
@@ -61,33 +60,33 @@ class RecordQueue {
         LdmPart part;
         Fragment fragment;
     };
-    // All but run() and wait_for_turn() are called under mutex_.
-    void fill();
-    [[nodiscard]] Slot* first_waiting(Who who);
-    [[nodiscard]] bool has_turn(const Slot& slot) const;
-    void work(Slot& slot, PartDecoder& decoder, Who who, std::unique_lock<std::mutex>& lock);
-    [[nodiscard]] ArrayRoom room_for(Slot& slot, Who who);
-    [[nodiscard]] std::uint64_t wait_for_turn(const Slot& slot);
-    void decode_alone(Slot& head, std::unique_lock<std::mutex>& lock);
-    void run();
+    void fill() STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] Slot* first_waiting(Who who) STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] bool has_turn(const Slot& slot) const STORMCELLAR_REQUIRES(mutex_);
+    void work(Slot& slot, PartDecoder& decoder, Who who) STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] ArrayRoom room_for(Slot& slot, Who who) STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] std::uint64_t wait_for_turn(const Slot& slot) STORMCELLAR_EXCLUDES(mutex_);
+    void decode_alone(Slot& head) STORMCELLAR_REQUIRES(mutex_);
+    void run() STORMCELLAR_EXCLUDES(mutex_);
 
     std::uint64_t limit_bytes_;
     const Selection& selection_;
     PartDecoder own_decoder_;
-    std::mutex mutex_;  // guards everything below
-    std::condition_variable changed_;
-    Source source_;
-    std::vector<Slot> slots_;  // a ring
-    std::uint64_t share_bytes_;
-    bool may_wait_;         // threads wait with a fragment that outgrows its share
-    bool alone_ = false;    // the caller decodes everything
-    std::size_t head_ = 0;  // the slot that is handed out next
-    std::size_t used_ = 0;
-    bool source_ended_ = false;
+    Mutex mutex_;
+    ConditionVariable changed_;
+    Source source_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::vector<Slot> slots_ STORMCELLAR_GUARDED_BY(mutex_);  // a ring
+    std::uint64_t share_bytes_ STORMCELLAR_GUARDED_BY(mutex_);
+    // Threads wait with a fragment that outgrows its share.
+    bool may_wait_ STORMCELLAR_GUARDED_BY(mutex_);
+    bool alone_ STORMCELLAR_GUARDED_BY(mutex_) = false;    // the caller decodes everything
+    std::size_t head_ STORMCELLAR_GUARDED_BY(mutex_) = 0;  // the slot that is handed out next
+    std::size_t used_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    bool source_ended_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     // The caller waits for the head slot, which may take this much. Until then the caller holds the
     // last fragment.
-    std::optional<std::uint64_t> turn_bytes_;
-    bool stopping_ = false;
+    std::optional<std::uint64_t> turn_bytes_ STORMCELLAR_GUARDED_BY(mutex_);
+    bool stopping_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     std::vector<std::thread> workers_;
 };
 
