@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <utility>
 
 #include "base/parallel.h"
@@ -10,6 +9,7 @@
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/file_facts.h"
 #include "pipeline/ingest/ingest.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "stormcellar/grid/grid_window.h"
@@ -32,37 +32,40 @@ class Ledger {
         : report_(report), progress_(progress) {}
 
     void left_out(const std::filesystem::path& path, std::string reason) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         report_.left_out.push_back({path, std::move(reason)});
         one_done();
     }
     void failed(Error error) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (outcome_) outcome_ = tl::unexpected<Error>(std::move(error));
     }
     void made(const std::filesystem::path& path, const IngestOutcome& outcome) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         ++report_.grids_made;
         if (!outcome.reason.empty()) report_.notes.push_back({path, outcome.reason});
         one_done();
     }
     [[nodiscard]] bool has_failed() const {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         return !outcome_;
     }
     // Call it after all workers have ended.
-    [[nodiscard]] Status outcome() { return std::move(outcome_); }
+    [[nodiscard]] Status outcome() {
+        const MutexLock lock(mutex_);
+        return std::move(outcome_);
+    }
 
   private:
-    void one_done() {
+    void one_done() STORMCELLAR_REQUIRES(mutex_) {
         if (progress_) progress_(++done_);
     }
 
-    mutable std::mutex mutex_;
-    FillReport& report_;
+    mutable Mutex mutex_;
+    FillReport& report_ STORMCELLAR_GUARDED_BY(mutex_);
     const FillProgress& progress_;
-    std::size_t done_ = 0;
-    Status outcome_;
+    std::size_t done_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    Status outcome_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 // Returns the key of a volume's files: for a volume of one file per chunk, that of all of them.

@@ -1,13 +1,13 @@
 #include "pipeline/care/archive_frames.h"
 
 #include <algorithm>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "base/parallel.h"
 #include "pipeline/mosaic/mosaic_maker.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -39,10 +39,12 @@ class FrameCrew {
             static_cast<int>((instants_.size() + instants_a_turn - 1) / instants_a_turn);
         const int workers = std::clamp(threads, 1, std::max(1, std::min(turns, most_workers)));
         for_each_piece(workers, workers, [&](int) { take_turns(std::max(1, threads / workers)); });
+        const MutexLock lock(mutex_);
         return std::move(failure_);
     }
 
-    void add_to(FillReport& report) const {
+    void add_to(FillReport& report) {
+        const MutexLock lock(mutex_);
         for (std::size_t i = 0; i < outcomes_.size(); ++i) {
             if (!outcomes_[i]) continue;  // after a stop or an error
             const FrameOutcome& outcome = *outcomes_[i];
@@ -81,7 +83,7 @@ class FrameCrew {
     }
 
     void keep(std::size_t at, Result<FrameOutcome> outcome) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (!outcome) {
             if (failure_) failure_ = pass_on(outcome);
             return;
@@ -90,7 +92,7 @@ class FrameCrew {
         if (progress_) progress_(++done_);
     }
     [[nodiscard]] bool has_failed() {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         return !failure_;
     }
 
@@ -101,10 +103,10 @@ class FrameCrew {
     const FillProgress& progress_;
     const std::atomic<bool>& stop_;
     std::atomic<std::size_t> next_{0};
-    std::mutex mutex_;  // guards all members below
-    std::vector<std::optional<FrameOutcome>> outcomes_;
-    std::size_t done_ = 0;
-    Status failure_;
+    Mutex mutex_;
+    std::vector<std::optional<FrameOutcome>> outcomes_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::size_t done_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    Status failure_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace

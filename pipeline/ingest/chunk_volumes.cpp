@@ -32,7 +32,7 @@ bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
 }
 
 std::filesystem::path ChunkVolumes::poll_for_place(const ChunkPath& chunk) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (representatives_.size() >= most_representatives && !representatives_.contains(chunk.key))
         representatives_.clear();
     std::filesystem::path former = std::exchange(representatives_[chunk.key], chunk.path);
@@ -41,7 +41,7 @@ std::filesystem::path ChunkVolumes::poll_for_place(const ChunkPath& chunk) {
 
 ChunkVolumes::Shared ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
                                         Expected expected) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (Shared known = volumes_.find(chunk.key)) return known;
     if (volumes_.was_given_up(chunk.key)) {
         if (expected == Expected::more) return nullptr;
@@ -64,13 +64,13 @@ ChunkVolumes::Shared ChunkVolumes::find(const ChunkPath& chunk, const std::strin
 }
 
 ChunkVolumes::Shared ChunkVolumes::find_known(const ChunkPath& chunk) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return volumes_.find(chunk.key);
 }
 
 bool ChunkVolumes::grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                         const std::string& station) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     // The volume was forgotten meanwhile, for example because it is read anew: that is nobody's
     // fault.
     if (volumes_.find(chunk.key) != volume) return !volumes_.was_given_up(chunk.key);
@@ -78,7 +78,7 @@ bool ChunkVolumes::grew(const ChunkPath& chunk, const Shared& volume, const Grow
 }
 
 std::uint64_t ChunkVolumes::take_given_up() {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return volumes_.take_given_up();
 }
 
@@ -88,17 +88,17 @@ void ChunkVolumes::forget_key(const std::string& key) {
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     forget_key(chunk.key);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk, const Shared& volume) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (volumes_.find(chunk.key) == volume) forget_key(chunk.key);
 }
 
 std::size_t ChunkVolumes::count() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return volumes_.count();
 }
 

@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -23,6 +22,7 @@
 #include "pipeline/ingest/followed.h"
 #include "pipeline/ingest/followed_file.h"
 #include "pipeline/ingest/guarded.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pipeline {
 
@@ -59,13 +59,13 @@ class ChunkVolumes {
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:
-    void forget_key(const std::string& key);
+    void forget_key(const std::string& key) STORMCELLAR_REQUIRES(mutex_);
 
     FollowedFile::Options options_;
-    mutable std::mutex mutex_;  // guards what follows
-    Followed<std::string, Guarded<ChunkVolume>> volumes_;
-    std::map<std::string, std::filesystem::path>
-        representatives_;  // of volumes that found no place
+    mutable Mutex mutex_;
+    Followed<std::string, Guarded<ChunkVolume>> volumes_ STORMCELLAR_GUARDED_BY(mutex_);
+    // Chunks that represent volumes without a place.
+    std::map<std::string, std::filesystem::path> representatives_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::pipeline

@@ -11,7 +11,7 @@ constexpr std::chrono::minutes farthest_ahead{10};  // of a clock that is fast
 }  // namespace
 
 std::shared_ptr<FollowedFile> FollowedFiles::find(const std::filesystem::path& path) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return files_.find(path);
 }
 
@@ -19,7 +19,7 @@ std::shared_ptr<FollowedFile> FollowedFiles::begin(const std::filesystem::path& 
                                                    const std::string& fallback_station,
                                                    const std::string& station) {
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (files_.was_given_up(path) || !files_.make_place(station)) return nullptr;
     }
     FollowedFile::Options options = options_;
@@ -27,21 +27,21 @@ std::shared_ptr<FollowedFile> FollowedFiles::begin(const std::filesystem::path& 
     auto begun = FollowedFile::begin(path, options);
     if (!begun) return nullptr;
     std::shared_ptr<FollowedFile> file = std::move(*begun);
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     files_.add(path, file, station);
     return file;
 }
 
 bool FollowedFiles::grew(const std::filesystem::path& path, const FollowedFile& file,
                          const std::string& station) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const bool stands = files_.grew(path, &file, station, file.growth());
     drop_last_beyond_limits();
     return stands;
 }
 
 void FollowedFiles::give_up(const std::filesystem::path& path) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     files_.give_up(path);
 }
 
@@ -61,12 +61,12 @@ void FollowedFiles::drop_last_beyond_limits() {
 }
 
 std::uint64_t FollowedFiles::take_given_up() {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return files_.take_given_up();
 }
 
 void FollowedFiles::forget(const std::filesystem::path& path) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     files_.forget(path);
 }
 
@@ -74,7 +74,7 @@ void FollowedFiles::keep_last(std::shared_ptr<const ShelvedVolume> volume) {
     if (!volume || volume->facts.station.empty()) return;
     // Otherwise nothing would ever replace a volume that claims to be from the future.
     if (volume->facts.start_time() > now_utc() + farthest_ahead) return;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     auto& last = last_[volume->facts.station];
     if (last && last->facts.start_time() > volume->facts.start_time()) return;
     last = std::move(volume);
@@ -82,18 +82,18 @@ void FollowedFiles::keep_last(std::shared_ptr<const ShelvedVolume> volume) {
 }
 
 std::shared_ptr<const ShelvedVolume> FollowedFiles::last_of(const std::string& station) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto at = last_.find(station);
     return at == last_.end() ? nullptr : at->second;
 }
 
 std::size_t FollowedFiles::count() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return files_.count();
 }
 
 std::uint64_t FollowedFiles::held_bytes() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return files_.held_bytes();
 }
 

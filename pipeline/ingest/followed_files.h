@@ -12,12 +12,12 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "pipeline/ingest/followed.h"
 #include "pipeline/ingest/followed_file.h"
 #include "pipeline/options/ingest_options.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pipeline {
 
@@ -50,13 +50,14 @@ class FollowedFiles {
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:
-    void drop_last_beyond_limits();
+    void drop_last_beyond_limits() STORMCELLAR_REQUIRES(mutex_);
 
     FollowedFile::Options options_;
     GrowingLimits limits_;
-    mutable std::mutex mutex_;  // guards the members below
-    Followed<std::filesystem::path, FollowedFile> files_;
-    std::map<std::string, std::shared_ptr<const ShelvedVolume>> last_;
+    mutable Mutex mutex_;
+    Followed<std::filesystem::path, FollowedFile> files_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::map<std::string, std::shared_ptr<const ShelvedVolume>> last_
+        STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::pipeline

@@ -1,11 +1,15 @@
 // pipeline/ingest/guarded.h -- a value that only the holder of its lock can reach.
 //
+// The type itself keeps others out: the value can be reached only through a Locked, which holds the
+// mutex. So clang need not follow a Locked, which is handed from function to function.
+//
 // Inside the pipeline room only. Thread contract: any thread may call lock(); the holder of the
 // Locked uses the value. A Locked must not outlive its Guarded.
 #pragma once
 
-#include <mutex>
 #include <utility>
+
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pipeline {
 
@@ -17,28 +21,36 @@ class Guarded {
 
     class Locked {
       public:
+        Locked(const Locked&) = delete;
+        Locked& operator=(const Locked&) = delete;
+        ~Locked() {
+            if (value_ != nullptr) unlock();
+        }
         [[nodiscard]] T* operator->() const { return value_; }
         [[nodiscard]] T& operator*() const { return *value_; }
         // Unlocks before the end of the scope; the value can then no longer be reached through this
         // object.
-        void unlock() {
+        void unlock() STORMCELLAR_NO_LOCK_ANALYSIS {  // the constructor has locked it
             value_ = nullptr;
-            lock_.unlock();
+            guarded_.mutex_.unlock();
         }
 
       private:
         friend class Guarded;
-        Locked(std::mutex& mutex, T& value) : lock_(mutex), value_(&value) {}
+        explicit Locked(Guarded& guarded) : guarded_(guarded) {
+            guarded_.mutex_.lock();
+            value_ = &guarded_.value_;
+        }
 
-        std::unique_lock<std::mutex> lock_;
-        T* value_;
+        Guarded& guarded_;
+        T* value_ = nullptr;
     };
 
-    [[nodiscard]] Locked lock() { return Locked(mutex_, value_); }
+    [[nodiscard]] Locked lock() { return Locked(*this); }
 
   private:
-    std::mutex mutex_;
-    T value_;
+    Mutex mutex_;
+    T value_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::pipeline

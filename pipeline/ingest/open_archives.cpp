@@ -9,7 +9,7 @@ namespace stormcellar::pipeline {
 
 std::optional<OpenArchive> OpenArchives::take(const std::filesystem::path& path,
                                               const FileStamp& stamp) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto found = std::ranges::find(
         open_, path, [](const Waiting& one) -> const auto& { return one.archive.path; });
     if (found == open_.end()) return std::nullopt;
@@ -20,7 +20,7 @@ std::optional<OpenArchive> OpenArchives::take(const std::filesystem::path& path,
 }
 
 void OpenArchives::keep(OpenArchive archive) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     std::erase_if(open_, [](const Waiting& one) {
         struct stat facts {};
         const bool is_deleted =

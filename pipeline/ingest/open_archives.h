@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "pipeline/drop/file_facts.h"
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pipeline {
 
@@ -49,8 +49,8 @@ class OpenArchives {
         SteadyTime since;
     };
 
-    std::mutex mutex_;
-    std::vector<Waiting> open_;  // guarded by mutex_
+    Mutex mutex_;
+    std::vector<Waiting> open_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::pipeline

@@ -8,11 +8,12 @@
 
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <optional>
+#include <utility>
 
 #include "base/recently_used.h"
 #include "grid/place/site_columns.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/grid_window.h"
 #include "stormcellar/grid/gridder.h"
@@ -24,7 +25,7 @@ class GeometryCache {
   public:
     // The capacity for column geometries, which are large. The rest takes some 0.1 MiB each, so
     // there may be more.
-    explicit GeometryCache(std::size_t capacity) : geometries_({.values = capacity}) {}
+    explicit GeometryCache(std::size_t capacity) : geometries_(capacity) {}
 
     Result<std::shared_ptr<const grid::ColumnGeometry>> get(
         const grid::SitePosition& site, const grid::GridSpec& spec,
@@ -41,7 +42,7 @@ class GeometryCache {
                                                     const grid::GridSpec& spec);
 
   private:
-    static constexpr KeptBudget small_ones{.values = 512};
+    static constexpr std::size_t small_ones = 512;
 
     // The place of a site on a grid, whatever the name of the site.
     struct Place {
@@ -69,15 +70,32 @@ class GeometryCache {
         bool operator==(const Windowed&) const = default;
     };
 
-    // Returns the kept value, or makes it without holding the mutex and keeps it.
-    template <class Key, class Value, class Make>
-    Value find_or_make(RecentlyUsed<Key, Value>& kept, const Key& key, const Make& make);
+    // What many threads keep.
+    template <class Key, class Value>
+    class Kept {
+      public:
+        explicit Kept(std::size_t most) : values_({.values = most}) {}
+        std::optional<Value> find(const Key& key) {
+            const MutexLock lock(mutex_);
+            const Value* found = values_.find(key);
+            return found == nullptr ? std::nullopt : std::optional(*found);
+        }
+        // Returns the value that stays, which another thread may have made meanwhile.
+        Value keep(const Key& key, Value value) {
+            const MutexLock lock(mutex_);
+            if (const Value* found = values_.find(key)) return *found;
+            return values_.keep(key, std::move(value));
+        }
 
-    std::mutex mutex_;  // guards what follows
-    RecentlyUsed<Framed, std::shared_ptr<const grid::ColumnGeometry>> geometries_;
-    RecentlyUsed<Reach, std::optional<grid::GridWindow>> windows_{small_ones};
-    RecentlyUsed<Windowed, std::shared_ptr<const grid::SiteDistance>> distances_{small_ones};
-    RecentlyUsed<Place, std::shared_ptr<const grid::SiteColumns>> places_{small_ones};
+      private:
+        Mutex mutex_;
+        RecentlyUsed<Key, Value> values_ STORMCELLAR_GUARDED_BY(mutex_);
+    };
+
+    Kept<Framed, std::shared_ptr<const grid::ColumnGeometry>> geometries_;
+    Kept<Reach, std::optional<grid::GridWindow>> windows_{small_ones};
+    Kept<Windowed, std::shared_ptr<const grid::SiteDistance>> distances_{small_ones};
+    Kept<Place, std::shared_ptr<const grid::SiteColumns>> places_{small_ones};
 };
 
 }  // namespace stormcellar::pipeline

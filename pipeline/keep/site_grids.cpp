@@ -95,7 +95,7 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
         const auto audited = grid::audit(bricks.view(), volume, grid.sites.front(), made.gridder);
         if (audited) grid.provenance.audit = audited->rows;
     }
-    const std::scoped_lock lock(commits_.at(fs::hash_value(*path) % commits_.size()));
+    const MutexLock lock(commits_.at(fs::hash_value(*path) % commits_.size()));
     const cache::GridDescription description = cache::describe(grid);
     auto reason = reason_to_keep(*path, {description, bricks.view(), source.has_rival});
     if (!reason) return pass_on(reason);

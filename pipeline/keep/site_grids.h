@@ -7,13 +7,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "pipeline/keep/geometry_cache.h"
 #include "pipeline/options/ingest_options.h"
 #include "pipeline/options/ingest_outcome.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/grid/gridder.h"
@@ -67,8 +67,8 @@ class SiteGrids {
     // The geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};
-    // one commit at a time for each grid file, by the hash of its path
-    std::array<std::mutex, 16> commits_;
+    // One commit at a time for each grid file, by the hash of its path.
+    std::array<Mutex, 16> commits_;
 };
 
 // Classifies an error of gridding a decoded volume: whatever its code, the cause is in the file,

@@ -20,20 +20,20 @@ std::size_t bytes_of(const grid::BrickGrid& made) {
 }  // namespace
 
 std::shared_ptr<const grid::BrickGrid> InstantCache::find(const Key& key) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto* found = kept_.find(key);
     return found == nullptr ? nullptr : *found;
 }
 
 void InstantCache::keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made) {
     const std::size_t bytes = bytes_of(*made);
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (bytes > most_bytes_ || kept_.find(key) != nullptr) return;
     kept_.keep(key, std::move(made), bytes);
 }
 
 std::size_t InstantCache::bytes() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return kept_.weight();
 }
 

@@ -12,9 +12,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 
 #include "base/recently_used.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/grid/brick_grid.h"
 
@@ -41,8 +41,8 @@ class InstantCache {
 
   private:
     std::size_t most_bytes_;
-    mutable std::mutex mutex_;  // guards kept_
-    RecentlyUsed<Key, std::shared_ptr<const grid::BrickGrid>> kept_;
+    mutable Mutex mutex_;
+    RecentlyUsed<Key, std::shared_ptr<const grid::BrickGrid>> kept_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::pipeline

@@ -126,8 +126,8 @@ Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     return kept;
 }
 
-std::mutex& MosaicMaker::frames_of(const std::string& domain, level2::Moment moment) {
-    const std::scoped_lock lock(mutex_);
+Mutex& MosaicMaker::frames_of(const std::string& domain, level2::Moment moment) {
+    const MutexLock lock(mutex_);
     return frames_[{domain, moment}];
 }
 
@@ -143,7 +143,8 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     description.provenance.radar_troubles = source.radar_troubles;
     description.provenance.notes.insert(description.provenance.notes.begin(), source.notes.begin(),
                                         source.notes.end());
-    const std::scoped_lock lock(frames_of(domain.name, moment));
+    Mutex& frames = frames_of(domain.name, moment);
+    const MutexLock lock(frames);
     const std::string name = site_domain(domain.name, source.site.icao);
     const auto path = store_->path_of(name, moment, description.time);
     if (!path) return of_gridding(path.error());
@@ -158,12 +159,12 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     keep_to_an_hours_volumes(*store_, name, moment, description.time);
     kept.partials.push_back(*committed);
     if (frames_when_ == FramesWhen::asked_for) return {};
-    return refresh(domain, moment, description, threads, kept);
+    return refresh(domain, moment, description, threads, kept, frames);
 }
 
 Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
                             const cache::GridDescription& changed, int threads, Kept& kept,
-                            const std::function<void()>& beat) {
+                            Mutex& frames, const std::function<void()>& beat) {
     const UtcTime middle = middle_of(changed);
     auto partials = MappedPartials::open(*store_, domain, moment, middle - greatest_frame_gap,
                                          middle + greatest_frame_gap, kept.problems);
@@ -171,7 +172,8 @@ Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
     const Span span = span_changed_by(changed, partials->views());
     for (const UtcTime instant : instants_between(span.from, span.to, domain.interval)) {
         if (beat) beat();
-        const auto made = make({domain, moment, instant, threads}, *partials, kept.problems);
+        const auto made =
+            make({domain, moment, instant, threads}, *partials, kept.problems, frames);
         if (!made && may_pass(made.error())) return pass_on(made);
         if (!made) {
             kept.problems.push_back(fmt::format("the frame {} {}: {}", domain.name,
@@ -202,7 +204,7 @@ Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedParti
 }
 
 Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partials,
-                                    std::vector<std::string>& problems) {
+                                    std::vector<std::string>& problems, Mutex&) {
     const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
     if (!path) return pass_on(path);
     const auto stands = cache::GridFile::open(*path);
@@ -267,7 +269,7 @@ Result<std::optional<StaleFrame>> MosaicMaker::make_stale(int threads,
                                                           std::vector<std::string>& problems) {
     StaleFrame frame;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (unchecked_.empty()) return std::optional<StaleFrame>{};
         frame.name = unchecked_.extract(unchecked_.begin()).value();
     }
@@ -275,20 +277,21 @@ Result<std::optional<StaleFrame>> MosaicMaker::make_stale(int threads,
         const auto found = domain_of(domains_, frame.name);
         if (!found) return pass_on(found);
         const FrameJob job{**found, frame.name.moment, frame.name.time, threads};
-        const std::scoped_lock lock(frames_of(job.domain.name, job.moment));
+        Mutex& frames = frames_of(job.domain.name, job.moment);
+        const MutexLock lock(frames);
         auto partials = MappedPartials::open(*store_, job.domain, job.moment, job.instant,
                                              job.instant, problems);
         if (!partials) return pass_on(partials);
         const auto stale = is_stale(job, *partials);
         if (!stale) return pass_on(stale);
         if (!*stale) return {};
-        auto made = make(job, *partials, problems);
+        auto made = make(job, *partials, problems, frames);
         if (!made) return pass_on(made);
         frame.made = std::move(*made);
         return {};
     };
     const auto look_later = [&] {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         unchecked_.insert(frame.name);
     };
     Status looked;
@@ -306,7 +309,7 @@ Result<std::optional<StaleFrame>> MosaicMaker::make_stale(int threads,
 }
 
 void MosaicMaker::note_frames(const Domain& domain, const OthersPartial& partial, UtcTime middle) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     for (const UtcTime instant : instants_between(middle - greatest_frame_gap,
                                                   middle + greatest_frame_gap, domain.interval))
         unchecked_.insert({domain.name, partial.name.moment, instant});
@@ -321,13 +324,14 @@ Result<FrameMade> MosaicMaker::make_again(const cache::GridName& frame, int thre
         return fail(ErrorCode::bad_argument, "{} has frames every {} s, so none at {}",
                     domain->name, domain->interval.count(), format_utc(frame.time));
     }
-    const std::scoped_lock lock(frames_of(domain->name, frame.moment));
+    Mutex& frames = frames_of(domain->name, frame.moment);
+    const MutexLock lock(frames);
     const Unreadable unreadable =
         frames_when_ == FramesWhen::asked_for ? Unreadable::is_an_error : Unreadable::is_left_out;
     auto partials = MappedPartials::open(*store_, *domain, frame.moment, frame.time, frame.time,
                                          problems, unreadable);
     if (!partials) return pass_on(partials);
-    return make({*domain, frame.moment, frame.time, threads}, *partials, problems);
+    return make({*domain, frame.moment, frame.time, threads}, *partials, problems, frames);
 }
 
 }  // namespace stormcellar::pipeline

@@ -29,7 +29,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -41,6 +40,7 @@
 #include "pipeline/mosaic/mosaic_frame.h"
 #include "pipeline/options/domain.h"
 #include "pipeline/options/partial_sources.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 
@@ -131,19 +131,20 @@ class MosaicMaker {
         UtcTime instant;
         int threads;
     };
-    std::mutex& frames_of(const std::string& domain, level2::Moment moment);
+    // Returns the mutex of the frames of a domain and moment, which are made one at a time.
+    Mutex& frames_of(const std::string& domain, level2::Moment moment);
     Result<MosaicFrame> frame_of_sound(const FrameJob& job, MappedPartials& partials,
                                        const std::vector<LateMachine>& late,
                                        const PreviousFrame* previous,
                                        std::vector<std::string>& problems);
-    // The caller must hold the mutex of the domain's frames.
     Result<FrameMade> make(const FrameJob& job, MappedPartials& partials,
-                           std::vector<std::string>& problems);
+                           std::vector<std::string>& problems, Mutex& frames)
+        STORMCELLAR_REQUIRES(frames);
     Status keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
                 int threads, Kept& kept);
     Status refresh(const Domain& domain, level2::Moment moment,
-                   const cache::GridDescription& changed, int threads, Kept& kept,
-                   const std::function<void()>& beat = {});
+                   const cache::GridDescription& changed, int threads, Kept& kept, Mutex& frames,
+                   const std::function<void()>& beat = {}) STORMCELLAR_REQUIRES(frames);
     void finish(cache::GridDescription& frame, const std::vector<LateMachine>& late) const;
     [[nodiscard]] std::vector<LateMachine> late_for(const FrameJob& job) const;
     [[nodiscard]] Result<bool> is_stale(const FrameJob& job, const MappedPartials& partials) const;
@@ -161,9 +162,10 @@ class MosaicMaker {
             return a.time != b.time ? a.time > b.time : a < b;
         }
     };
-    std::mutex mutex_;                             // guards frames_ and unchecked_
-    std::set<cache::GridName, Newest> unchecked_;  // frames for make_stale()
-    std::map<std::pair<std::string, level2::Moment>, std::mutex> frames_;  // one at a time for each
+    Mutex mutex_;
+    // The frames for make_stale().
+    std::set<cache::GridName, Newest> unchecked_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::map<std::pair<std::string, level2::Moment>, Mutex> frames_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::pipeline

@@ -139,7 +139,8 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
         sources_->brought(partial.machine, domain->name, partial.name.moment, view.site().icao,
                           view.middle());
     }
-    const std::scoped_lock lock(frames_of(domain->name, partial.name.moment));
+    Mutex& frames = frames_of(domain->name, partial.name.moment);
+    const MutexLock lock(frames);
     const auto path = store_->path_of(partial.name.domain, partial.name.moment, partial.name.time);
     if (!path) return pass_on(path);
     Kept kept;
@@ -170,7 +171,8 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
     if (committed->empty()) return kept;  // older than what the budgets keep
     kept.partials.push_back(*committed);
     keep_to_an_hours_volumes(*store_, partial.name.domain, partial.name.moment, partial.name.time);
-    const Status made = refresh(*domain, partial.name.moment, grid, threads, kept, partial.beat);
+    const Status made =
+        refresh(*domain, partial.name.moment, grid, threads, kept, frames, partial.beat);
     if (made) return kept;
     note_frames(*domain, partial, view.middle());
     return pass_on(made);

@@ -23,7 +23,7 @@ std::string LateMachine::text() const {
 
 void PartialSources::brought(const std::string& machine, const std::string& domain,
                              level2::Moment moment, const std::string& station, UtcTime middle) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     Brought& brought = mosaics_[{domain, moment}][machine];
     brought.newest = std::max(brought.newest, middle);
     brought.stations.insert(station);
@@ -31,7 +31,7 @@ void PartialSources::brought(const std::string& machine, const std::string& doma
 
 std::vector<LateMachine> PartialSources::late_for(const std::string& domain, level2::Moment moment,
                                                   UtcTime instant) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     std::vector<LateMachine> late;
     const auto mosaic = mosaics_.find({domain, moment});
     if (mosaic == mosaics_.end()) return late;
@@ -52,7 +52,7 @@ std::vector<LateMachine> PartialSources::late_for(const std::string& domain, lev
 }
 
 std::optional<UtcTime> PartialSources::newest_of(const std::string& machine) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     std::optional<UtcTime> newest;
     for (const auto& [mosaic, machines] : mosaics_) {
         const auto brought = machines.find(machine);

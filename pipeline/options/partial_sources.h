@@ -11,13 +11,13 @@
 
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/level2/volume.h"
 
@@ -51,8 +51,9 @@ class PartialSources {
         std::set<std::string> stations;
     };
     const std::chrono::seconds late_after_;
-    mutable std::mutex mutex_;
-    std::map<Mosaic, std::map<std::string, Brought>> mosaics_;  // guarded by mutex_; by machine
+    mutable Mutex mutex_;
+    std::map<Mosaic, std::map<std::string, Brought>> mosaics_
+        STORMCELLAR_GUARDED_BY(mutex_);  // by machine
 };
 
 }  // namespace stormcellar::pipeline
