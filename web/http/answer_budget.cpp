@@ -62,7 +62,7 @@ bool AnswerBudget::Holder::has_room(const Objects& objects, std::uint64_t most) 
 bool AnswerBudget::take(const std::string& client, const Pieces& pieces) {
     if (!is_counted(pieces)) return true;
     const Objects objects = objects_of(pieces);
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto theirs = by_client_.try_emplace(client).first;
     const std::uint64_t of_others = all_.bytes - theirs->second.bytes;
     const std::uint64_t most_of_client = (most_bytes_ - std::min(most_bytes_, of_others)) / 2;
@@ -83,7 +83,7 @@ bool AnswerBudget::take(const std::string& client, const Pieces& pieces) {
 void AnswerBudget::give_back(const std::string& client, const Pieces& pieces) {
     if (!is_counted(pieces)) return;
     const Objects objects = objects_of(pieces);
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto found = by_client_.find(client);
     if (found == by_client_.end()) return;
     all_.remove(objects);
@@ -92,7 +92,7 @@ void AnswerBudget::give_back(const std::string& client, const Pieces& pieces) {
 }
 
 std::uint64_t AnswerBudget::bytes() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return all_.bytes;
 }
 

@@ -11,11 +11,11 @@
 
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "base/steady_time.h"
+#include "stormcellar/base/mutex.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -53,10 +53,10 @@ class AnswerBudget {
     };
 
     const std::uint64_t most_bytes_;
-    mutable std::mutex mutex_;  // guards what follows
-    Holder all_;
-    std::map<std::string, Holder> by_client_;
-    SteadyTime given_to_new_until_{};
+    mutable Mutex mutex_;
+    Holder all_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::map<std::string, Holder> by_client_ STORMCELLAR_GUARDED_BY(mutex_);
+    SteadyTime given_to_new_until_ STORMCELLAR_GUARDED_BY(mutex_){};
 };
 
 }  // namespace stormcellar::web

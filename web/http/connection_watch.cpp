@@ -48,25 +48,30 @@ bool has_unsent(int descriptor) {
 }  // namespace
 
 ConnectionWatch::ConnectionWatch(ServerLimits limits, std::set<std::string> exempt)
-    : limits_(limits), exempt_(std::move(exempt)), thread_([this] {
-          std::unique_lock lock(mutex_);
-          while (!ends_.wait_for(lock, look_every, [this] { return is_stopping_; })) {
-              Streams over;
-              try {
-                  over = look(std::chrono::steady_clock::now());
-              } catch (const std::exception&) {
-                  // For want of memory; the next look does what was left.
-              }
-              lock.unlock();
-              for (const auto& stream : over)
-                  stream->end();
-              lock.lock();
-          }
-      }) {}
+    : limits_(limits), exempt_(std::move(exempt)), thread_([this] { run(); }) {}
+
+void ConnectionWatch::run() {
+    const MutexLock lock(mutex_);
+    while (true) {
+        const SteadyTime next_look = steady_now() + look_every;
+        while (!is_stopping_ && steady_now() < next_look)
+            ends_.wait_until(mutex_, next_look);
+        if (is_stopping_) return;
+        Streams over;
+        try {
+            over = look(std::chrono::steady_clock::now());
+        } catch (const std::exception&) {
+            // For want of memory; the next look does what was left.
+        }
+        const MutexUnlock unlocked(mutex_);
+        for (const auto& stream : over)
+            stream->end();
+    }
+}
 
 ConnectionWatch::~ConnectionWatch() {
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         is_stopping_ = true;
     }
     ends_.notify_all();
@@ -74,7 +79,7 @@ ConnectionWatch::~ConnectionWatch() {
 }
 
 bool ConnectionWatch::may_open(const std::string& client) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (open_.size() - streams_ >= limits_.most_connections) return false;
     const auto theirs = by_client_.find(name_of(client));
     return theirs == by_client_.end() || exempt_.contains(client) ||
@@ -82,7 +87,7 @@ bool ConnectionWatch::may_open(const std::string& client) const {
 }
 
 void ConnectionWatch::opened(MHD_Connection* connection, int descriptor, std::string client) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     make_room();
     const bool are_few = open_.size() - streams_ < few_connections;
     const int unsent = are_few ? most_unsent_of_few : most_unsent_of_many;
@@ -95,7 +100,7 @@ void ConnectionWatch::opened(MHD_Connection* connection, int descriptor, std::st
 }
 
 void ConnectionWatch::closed(MHD_Connection* connection) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
     if (found->second.phase == Phase::stream) {
@@ -121,7 +126,7 @@ void ConnectionWatch::forget_client(const std::string& client) {
 
 void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes,
                                 bool holds_memory) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
     Open& open = found->second;
@@ -152,7 +157,7 @@ void ConnectionWatch::sending_body(MHD_Connection* connection, std::uint64_t byt
 void ConnectionWatch::sending_stream(MHD_Connection* connection,
                                      const std::shared_ptr<StreamFeed>& stream) {
     set_phase(connection, Phase::stream);
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto found = open_.find(connection);
     if (found != open_.end()) found->second.stream = stream;
 }
@@ -162,12 +167,12 @@ void ConnectionWatch::answered(MHD_Connection* connection) {
 }
 
 std::size_t ConnectionWatch::count() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return open_.size();
 }
 
 bool ConnectionWatch::is_idle() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const SteadyTime now = std::chrono::steady_clock::now();
     return std::ranges::all_of(open_, [&](const auto& one) {
         const Open& open = one.second;

@@ -10,18 +10,17 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "base/steady_time.h"
+#include "stormcellar/base/mutex.h"
 #include "web/http/server_options.h"
 #include "web/http/stream_feed.h"
 
@@ -73,23 +72,24 @@ class ConnectionWatch {
         bool is_cut = false;
         std::weak_ptr<StreamFeed> stream = {};
     };
+    void run() STORMCELLAR_EXCLUDES(mutex_);
     using Streams = std::vector<std::shared_ptr<StreamFeed>>;
     // Returns the streams that must end, which is done without the lock.
-    [[nodiscard]] Streams look(SteadyTime now);
-    void cut_those_gone();
+    [[nodiscard]] Streams look(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
+    void cut_those_gone() STORMCELLAR_REQUIRES(mutex_);
     bool is_too_slow(Open& open, SteadyTime now) const;
     void set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes = 0,
-                   bool holds_memory = false);
-    void make_room();
-    void cut_slowest_bodies(SteadyTime now);
-    [[nodiscard]] Open* longest_without_request();
-    [[nodiscard]] Open* slowest_body(SteadyTime now);
-    [[nodiscard]] Open* slowest_that_holds_memory(SteadyTime now);
+                   bool holds_memory = false) STORMCELLAR_EXCLUDES(mutex_);
+    void make_room() STORMCELLAR_REQUIRES(mutex_);
+    void cut_slowest_bodies(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] Open* longest_without_request() STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] Open* slowest_body(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] Open* slowest_that_holds_memory(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
     [[nodiscard]] bool takes_too_long(const Open& open, SteadyTime now) const;
     // The name under which a client's connections are counted: a proxy that may have all is itself.
     [[nodiscard]] std::string name_of(const std::string& client) const;
-    void count_client(const std::string& client);
-    void forget_client(const std::string& client);
+    void count_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
+    void forget_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
     static void cut(Open& open);
     // Bytes a second, of the phase.
     static double rate_of(const Open& open, SteadyTime now);
@@ -97,12 +97,12 @@ class ConnectionWatch {
     const ServerLimits limits_;
     const std::set<std::string> exempt_;
     std::atomic<bool> is_memory_short_ = false;
-    mutable std::mutex mutex_;
-    std::condition_variable ends_;
-    bool is_stopping_ = false;
-    std::map<MHD_Connection*, Open> open_;
-    std::size_t streams_ = 0;                    // of open_
-    std::map<std::string, unsigned> by_client_;  // without streams
+    mutable Mutex mutex_;
+    ConditionVariable ends_;
+    bool is_stopping_ STORMCELLAR_GUARDED_BY(mutex_) = false;
+    std::map<MHD_Connection*, Open> open_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::size_t streams_ STORMCELLAR_GUARDED_BY(mutex_) = 0;                    // of open_
+    std::map<std::string, unsigned> by_client_ STORMCELLAR_GUARDED_BY(mutex_);  // without streams
     std::thread thread_;
 };
 

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <csignal>
 #include <exception>
-#include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
@@ -20,6 +19,7 @@
 
 #include "base/system_error.h"
 #include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/mutex.h"
 #include "web/http/answer_budget.h"
 #include "web/http/client_address.h"
 #include "web/http/common_headers.h"
@@ -159,8 +159,8 @@ struct Server::Impl {
     const Identity identity;
     ConnectionWatch watch;
     AnswerBudget budget;
-    std::mutex feeds_mutex;
-    std::set<std::shared_ptr<StreamFeed>> feeds;
+    Mutex feeds_mutex;
+    std::set<std::shared_ptr<StreamFeed>> feeds STORMCELLAR_GUARDED_BY(feeds_mutex);
     std::atomic<bool> is_stopping = false;
     std::vector<Listener> listeners;
     WorkQueue queue;
@@ -200,7 +200,7 @@ void Server::Impl::completed(void* self, MHD_Connection* connection, void** exch
     if (ended->holds_budget)
         impl->budget.give_back(ended->counts_as, std::get<Pieces>(ended->answer->body));
     if (ended->feed == nullptr) return;
-    const std::scoped_lock lock(impl->feeds_mutex);
+    const MutexLock lock(impl->feeds_mutex);
     impl->feeds.erase(ended->feed);
 }
 
@@ -356,7 +356,7 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
         make_response(answer, exchange.request.verb, connection, &exchange.feed);
     if (response == nullptr) return MHD_NO;
     if (exchange.feed != nullptr) {
-        const std::scoped_lock lock(feeds_mutex);
+        const MutexLock lock(feeds_mutex);
         feeds.insert(exchange.feed);
         if (is_stopping) exchange.feed->end();
     }
@@ -435,7 +435,7 @@ void Server::Impl::stop() {
     for (const Listener& listener : listeners)
         stop_listening(listener);
     {
-        const std::scoped_lock lock(feeds_mutex);
+        const MutexLock lock(feeds_mutex);
         for (const auto& feed : feeds)
             feed->end();
     }
@@ -490,7 +490,7 @@ ServerFacts Server::facts() const {
         facts.waiting += workers->waiting();
         facts.working += workers->working();
     }
-    const std::scoped_lock lock(impl_->feeds_mutex);
+    const MutexLock lock(impl_->feeds_mutex);
     facts.streams = impl_->feeds.size();
     return facts;
 }

@@ -19,7 +19,7 @@ void StreamFeed::begin(const std::shared_ptr<StreamFeed>& self) {
 
 // Resuming wakes the server's thread, so only what was suspended is resumed.
 void StreamFeed::more() {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     was_told_ = true;
     if (!is_suspended_ || has_left_) return;
     is_suspended_ = false;
@@ -29,7 +29,7 @@ void StreamFeed::more() {
 ssize_t StreamFeed::read(char* buffer, std::size_t most) {
     while (true) {
         {
-            const std::scoped_lock lock(mutex_);
+            const MutexLock lock(mutex_);
             if (has_ended_) return MHD_CONTENT_READER_END_OF_STREAM;
             was_told_ = false;
         }
@@ -40,7 +40,7 @@ ssize_t StreamFeed::read(char* buffer, std::size_t most) {
             std::memcpy(buffer, bytes->data(), size);
             return static_cast<ssize_t>(size);
         }
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (was_told_ || has_ended_) continue;
         // Without this, libmicrohttpd would ask again and again.
         is_suspended_ = true;
@@ -51,14 +51,14 @@ ssize_t StreamFeed::read(char* buffer, std::size_t most) {
 
 void StreamFeed::leave() {
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         has_left_ = true;
     }
     stream_->on_more(nullptr);
 }
 
 void StreamFeed::end() {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     has_ended_ = true;
     if (!is_suspended_ || has_left_) return;
     is_suspended_ = false;

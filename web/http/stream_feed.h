@@ -5,10 +5,10 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 
 #include <sys/types.h>
 
+#include "stormcellar/base/mutex.h"
 #include "web/http/answer.h"
 
 struct MHD_Connection;
@@ -36,10 +36,12 @@ class StreamFeed {
 
     const std::shared_ptr<Stream> stream_;
     MHD_Connection* const connection_;
-    std::mutex mutex_;
-    bool is_suspended_ = false;
-    bool was_told_ = false;  // that there is more, since the last read began
-    bool has_ended_ = false, has_left_ = false;
+    Mutex mutex_;
+    bool is_suspended_ STORMCELLAR_GUARDED_BY(mutex_) = false;
+    // There is more since the last read began.
+    bool was_told_ STORMCELLAR_GUARDED_BY(mutex_) = false;
+    bool has_ended_ STORMCELLAR_GUARDED_BY(mutex_) = false;
+    bool has_left_ STORMCELLAR_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace stormcellar::web

@@ -23,7 +23,7 @@ WorkQueue::~WorkQueue() {
 
 void WorkQueue::stop() {
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         is_stopping_ = true;
     }
     more_.notify_all();
@@ -34,7 +34,7 @@ void WorkQueue::stop() {
 bool WorkQueue::add(const std::string& client, Work work) {
     std::optional<Work> lost;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (is_stopping_) return false;
         const auto known = clients_.find(client);
         // A thread that has nothing to do takes work that need not wait.
@@ -83,19 +83,20 @@ void WorkQueue::forget_if_idle(Clients::iterator client) {
 }
 
 std::size_t WorkQueue::waiting() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return waiting_;
 }
 
 std::size_t WorkQueue::working() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return working_;
 }
 
 void WorkQueue::run() {
-    std::unique_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     while (true) {
-        more_.wait(lock, [&] { return is_stopping_ || waiting_ > 0; });
+        while (!is_stopping_ && waiting_ == 0)
+            more_.wait(mutex_);
         if (waiting_ == 0) return;
         const auto client = next();
         const Work work = std::move(client->second.waiting.front());
@@ -104,9 +105,10 @@ void WorkQueue::run() {
         --waiting_;
         ++working_;
         const Turn turn = is_stopping_ ? Turn::stopping : Turn::came;
-        lock.unlock();
-        work(turn);
-        lock.lock();
+        {
+            const MutexUnlock unlocked(mutex_);
+            work(turn);
+        }
         --working_;
         --client->second.working;
         client->second.last_turn = ++turns_;

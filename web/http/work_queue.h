@@ -8,17 +8,17 @@
 // Threads   Many threads may add work.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::web {
 
@@ -49,19 +49,21 @@ class WorkQueue {
         [[nodiscard]] std::size_t requests() const { return waiting.size() + working; }
     };
     using Clients = std::map<std::string, Client>;
-    void run();
-    [[nodiscard]] Clients::iterator next();
+    void run() STORMCELLAR_EXCLUDES(mutex_);
+    [[nodiscard]] Clients::iterator next() STORMCELLAR_REQUIRES(mutex_);
     // Takes the newest work of the client that has most, if that has more than `requests`.
-    [[nodiscard]] std::optional<Work> take_place_of_other(std::size_t requests);
-    void forget_if_idle(Clients::iterator client);
+    [[nodiscard]] std::optional<Work> take_place_of_other(std::size_t requests)
+        STORMCELLAR_REQUIRES(mutex_);
+    void forget_if_idle(Clients::iterator client) STORMCELLAR_REQUIRES(mutex_);
 
     const std::size_t most_waiting_;
-    mutable std::mutex mutex_;
-    std::condition_variable more_;
-    Clients clients_;  // those that have requests
-    std::size_t waiting_ = 0, working_ = 0;
-    std::uint64_t turns_ = 0;
-    bool is_stopping_ = false;
+    mutable Mutex mutex_;
+    ConditionVariable more_;
+    Clients clients_ STORMCELLAR_GUARDED_BY(mutex_);  // those that have requests
+    std::size_t waiting_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::size_t working_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::uint64_t turns_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    bool is_stopping_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     std::vector<std::thread> threads_;
 };
 

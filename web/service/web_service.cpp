@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
-#include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "base/steady_time.h"
 #include "service/log.h"
 #include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::web {
 namespace {
@@ -46,7 +46,7 @@ void note_answer(const Served& served) {
 class TroubleLog {
   public:
     void note(const Served& served) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const SteadyTime now = steady_now();
         if (now - began_ > std::chrono::minutes{1}) {
             began_ = now;
@@ -60,9 +60,9 @@ class TroubleLog {
 
   private:
     static constexpr std::size_t most_noted = 20;
-    std::mutex mutex_;  // guards what follows
-    SteadyTime began_{};
-    std::set<std::string, std::less<>> noted_;
+    Mutex mutex_;
+    SteadyTime began_ STORMCELLAR_GUARDED_BY(mutex_){};
+    std::set<std::string, std::less<>> noted_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 // Returns whether a held socket has the port of an address for which there is none: 127.0.0.1:80 is

@@ -39,6 +39,8 @@
 #define STORMCELLAR_RELEASE_SHARED(...) \
     STORMCELLAR_LOCK_ATTRIBUTE(release_shared_capability(__VA_ARGS__))
 #define STORMCELLAR_TRY_ACQUIRE(...) STORMCELLAR_LOCK_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
+// A function that only says that the mutex is held, where the analysis cannot see it.
+#define STORMCELLAR_ASSERT_HELD(mutex) STORMCELLAR_LOCK_ATTRIBUTE(assert_capability(mutex))
 // A function that the analysis cannot follow; a comment says why.
 #define STORMCELLAR_NO_LOCK_ANALYSIS STORMCELLAR_LOCK_ATTRIBUTE(no_thread_safety_analysis)
 

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <exception>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 
 #include "base/steady_time.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/station_table.h"
 #include "web/data/events/catalog_changes.h"
 #include "web/data/events/grid_events.h"
@@ -36,7 +35,7 @@ constexpr std::size_t most_changes_waiting = 20'000;
 struct WaitingChanges {
     void add(const CacheChange& change) {
         {
-            const std::scoped_lock lock(mutex);
+            const MutexLock lock(mutex);
             if (changes.size() < most_changes_waiting) {
                 changes.push_back(change);
             } else {
@@ -47,32 +46,34 @@ struct WaitingChanges {
     }
     // Waits for changes until the given time or a stop. Returns those that have come.
     std::vector<CacheChange> take(SteadyTime until) {
-        std::unique_lock lock(mutex);
-        more.wait_until(lock, until, [this] { return is_stopping || !changes.empty(); });
+        const MutexLock lock(mutex);
+        while (!is_stopping && changes.empty() && steady_now() < until)
+            more.wait_until(mutex, until);
         std::vector<CacheChange> taken = std::exchange(changes, {});
         if (std::exchange(has_lost, false)) taken = {{CacheEvent::everything, {}}};
         return taken;
     }
     void lose() {
-        const std::scoped_lock lock(mutex);
+        const MutexLock lock(mutex);
         has_lost = true;
     }
     [[nodiscard]] bool must_stop() {
-        const std::scoped_lock lock(mutex);
+        const MutexLock lock(mutex);
         return is_stopping;
     }
     void stop() {
         {
-            const std::scoped_lock lock(mutex);
+            const MutexLock lock(mutex);
             is_stopping = true;
         }
         more.notify_one();
     }
 
-    std::mutex mutex;
-    std::condition_variable more;
-    std::vector<CacheChange> changes;
-    bool has_lost = false, is_stopping = false;
+    Mutex mutex;
+    ConditionVariable more;
+    std::vector<CacheChange> changes STORMCELLAR_GUARDED_BY(mutex);
+    bool has_lost STORMCELLAR_GUARDED_BY(mutex) = false;
+    bool is_stopping STORMCELLAR_GUARDED_BY(mutex) = false;
 };
 
 struct EventFeed::Impl {

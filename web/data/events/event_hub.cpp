@@ -42,6 +42,7 @@ void EventHub::mark_group(const std::string& key, const Event& event, std::uint6
     const auto group = groups_.find(key);
     if (group == groups_.end()) return;
     for (Listener* listener : group->second) {
+        listener->assume_locked();
         if (listener->is_pending_ || !listener->filter_.fits(event)) continue;
         // A listener that is being destroyed waits for our mutex and is not woken.
         auto held = listener->weak_from_this().lock();
@@ -55,7 +56,7 @@ void EventHub::mark_group(const std::string& key, const Event& event, std::uint6
 void EventHub::publish(Event event) {
     std::vector<std::shared_ptr<Listener>> woken;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const std::uint64_t number = next_++;
         Text frame = text_of(event_frame(event, run_, number));
         event.json = {};
@@ -79,8 +80,9 @@ void EventHub::publish(Event event) {
 void EventHub::tick() {
     std::vector<std::shared_ptr<Listener>> woken;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         for (Listener* listener : beats_[next_beat_]) {
+            listener->assume_locked();
             if (listener->is_pending_) continue;
             auto held = listener->weak_from_this().lock();
             if (!held) continue;
@@ -97,7 +99,8 @@ void EventHub::tick() {
 std::shared_ptr<EventHub::Listener> EventHub::listen(EventFilter filter,
                                                      std::optional<std::string> id) {
     std::shared_ptr<Listener> listener(new Listener(shared_from_this(), std::move(filter)));
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
+    listener->assume_locked();
     listener->next_ = next_;
     listener->unsent_ = retry_line;
     if (!id || id->empty()) {
@@ -126,7 +129,8 @@ std::shared_ptr<EventHub::Listener> EventHub::listen(EventFilter filter,
 }
 
 void EventHub::leave(Listener& listener) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
+    listener.assume_locked();
     for (const std::string& key : keys_of(listener.filter_)) {
         const auto group = groups_.find(key);
         std::erase(group->second, &listener);
@@ -137,17 +141,17 @@ void EventHub::leave(Listener& listener) {
 }
 
 std::size_t EventHub::listeners() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return listeners_;
 }
 
 std::uint64_t EventHub::published() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return next_ - 1;
 }
 
 std::string EventHub::newest_id() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return event_id_text(run_, next_ - 1);
 }
 
@@ -159,12 +163,12 @@ EventHub::Listener::~Listener() {
 }
 
 void EventHub::Listener::on_more(std::function<void()> wake) {
-    const std::scoped_lock lock(wake_mutex_);
+    const MutexLock lock(wake_mutex_);
     wake_ = std::move(wake);
 }
 
 void EventHub::Listener::wake() {
-    const std::scoped_lock lock(wake_mutex_);
+    const MutexLock lock(wake_mutex_);
     if (wake_) wake_();
 }
 
@@ -191,7 +195,7 @@ void EventHub::Listener::gather(std::size_t most) {
 
 std::string EventHub::Listener::read(std::size_t most) {
     if (most == 0) return {};
-    const std::scoped_lock lock(hub_->mutex_);
+    const MutexLock lock(hub_->mutex_);
     if (is_pending_ && unsent_.size() < most) gather(most);
     beat_due_ = false;
     std::string bytes = unsent_.substr(0, most);

@@ -16,13 +16,13 @@
 #include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "stormcellar/base/mutex.h"
 #include "web/data/events/event.h"
 
 namespace stormcellar::web {
@@ -66,17 +66,23 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
     // Where the listener is indexed: by its stations and domains; under "" if it has none.
     static std::vector<std::string> keys_of(const EventFilter& filter);
     void mark_group(const std::string& key, const Event& event, std::uint64_t number,
-                    std::vector<std::shared_ptr<Listener>>& woken);
-    [[nodiscard]] std::uint64_t first_number() const { return next_ - ring_.size(); }
+                    std::vector<std::shared_ptr<Listener>>& woken) STORMCELLAR_REQUIRES(mutex_);
+    [[nodiscard]] std::uint64_t first_number() const STORMCELLAR_REQUIRES(mutex_) {
+        return next_ - ring_.size();
+    }
 
     const std::size_t kept_;
     const std::string run_;
-    mutable std::mutex mutex_;   // of everything below, and of the places of listeners
-    std::deque<Numbered> ring_;  // the numbers first_number() to next_ - 1
-    std::uint64_t next_ = 1;
-    std::unordered_map<std::string, Group> groups_;
-    std::vector<std::vector<Listener*>> beats_;  // by the tick in which they get a heartbeat
-    std::size_t next_beat_ = 0, next_place_ = 0, listeners_ = 0;
+    mutable Mutex mutex_;
+    // The numbers first_number() to next_ - 1.
+    std::deque<Numbered> ring_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::uint64_t next_ STORMCELLAR_GUARDED_BY(mutex_) = 1;
+    std::unordered_map<std::string, Group> groups_ STORMCELLAR_GUARDED_BY(mutex_);
+    // By the tick in which they get a heartbeat.
+    std::vector<std::vector<Listener*>> beats_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::size_t next_beat_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::size_t next_place_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::size_t listeners_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
     std::atomic<std::uint64_t> resets_{0};
 };
 
@@ -95,21 +101,24 @@ class EventHub::Listener : public std::enable_shared_from_this<EventHub::Listene
   private:
     friend class EventHub;
     Listener(std::shared_ptr<EventHub> hub, EventFilter filter);
-    // Appends frames to `unsent_`, as far as it is short. The hub is locked.
-    void gather(std::size_t most);
+    // Appends frames to `unsent_`, as far as it is short.
+    void gather(std::size_t most) STORMCELLAR_REQUIRES(hub_->mutex_);
     void wake();
+    // The hub calls it with its mutex held: clang cannot see that it is that of `hub_`.
+    void assume_locked() const STORMCELLAR_ASSERT_HELD(hub_->mutex_) {}
 
     const std::shared_ptr<EventHub> hub_;
     const EventFilter filter_;
-    std::mutex wake_mutex_;
-    std::function<void()> wake_;
+    Mutex wake_mutex_;
+    std::function<void()> wake_ STORMCELLAR_GUARDED_BY(wake_mutex_);
 
-    // Guarded by the hub's mutex. `next_` is the first event that the listener may not have read;
-    // it has no meaning while nothing is pending.
-    std::uint64_t next_ = 0;
-    bool is_pending_ = true, beat_due_ = false;
-    std::size_t beat_ = 0;
-    std::string unsent_;  // of the reader alone
+    // The first event that the listener may not have read; it has no meaning while nothing is
+    // pending.
+    std::uint64_t next_ STORMCELLAR_GUARDED_BY(hub_->mutex_) = 0;
+    bool is_pending_ STORMCELLAR_GUARDED_BY(hub_->mutex_) = true;
+    bool beat_due_ STORMCELLAR_GUARDED_BY(hub_->mutex_) = false;
+    std::size_t beat_ STORMCELLAR_GUARDED_BY(hub_->mutex_) = 0;
+    std::string unsent_ STORMCELLAR_GUARDED_BY(hub_->mutex_);
 };
 
 }  // namespace stormcellar::web

@@ -35,7 +35,7 @@ Event volume_ended_event(const std::string& station, const EndedVolume& volume, 
 
 void StationNews::note(const std::string& station, std::optional<UtcTime> newest_volume,
                        std::optional<UtcTime> heard, UtcTime now) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     Page& page = pages_[station];
     page.station = station;
     if (newest_volume && is_believed(*newest_volume, now))
@@ -47,7 +47,7 @@ void StationNews::note(const std::string& station, std::optional<UtcTime> newest
 std::vector<Event> StationNews::hear(const std::string& station, std::optional<SeenVolume> volume,
                                      UtcTime heard, UtcTime now) {
     std::vector<Event> events;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto [at, is_new] = pages_.try_emplace(station);
     Page& page = at->second;
     page.station = station;
@@ -70,7 +70,7 @@ std::vector<Event> StationNews::hear(const std::string& station, std::optional<S
 
 std::vector<Event> StationNews::look(UtcTime now) {
     std::vector<Event> events;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     for (auto& [station, page] : pages_) {
         if (page.heard) page.heard = std::min(*page.heard, now);  // the clock may be set back
         if (page.is_silent || !page.spoke() || now - *page.spoke() <= silent_after_) continue;
@@ -84,7 +84,7 @@ std::vector<Event> StationNews::look(UtcTime now) {
 }
 
 std::vector<StationNews::Page> StationNews::pages() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     std::vector<Page> all;
     all.reserve(pages_.size());
     for (const auto& [station, page] : pages_)

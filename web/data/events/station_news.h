@@ -8,11 +8,11 @@
 
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/utc_time.h"
 #include "web/data/events/event.h"
 
@@ -61,8 +61,8 @@ class StationNews {
 
   private:
     const std::chrono::seconds silent_after_;
-    mutable std::mutex mutex_;
-    std::map<std::string, Page> pages_;
+    mutable Mutex mutex_;
+    std::map<std::string, Page> pages_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::web

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <chrono>
 #include <exception>
-#include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -17,6 +16,7 @@
 #include <unistd.h>
 
 #include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/mutex.h"
 #include "web/data/grids/cache_tree.h"
 
 namespace stormcellar::web {
@@ -39,9 +39,9 @@ struct CacheWatch::Impl {
           stop(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
           tree(std::move(cache), notify.number(), std::move(listener)) {}
 
-    // Reads all events that wait. The lock is held. If it throws, for want of memory, the next call
-    // begins with a look at everything.
-    void read_events() {
+    // Reads all events that wait. If it throws, for want of memory, the next call begins with a
+    // look at everything.
+    void read_events() STORMCELLAR_REQUIRES(mutex) {
         const bool has_missed = std::exchange(is_missing_events, true);
         if (has_missed) {
             tree.forget_times();
@@ -55,11 +55,11 @@ struct CacheWatch::Impl {
         }
         is_missing_events = false;
     }
-    void scan() {
+    void scan() STORMCELLAR_REQUIRES(mutex) {
         tree.scan();
         scanned = WatchClock::now();
     }
-    [[nodiscard]] std::chrono::seconds pause() const {
+    [[nodiscard]] std::chrono::seconds pause() const STORMCELLAR_REQUIRES(mutex) {
         if (!tree.is_there()) return look_for_missing_every;
         return tree.is_blind() ? look_when_blind_every : look_at_times_every;
     }
@@ -69,7 +69,7 @@ struct CacheWatch::Impl {
         while (true) {
             int timeout_ms = 0;
             try {
-                const std::scoped_lock lock(mutex);
+                const MutexLock lock(mutex);
                 if (notify.is_open()) read_events();
                 if (WatchClock::now() >= scanned + pause()) scan();
                 const auto left = scanned + pause() - WatchClock::now();
@@ -88,10 +88,10 @@ struct CacheWatch::Impl {
     int notify_error = 0;
     Descriptor stop;  // wakes the thread
     std::atomic<bool> is_stopping = false;
-    mutable std::mutex mutex;
-    CacheTree tree;                    // guarded by mutex
-    bool is_missing_events = false;    // guarded by mutex
-    WatchClock::time_point scanned{};  // guarded by mutex
+    mutable Mutex mutex;
+    CacheTree tree STORMCELLAR_GUARDED_BY(mutex);
+    bool is_missing_events STORMCELLAR_GUARDED_BY(mutex) = false;
+    WatchClock::time_point scanned STORMCELLAR_GUARDED_BY(mutex){};
     std::thread thread;
 };
 
@@ -100,7 +100,7 @@ CacheWatch::CacheWatch(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 std::unique_ptr<CacheWatch> CacheWatch::open(std::filesystem::path cache, Listener listener) {
     auto impl = std::make_unique<Impl>(std::move(cache), std::move(listener));
     {
-        const std::scoped_lock lock(impl->mutex);
+        const MutexLock lock(impl->mutex);
         impl->scan();
     }
     impl->thread = std::thread([watched = impl.get()] { watched->watch(); });
@@ -116,18 +116,18 @@ CacheWatch::~CacheWatch() {
 }
 
 void CacheWatch::catch_up() {
-    const std::scoped_lock lock(impl_->mutex);
+    const MutexLock lock(impl_->mutex);
     if (impl_->notify.is_open()) impl_->read_events();
 }
 
 void CacheWatch::rescan() {
-    const std::scoped_lock lock(impl_->mutex);
+    const MutexLock lock(impl_->mutex);
     if (impl_->notify.is_open()) impl_->read_events();
     impl_->scan();
 }
 
 void CacheWatch::rescan(const std::string& domain) {
-    const std::scoped_lock lock(impl_->mutex);
+    const MutexLock lock(impl_->mutex);
     if (impl_->notify.is_open()) impl_->read_events();
     if (impl_->tree.is_there()) {
         impl_->tree.scan(domain);
@@ -137,7 +137,7 @@ void CacheWatch::rescan(const std::string& domain) {
 }
 
 std::optional<std::string> CacheWatch::problem() const {
-    const std::scoped_lock lock(impl_->mutex);
+    const MutexLock lock(impl_->mutex);
     if (!impl_->tree.is_there()) return "the cache is not there";
     if (impl_->notify_error != 0) {
         return fmt::format("inotify: {}; the cache is read every {} seconds",

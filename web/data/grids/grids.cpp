@@ -7,8 +7,6 @@
 #include <cstring>
 #include <deque>
 #include <map>
-#include <mutex>
-#include <shared_mutex>
 #include <unordered_map>
 #include <utility>
 
@@ -16,6 +14,7 @@
 
 #include "base/beneath.h"
 #include "base/recently_used.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/data/grids/cache_watch.h"
 
@@ -60,7 +59,7 @@ struct Grids::Impl {
           open({.weight = options.most_open_bytes, .values = options.most_open}) {}
 
     void take(const CacheChange& change);
-    void remember_evicted(const cache::GridName& name);
+    void remember_evicted(const cache::GridName& name) STORMCELLAR_REQUIRES(names_mutex);
     void drop_open(const cache::GridName& name);
     std::shared_ptr<const OpenGrid> find_open(const cache::GridName& name,
                                               const GridFileStamp& stamp);
@@ -81,20 +80,24 @@ struct Grids::Impl {
     const GridsOptions options;
     std::atomic<std::uint64_t> changes{0};
 
-    mutable std::shared_mutex names_mutex;  // guards the next five
-    std::map<std::string, OfDomain, std::less<>> names;
-    std::map<std::string, std::uint64_t, std::less<>> changes_of;  // by group
+    mutable SharedMutex names_mutex;
+    std::map<std::string, OfDomain, std::less<>> names STORMCELLAR_GUARDED_BY(names_mutex);
+    // By group.
+    std::map<std::string, std::uint64_t, std::less<>> changes_of
+        STORMCELLAR_GUARDED_BY(names_mutex);
     // The number says which of the entries in the order counts.
-    std::map<cache::GridName, std::uint64_t> evicted;
-    std::deque<std::pair<std::uint64_t, cache::GridName>> evicted_order;
-    std::uint64_t evictions = 0;
+    std::map<cache::GridName, std::uint64_t> evicted STORMCELLAR_GUARDED_BY(names_mutex);
+    std::deque<std::pair<std::uint64_t, cache::GridName>> evicted_order
+        STORMCELLAR_GUARDED_BY(names_mutex);
+    std::uint64_t evictions STORMCELLAR_GUARDED_BY(names_mutex) = 0;
 
-    std::mutex open_mutex;  // guards open
-    RecentlyUsed<cache::GridName, Open> open;
-    std::array<std::mutex, opening_locks> opening;  // of the grids whose names hash to it
+    Mutex open_mutex;
+    RecentlyUsed<cache::GridName, Open> open STORMCELLAR_GUARDED_BY(open_mutex);
+    std::array<Mutex, opening_locks> opening;  // of the grids whose names hash to it
 
-    std::mutex listeners_mutex;
-    std::vector<std::function<void(const CacheChange&)>> listeners;
+    Mutex listeners_mutex;
+    std::vector<std::function<void(const CacheChange&)>> listeners
+        STORMCELLAR_GUARDED_BY(listeners_mutex);
 
     std::unique_ptr<CacheWatch> watch;  // the last, so that it ends first
 };
@@ -113,7 +116,7 @@ void Grids::Impl::remember_evicted(const cache::GridName& name) {
 
 void Grids::Impl::take(const CacheChange& change) {
     if (change.event != CacheEvent::everything) {
-        const std::unique_lock lock(names_mutex);
+        const MutexLock lock(names_mutex);
         ++changes_of[std::string(cache::group_of(change.grid.domain))];
         std::vector<UtcTime>& times = names[change.grid.domain][change.grid.moment];
         const auto at = std::lower_bound(times.begin(), times.end(), change.grid.time);
@@ -133,19 +136,19 @@ void Grids::Impl::take(const CacheChange& change) {
     if (change.event == CacheEvent::went || change.event == CacheEvent::changed) {
         drop_open(change.grid);
     }
-    const std::scoped_lock lock(listeners_mutex);
+    const MutexLock lock(listeners_mutex);
     for (const auto& listener : listeners)
         listener(change);
 }
 
 void Grids::Impl::drop_open(const cache::GridName& name) {
-    const std::scoped_lock lock(open_mutex);
+    const MutexLock lock(open_mutex);
     open.drop(name);
 }
 
 std::shared_ptr<const OpenGrid> Grids::Impl::find_open(const cache::GridName& name,
                                                        const GridFileStamp& stamp) {
-    const std::scoped_lock lock(open_mutex);
+    const MutexLock lock(open_mutex);
     Open* found = open.find(name);
     if (found == nullptr || found->stamp != stamp) return nullptr;
     found->seen_at = std::chrono::steady_clock::now();
@@ -154,7 +157,7 @@ std::shared_ptr<const OpenGrid> Grids::Impl::find_open(const cache::GridName& na
 }
 
 std::shared_ptr<const OpenGrid> Grids::Impl::find_seen(const cache::GridName& name) {
-    const std::scoped_lock lock(open_mutex);
+    const MutexLock lock(open_mutex);
     const Open* seen = open.find(name);
     if (seen == nullptr) return nullptr;
     const auto age = std::chrono::steady_clock::now() - seen->seen_at;
@@ -164,7 +167,7 @@ std::shared_ptr<const OpenGrid> Grids::Impl::find_seen(const cache::GridName& na
 
 void Grids::Impl::keep_open(const cache::GridName& name, const GridFileStamp& stamp,
                             const std::shared_ptr<const OpenGrid>& grid) {
-    const std::scoped_lock lock(open_mutex);
+    const MutexLock lock(open_mutex);
     open.keep(name, {stamp, grid, {}, 0}, memory_of(grid->file));
 }
 
@@ -184,7 +187,7 @@ Result<std::shared_ptr<Grids>> Grids::open(GridsOptions options) {
 
 std::vector<std::string> Grids::domains() const {
     impl_->watch->catch_up();
-    const std::shared_lock lock(impl_->names_mutex);
+    const SharedLock lock(impl_->names_mutex);
     std::vector<std::string> domains;
     domains.reserve(impl_->names.size());
     for (const auto& [domain, moments] : impl_->names)
@@ -194,7 +197,7 @@ std::vector<std::string> Grids::domains() const {
 
 std::vector<level2::Moment> Grids::moments(std::string_view domain) const {
     impl_->watch->catch_up();
-    const std::shared_lock lock(impl_->names_mutex);
+    const SharedLock lock(impl_->names_mutex);
     std::vector<level2::Moment> moments;
     const auto found = impl_->names.find(domain);
     if (found == impl_->names.end()) return moments;
@@ -206,7 +209,7 @@ std::vector<level2::Moment> Grids::moments(std::string_view domain) const {
 std::vector<UtcTime> Grids::times(std::string_view domain, level2::Moment moment,
                                   std::optional<UtcTime> from, std::optional<UtcTime> to) const {
     impl_->watch->catch_up();
-    const std::shared_lock lock(impl_->names_mutex);
+    const SharedLock lock(impl_->names_mutex);
     const auto found = impl_->names.find(domain);
     if (found == impl_->names.end()) return {};
     const auto times = found->second.find(moment);
@@ -226,7 +229,7 @@ UtcTime newest_believed(std::span<const UtcTime> times) {
 
 std::optional<UtcTime> Grids::newest(std::string_view domain, level2::Moment moment) const {
     impl_->watch->catch_up();
-    const std::shared_lock lock(impl_->names_mutex);
+    const SharedLock lock(impl_->names_mutex);
     const auto found = impl_->names.find(domain);
     if (found == impl_->names.end()) return std::nullopt;
     const auto times = found->second.find(moment);
@@ -253,7 +256,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
 
     // If several requests want the same grid at the same time, one opens it and the others wait.
     const std::size_t hash = std::hash<std::string>{}(path.native());
-    const std::scoped_lock lock(impl_->opening[hash % opening_locks]);
+    const MutexLock lock(impl_->opening[hash % opening_locks]);
     if (auto kept = impl_->find_open(name, stamp_of_grid(*facts))) return kept;
     Result<cache::GridFile> file = cache::GridFile::open(path);
     if (!file) return pass_on(file);
@@ -279,7 +282,7 @@ std::shared_ptr<const OpenGrid> Grids::find_if_open(std::string_view domain, lev
 
 bool Grids::was_evicted(std::string_view domain, level2::Moment moment, UtcTime time) const {
     impl_->watch->catch_up();
-    const std::shared_lock lock(impl_->names_mutex);
+    const SharedLock lock(impl_->names_mutex);
     return impl_->evicted.contains({std::string(domain), moment, time});
 }
 
@@ -290,7 +293,7 @@ std::uint64_t Grids::changes() const {
 
 std::uint64_t Grids::changes_of(std::string_view group) const {
     impl_->watch->catch_up();
-    const std::shared_lock lock(impl_->names_mutex);
+    const SharedLock lock(impl_->names_mutex);
     const auto found = impl_->changes_of.find(group);
     return found == impl_->changes_of.end() ? 0 : found->second;
 }
@@ -304,7 +307,7 @@ void Grids::refresh(std::string_view domain) {
 }
 
 void Grids::listen(std::function<void(const CacheChange&)> listener) {
-    const std::scoped_lock lock(impl_->listeners_mutex);
+    const MutexLock lock(impl_->listeners_mutex);
     impl_->listeners.push_back(std::move(listener));
 }
 

@@ -32,15 +32,15 @@ Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
 
 }  // namespace
 
-// A value that one thread makes while others wait for it.
+// A value that one thread makes while others wait for it. KeptAnswers::mutex_ guards it.
 struct KeptAnswers::Making {
-    std::condition_variable done;
+    ConditionVariable done;
     std::optional<Result<Kept>> result;
     bool is_over = false;  // without a result there was no memory for it
 };
 
 std::optional<Kept> KeptAnswers::find(const std::string& key) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const Kept* found = kept_.find(key);
     return found == nullptr ? std::nullopt : std::optional(*found);
 }
@@ -54,20 +54,22 @@ void KeptAnswers::keep(const std::string& key, const Kept& value) {
 Result<Kept> KeptAnswers::find_or_make(const std::string& key,
                                        const std::function<Result<Kept>()>& make) {
     if (auto kept = find(key)) return *std::move(kept);
-    std::unique_lock lock(mutex_);
-    // Another thread may have made it since.
-    if (const Kept* found = kept_.find(key)) return *found;
-    if (const auto other = making_.find(key); other != making_.end()) {
-        const std::shared_ptr<Making> theirs = other->second;
-        theirs->done.wait(lock, [&] { return theirs->is_over; });
-        if (theirs->result) return *theirs->result;
-        return fail(ErrorCode::exhausted, "there is no memory left for this answer");
-    }
     const auto ours = std::make_shared<Making>();
-    making_[key] = ours;
-    lock.unlock();
+    {
+        const MutexLock lock(mutex_);
+        // Another thread may have made it since.
+        if (const Kept* found = kept_.find(key)) return *found;
+        if (const auto other = making_.find(key); other != making_.end()) {
+            const std::shared_ptr<Making> theirs = other->second;
+            while (!theirs->is_over)
+                theirs->done.wait(mutex_);
+            if (theirs->result) return *theirs->result;
+            return fail(ErrorCode::exhausted, "there is no memory left for this answer");
+        }
+        making_[key] = ours;
+    }
     Result<Kept> made = made_in_file(make);
-    lock.lock();
+    const MutexLock lock(mutex_);
     making_.erase(key);
     try {
         ours->result = made;
@@ -81,12 +83,12 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
 }
 
 void KeptAnswers::forget(std::string_view prefix) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     kept_.drop_if([prefix](const std::string& key) { return key.starts_with(prefix); });
 }
 
 std::uint64_t KeptAnswers::bytes() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return kept_.weight();
 }
 

@@ -6,17 +6,16 @@
 //           and the others wait for it.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
 #include "base/recently_used.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "web/http/answer.h"
 
@@ -46,12 +45,12 @@ class KeptAnswers {
 
   private:
     struct Making;
-    void keep(const std::string& key, const Kept& value);
+    void keep(const std::string& key, const Kept& value) STORMCELLAR_REQUIRES(mutex_);
 
     const std::uint64_t most_bytes_of_one_;
-    mutable std::mutex mutex_;
-    RecentlyUsed<std::string, Kept> kept_;
-    std::unordered_map<std::string, std::shared_ptr<Making>> making_;
+    mutable Mutex mutex_;
+    RecentlyUsed<std::string, Kept> kept_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::unordered_map<std::string, std::shared_ptr<Making>> making_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::web

@@ -144,8 +144,9 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
                                                               int threads) {
     const std::string key = key_of_map(grid, scene);
     {
-        std::unique_lock lock(mutex_);
-        made_.wait(lock, [&] { return !making_.contains(key); });
+        const MutexLock lock(mutex_);
+        while (making_.contains(key))
+            made_.wait(mutex_);
         if (const auto* kept = maps_.find(key)) return *kept;
         making_.insert(key);
     }
@@ -155,7 +156,7 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
         const std::string& key;
         ~Ending() {
             {
-                const std::scoped_lock lock(maps.mutex_);
+                const MutexLock lock(maps.mutex_);
                 maps.making_.erase(key);
             }
             maps.made_.notify_all();
@@ -164,14 +165,14 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
     const Ending ending{*this, key};
     auto map = made_map(grid, scene, threads);
     if (map) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         maps_.keep(key, *map, (*map)->bytes());
     }
     return map;
 }
 
 std::uint64_t FlatMaps::bytes() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return maps_.weight();
 }
 

@@ -17,16 +17,15 @@
 // Errors    See each function.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/recently_used.h"
 #include "render/products/flat_field.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/scene.h"
 #include "web/data/grids/grids.h"
@@ -56,10 +55,10 @@ class FlatMaps {
     [[nodiscard]] std::uint64_t bytes() const;
 
   private:
-    mutable std::mutex mutex_;
-    std::condition_variable made_;
-    RecentlyUsed<std::string, std::shared_ptr<const FlatMap>> maps_;
-    std::set<std::string> making_;
+    mutable Mutex mutex_;
+    ConditionVariable made_;
+    RecentlyUsed<std::string, std::shared_ptr<const FlatMap>> maps_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::set<std::string> making_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::web

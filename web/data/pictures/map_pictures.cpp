@@ -157,11 +157,11 @@ Result<Kept> MapPictures::legend(const PictureLayer& layer) {
 
 render::EarthBox MapPictures::box_of(const std::string& domain, const grid::GridSpec& spec) {
     {
-        const std::scoped_lock lock(boxes_mutex_);
+        const MutexLock lock(boxes_mutex_);
         if (const auto* known = boxes_.find({domain, spec})) return *known;
     }
     const render::EarthBox box = render::earth_box_of(spec);
-    const std::scoped_lock lock(boxes_mutex_);
+    const MutexLock lock(boxes_mutex_);
     return boxes_.keep({domain, spec}, box);
 }
 

@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +19,7 @@
 
 #include "base/recently_used.h"
 #include "render/still/plane_picture.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "web/data/grids/grids.h"
 #include "web/data/grids/kept_answers.h"
@@ -89,8 +89,8 @@ class MapPictures {
     using DomainSpec = std::pair<std::string, grid::GridSpec>;
     MapPicturesOptions options_;
     FlatMaps maps_;
-    std::mutex boxes_mutex_;
-    RecentlyUsed<DomainSpec, render::EarthBox> boxes_;
+    Mutex boxes_mutex_;
+    RecentlyUsed<DomainSpec, render::EarthBox> boxes_ STORMCELLAR_GUARDED_BY(boxes_mutex_);
 };
 
 // Returns how often to halve a field for pixels of this window: until a cell has at least 0.87 of

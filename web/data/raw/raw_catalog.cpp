@@ -1,7 +1,6 @@
 // The raw files of a catalog.
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <tuple>
 #include <unordered_map>
 
@@ -10,6 +9,7 @@
 #include "base/steady_time.h"
 #include "pipeline/drop/cataloged_volume.h"
 #include "stormcellar/base/member_name.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "web/data/raw/raw_files.h"
@@ -90,14 +90,14 @@ class CatalogRawFiles final : public RawFiles {
 
     const RawFilesOptions options_;
     RawOpener opener_;
-    std::mutex mutex_;  // guards what follows
-    std::shared_ptr<const CatalogReader> reader_;
-    std::map<std::string, Floor, std::less<>> floors_;
-    std::unordered_map<std::string, KeptOpen> open_;
+    Mutex mutex_;
+    std::shared_ptr<const CatalogReader> reader_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::map<std::string, Floor, std::less<>> floors_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::unordered_map<std::string, KeptOpen> open_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 std::shared_ptr<const CatalogReader> CatalogRawFiles::reader() {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (!reader_) {
         auto opened = CatalogReader::open(options_.catalog, options_.most_databases);
         if (opened) reader_ = std::make_shared<const CatalogReader>(std::move(*opened));
@@ -122,7 +122,7 @@ Result<std::optional<UtcTime>> CatalogRawFiles::floor_of(const CatalogReader& ca
                                                          std::string_view station) {
     const auto now = steady_clock::now();
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const auto known = floors_.find(station);
         if (known != floors_.end() && now - known->second.found < floor_holds_for) {
             return known->second.start;
@@ -130,7 +130,7 @@ Result<std::optional<UtcTime>> CatalogRawFiles::floor_of(const CatalogReader& ca
     }
     const auto oldest = catalog.oldest_kept(station);
     if (!oldest) return oldest;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     floors_.insert_or_assign(std::string{station}, Floor{*oldest, now});
     return oldest;
 }
@@ -292,7 +292,7 @@ void CatalogRawFiles::keep_open(const std::string& key, const OpenedVolume& volu
                                 const Descriptor& file) {
     KeptOpen kept{volume, {}, steady_clock::now()};
     if (::fstat(file.number(), &kept.facts) != 0) return;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (open_.size() >= options_.most_open) {
         std::erase_if(open_, [&](const auto& one) {
             return kept.opened - one.second.opened > kept_open_for;
@@ -305,7 +305,7 @@ void CatalogRawFiles::keep_open(const std::string& key, const OpenedVolume& volu
 std::optional<OpenedVolume> CatalogRawFiles::open_kept(std::string_view station,
                                                        std::string_view name) {
     const std::string key = fmt::format("{}/{}", station, name);
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto known = open_.find(key);
     if (known == open_.end()) return std::nullopt;
     const KeptOpen& kept = known->second;

@@ -139,7 +139,7 @@ Status RawOpener::check_hash(const CatalogEntry& entry, const Descriptor& file,
     const auto size_bytes = static_cast<std::uint64_t>(facts.st_size);
     const State state = state_of(facts);
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const auto known = hashes_.find(state);
         if (known != hashes_.end()) {
             return catalog::check_cataloged(entry, size_bytes, known->second);
@@ -150,7 +150,7 @@ Status RawOpener::check_hash(const CatalogEntry& entry, const Descriptor& file,
     struct stat after {};
     const bool stayed = ::fstat(file.number(), &after) == 0 && state_of(after) == state;
     if (stayed) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (hashes_.size() >= most_remembered) hashes_.clear();
         hashes_.insert_or_assign(state, *hash);
     }
@@ -250,14 +250,14 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
 }
 
 std::optional<OpenedRaw> RawOpener::find_joined(const std::string& key) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const OpenedRaw* known = joined_.find(key);
     return known == nullptr ? std::nullopt : std::optional(*known);
 }
 
 void RawOpener::keep_joined(const std::string& key, const OpenedRaw& joined) {
     if (budget_.values == 0 || joined.size_bytes > budget_.weight) return;
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     joined_.keep(key, joined, joined.size_bytes);
 }
 
@@ -271,7 +271,7 @@ Result<RawFacts> RawOpener::facts_of(const CatalogReader& catalog, const Catalog
         return facts;
     }
     if (!grows) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const auto known = facts_.find(facts_key(entry));
         if (known != facts_.end()) return known->second;
     }
@@ -283,7 +283,7 @@ Result<RawFacts> RawOpener::facts_of(const CatalogReader& catalog, const Catalog
 }
 
 void RawOpener::remember_facts(const CatalogEntry& entry, const RawFacts& facts) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (facts_.size() >= most_remembered) facts_.clear();
     facts_.insert_or_assign(facts_key(entry), facts);
 }

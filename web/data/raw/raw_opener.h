@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -17,6 +16,7 @@
 
 #include "base/recently_used.h"
 #include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/catalog/catalog.h"
 #include "web/data/raw/raw_files.h"
 
@@ -69,10 +69,11 @@ class RawOpener {
 
     const std::filesystem::path scratch_;
     const KeptBudget budget_;  // of joined_
-    std::mutex mutex_;         // guards what follows
-    std::map<State, std::uint64_t> hashes_;
-    RecentlyUsed<std::string, OpenedRaw> joined_;
-    std::map<std::string, RawFacts> facts_;  // of settled volumes of chunks
+    Mutex mutex_;
+    std::map<State, std::uint64_t> hashes_ STORMCELLAR_GUARDED_BY(mutex_);
+    RecentlyUsed<std::string, OpenedRaw> joined_ STORMCELLAR_GUARDED_BY(mutex_);
+    // Of settled volumes of chunks.
+    std::map<std::string, RawFacts> facts_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::web

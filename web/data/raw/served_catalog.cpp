@@ -4,7 +4,7 @@ namespace stormcellar::web {
 
 Result<ServedCatalog::Reader> ServedCatalog::get() {
     if (directory_.empty()) return fail(ErrorCode::not_found, "no catalog is served");
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (reader_) return reader_;
     auto opened = catalog::CatalogReader::open(directory_);
     if (!opened) return pass_on(opened);

@@ -7,9 +7,9 @@
 
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <utility>
 
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/catalog/catalog.h"
 
@@ -29,8 +29,8 @@ class ServedCatalog {
 
   private:
     const std::filesystem::path directory_;
-    std::mutex mutex_;  // guards what follows
-    Reader reader_;
+    Mutex mutex_;
+    Reader reader_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::web

@@ -94,7 +94,7 @@ Status TimeNumbers::save(const Key& key, const std::vector<UtcTime>& times) cons
 
 Result<std::shared_ptr<const std::vector<UtcTime>>> TimeNumbers::update(
     std::string_view domain, level2::Moment moment, std::span<const UtcTime> present) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const Key key{domain, moment};
     const auto series = loaded(key);
     if (!series) return pass_on(series);
@@ -119,7 +119,7 @@ Result<std::shared_ptr<const std::vector<UtcTime>>> TimeNumbers::update(
 }
 
 std::optional<std::string> TimeNumbers::problem() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return problem_;
 }
 
@@ -134,7 +134,7 @@ void TimeNumbers::remove_leftovers() const {
 
 std::optional<UtcTime> TimeNumbers::time_of(std::string_view domain, level2::Moment moment,
                                             std::size_t number) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto found = series_.find(Key{domain, moment});
     if (found == series_.end() || number >= found->second.times->size()) return std::nullopt;
     return (*found->second.times)[number];

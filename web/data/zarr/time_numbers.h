@@ -23,7 +23,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +31,7 @@
 #include <utility>
 #include <vector>
 
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/level2/volume.h"
@@ -67,13 +67,13 @@ class TimeNumbers {
     using Key = std::pair<std::string, level2::Moment>;
 
     [[nodiscard]] std::filesystem::path path_of(const Key& key) const;
-    [[nodiscard]] Result<Series*> loaded(const Key& key);
+    [[nodiscard]] Result<Series*> loaded(const Key& key) STORMCELLAR_REQUIRES(mutex_);
     [[nodiscard]] Status save(const Key& key, const std::vector<UtcTime>& times) const;
 
     const std::filesystem::path directory_;
-    mutable std::mutex mutex_;
-    std::map<Key, Series> series_;
-    std::optional<std::string> problem_;
+    mutable Mutex mutex_;
+    std::map<Key, Series> series_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::optional<std::string> problem_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::web

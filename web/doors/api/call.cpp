@@ -45,23 +45,23 @@ ApiState::ApiState(ApiSources sources)
       halved_({.values = most_halved_kept}) {}
 
 ApiState::Halved ApiState::find_halved(const std::string& key) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const Halved* found = halved_.find(key);
     return found == nullptr ? nullptr : *found;
 }
 
 void ApiState::keep_halved(const std::string& key, const Halved& halved) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     halved_.keep(key, halved);
 }
 
 ApiState::DecodedVolume ApiState::find_volume(const std::string& key) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return key == volume_key_ ? volume_ : nullptr;
 }
 
 void ApiState::keep_volume(const std::string& key, DecodedVolume volume) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     volume_key_ = key;
     volume_ = std::move(volume);
 }

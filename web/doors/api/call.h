@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/recently_used.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/catalog/catalog.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/site_frame.h"
@@ -67,10 +67,10 @@ class ApiState {
   private:
     const ApiSources sources_;
     ServedCatalog catalog_;
-    std::mutex mutex_;  // guards what follows
-    RecentlyUsed<std::string, Halved> halved_;
-    std::string volume_key_;
-    DecodedVolume volume_;
+    Mutex mutex_;
+    RecentlyUsed<std::string, Halved> halved_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::string volume_key_ STORMCELLAR_GUARDED_BY(mutex_);
+    DecodedVolume volume_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 struct ApiCall {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <mutex>
 #include <utility>
 
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/http/client_address.h"
@@ -94,7 +94,7 @@ class EventsDoor::Places {
   public:
     // Returns false if there are as many as may be.
     bool take(const std::string& client, const EventsOptions& options) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (all_ >= options.most_streams) return false;
         std::size_t& theirs = by_client_[client];
         if (theirs >= options.most_of_client) return false;
@@ -103,7 +103,7 @@ class EventsDoor::Places {
         return true;
     }
     void leave(const std::string& client) {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         const auto theirs = by_client_.find(client);
         if (--theirs->second == 0) by_client_.erase(theirs);
         --all_;
@@ -112,9 +112,9 @@ class EventsDoor::Places {
     class Taken;
 
   private:
-    std::mutex mutex_;
-    std::size_t all_ = 0;
-    std::map<std::string, std::size_t> by_client_;
+    Mutex mutex_;
+    std::size_t all_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    std::map<std::string, std::size_t> by_client_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 class EventsDoor::Places::Taken final : public Stream {

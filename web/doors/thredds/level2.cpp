@@ -1,8 +1,8 @@
 // A data set of Level II: the raw files.
 #include <algorithm>
-#include <mutex>
 
 #include "base/steady_time.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/station_table.h"
 #include "web/data/raw/raw_name.h"
 #include "web/doors/raw/raw_answers.h"
@@ -51,9 +51,10 @@ class Level2Collection final : public ThreddsCollection {
     [[nodiscard]] bool has_station(std::string_view id) const;
 
     const std::shared_ptr<RawFiles> files_;
-    std::mutex mutex_;  // guards what follows
-    std::optional<UtcTime> oldest_;
-    std::optional<std::chrono::steady_clock::time_point> found_oldest_;
+    Mutex mutex_;
+    std::optional<UtcTime> oldest_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::optional<std::chrono::steady_clock::time_point> found_oldest_
+        STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 // The names are those of Unidata's server, which clients compare with.
@@ -91,7 +92,7 @@ std::vector<RawStation> Level2Collection::placed_by_files() {
 Result<std::optional<UtcTime>> Level2Collection::oldest() {
     const auto now = std::chrono::steady_clock::now();
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (found_oldest_ && now - *found_oldest_ < oldest_holds_for) return oldest_;
     }
     const auto all = stations();
@@ -105,7 +106,7 @@ Result<std::optional<UtcTime>> Level2Collection::oldest() {
         if (volumes->empty()) continue;
         oldest = std::min(oldest.value_or(volumes->front().start), volumes->front().start);
     }
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     oldest_ = oldest;
     found_oldest_ = now;
     return oldest;

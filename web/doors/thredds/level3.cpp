@@ -4,7 +4,6 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 
 #include "base/beneath.h"
 #include "base/steady_time.h"
+#include "stormcellar/base/mutex.h"
 #include "web/doors/thredds/collection.h"
 
 namespace stormcellar::web {
@@ -85,9 +85,9 @@ class Level3Collection final : public ThreddsCollection {
     [[nodiscard]] Result<std::shared_ptr<const Times>> times_of(std::string_view station,
                                                                 std::string_view variable);
 
-    std::mutex mutex_;  // guards what follows
-    std::shared_ptr<const Index> index_;
-    SteadyTime made_{};
+    Mutex mutex_;
+    std::shared_ptr<const Index> index_ STORMCELLAR_GUARDED_BY(mutex_);
+    SteadyTime made_ STORMCELLAR_GUARDED_BY(mutex_){};
 };
 
 std::vector<ThreddsVariable> Level3Collection::variables() const {
@@ -98,7 +98,7 @@ std::vector<ThreddsVariable> Level3Collection::variables() const {
 }
 
 Result<std::shared_ptr<const Level3Collection::Index>> Level3Collection::index() {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (index_ && steady_now() - made_ < index_holds_for) return index_;
     auto fresh = std::make_shared<Index>();
     if (!configured().files.empty()) {

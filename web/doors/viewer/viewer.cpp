@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <mutex>
 
 #include "base/checksum.h"
+#include "stormcellar/base/mutex.h"
 #include "web/data/grids/compressed.h"
 #include "web/doors/viewer/viewer_files.h"
 #include "web/http/answer.h"
@@ -23,9 +23,9 @@ constexpr std::string_view policy =
 
 // Each file is compressed once for each coding.
 std::optional<Text> file_in_coding(const ViewerFile& file, Coding coding) {
-    static std::mutex mutex;
-    static std::map<std::pair<std::string_view, Coding>, Text> kept;
-    const std::scoped_lock lock(mutex);
+    static Mutex mutex;
+    static std::map<std::pair<std::string_view, Coding>, Text> kept STORMCELLAR_GUARDED_BY(mutex);
+    const MutexLock lock(mutex);
     const auto found = kept.find({file.name, coding});
     if (found != kept.end()) return found->second;
     auto bytes = compressed_once(file.bytes, coding);
