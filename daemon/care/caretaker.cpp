@@ -39,20 +39,26 @@ Caretaker::Caretaker(CareOf of, CareTimes times, CareLinks links)
 
 Caretaker::~Caretaker() {
     {
-        const std::lock_guard lock(mutex_);
+        const MutexLock lock(mutex_);
         stopping_ = true;
     }
     changed_.notify_all();
     thread_.join();
 }
 
+bool Caretaker::is_stopped_within(std::chrono::milliseconds time) {
+    const auto end = std::chrono::steady_clock::now() + time;
+    while (!stopping_ && std::chrono::steady_clock::now() < end)
+        changed_.wait_until(mutex_, end);
+    return stopping_;
+}
+
 bool Caretaker::pause(std::chrono::milliseconds least) {
     pulse_.rest();
-    std::unique_lock lock(mutex_);
-    const auto stopped = [this] { return stopping_; };
-    if (changed_.wait_for(lock, least, stopped)) return false;
+    const MutexLock lock(mutex_);
+    if (is_stopped_within(least)) return false;
     while (!links_.is_idle()) {
-        if (changed_.wait_for(lock, look_again, stopped)) return false;
+        if (is_stopped_within(look_again)) return false;
     }
     pulse_.beat();
     return true;

@@ -12,14 +12,13 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <thread>
 
 #include "pipeline/care/mend_cache.h"
 #include "pipeline/mosaic/site_watch.h"
 #include "service/pulse.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::daemon {
 
@@ -70,18 +69,20 @@ class Caretaker {
     // Waits this long, and then until there is nothing else to do. Returns false if the thread is
     // to end.
     bool pause(std::chrono::milliseconds least);
-    // Does the same and compares sites meanwhile.
+    // Returns true as soon as the thread is to end.
+    bool is_stopped_within(std::chrono::milliseconds time) STORMCELLAR_REQUIRES(mutex_);
+    // Does the same as pause() and compares sites meanwhile.
     bool rest(std::chrono::milliseconds least);
 
     CareOf of_;
     CareTimes times_;
     CareLinks links_;
     std::chrono::steady_clock::time_point next_look_{};
-    std::mutex mutex_;
-    std::condition_variable changed_;
+    Mutex mutex_;
+    ConditionVariable changed_;
     Pulse pulse_;
-    bool stopping_ = false;  // guarded by mutex_
-    std::thread thread_;     // the last member: it uses the members above
+    bool stopping_ STORMCELLAR_GUARDED_BY(mutex_) = false;
+    std::thread thread_;  // the last member: it uses the members above
 };
 
 }  // namespace stormcellar::daemon

@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include <spdlog/pattern_formatter.h>
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "daemon/log/journal.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -61,9 +61,11 @@ class SyslogLevel final : public spdlog::custom_flag_formatter {
 // The log of the process.
 struct Outlet {
     std::unique_ptr<Journal> journal;
-    std::function<SteadyTime()> clock = [] { return std::chrono::steady_clock::now(); };
-    std::mutex mutex;
-    LineLimiter limiter;  // guarded by mutex
+    Mutex mutex;
+    std::function<SteadyTime()> clock STORMCELLAR_GUARDED_BY(mutex) = [] {
+        return std::chrono::steady_clock::now();
+    };
+    LineLimiter limiter STORMCELLAR_GUARDED_BY(mutex);
 };
 
 Outlet& outlet() {
@@ -142,9 +144,9 @@ void set_up_logging(const std::string& level, LogOutlet to) {
     spdlog::set_default_logger(std::move(logger));
     set_log_level(level);
     outlet().journal = to.journal.empty() ? nullptr : std::make_unique<Journal>(to.journal);
+    const MutexLock lock(outlet().mutex);
     outlet().clock =
         to.clock ? std::move(to.clock) : [] { return std::chrono::steady_clock::now(); };
-    const std::scoped_lock lock(outlet().mutex);
     outlet().limiter = {};
 }
 
@@ -155,7 +157,7 @@ void set_log_level(const std::string& level) {
 void log_line(Severity severity, const About& about, std::string_view message) {
     if (!spdlog::should_log(level_of(severity))) return;
     if (severity != Severity::debug) {
-        const std::scoped_lock lock(outlet().mutex);
+        const MutexLock lock(outlet().mutex);
         if (!outlet().limiter.allow(about.event, subject_of(about), severity, outlet().clock()))
             return;
     }
@@ -167,7 +169,7 @@ namespace {
 void log_held_back_until(SteadyTime::duration ahead) {
     std::vector<LineLimiter::HeldBack> all;
     {
-        const std::scoped_lock lock(outlet().mutex);
+        const MutexLock lock(outlet().mutex);
         all = outlet().limiter.take_held_back(outlet().clock() + ahead);
     }
     for (const LineLimiter::HeldBack& held : all) {

@@ -44,7 +44,7 @@ LoopSupervisor::~LoopSupervisor() {
 void LoopSupervisor::set(std::vector<LoopConfig> loops) {
     if (loops.empty() && !thread_.joinable()) return;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         wanted_ = std::move(loops);
     }
     wake_up_.set();
@@ -66,7 +66,7 @@ void LoopSupervisor::wait() {
 }
 
 std::optional<std::vector<LoopState>> LoopSupervisor::news() {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (!std::exchange(is_news_, false)) return std::nullopt;
     return states_;
 }
@@ -97,7 +97,7 @@ void LoopSupervisor::run() {
 void LoopSupervisor::take_wanted() {
     std::optional<std::vector<LoopConfig>> loops;
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         loops = std::exchange(wanted_, std::nullopt);
     }
     if (!loops) return;
@@ -257,7 +257,7 @@ void LoopSupervisor::publish() {
         if (!slot.is_leaving) states.push_back(slot.state);
     }
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         if (states == states_) return;
         states_ = std::move(states);
         is_news_ = true;

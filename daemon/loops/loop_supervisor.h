@@ -14,7 +14,6 @@
 #include <atomic>
 #include <functional>
 #include <list>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -26,6 +25,7 @@
 #include "daemon/watch/file_stamp.h"
 #include "service/child.h"
 #include "service/pulse.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::daemon {
 
@@ -86,10 +86,10 @@ class LoopSupervisor {
     std::atomic<bool> stopping_ = false;
     Pulse pulse_;
     std::list<Slot> slots_;  // used only by the thread
-    std::mutex mutex_;
-    std::optional<std::vector<LoopConfig>> wanted_;  // guarded by mutex_, as are the next two
-    std::vector<LoopState> states_;
-    bool is_news_ = false;
+    Mutex mutex_;
+    std::optional<std::vector<LoopConfig>> wanted_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::vector<LoopState> states_ STORMCELLAR_GUARDED_BY(mutex_);
+    bool is_news_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     std::thread thread_;  // the last member: it uses the members above
 };
 

@@ -64,7 +64,7 @@ PartialsKeeper::~PartialsKeeper() {
 }
 
 std::vector<MachineFacts> PartialsKeeper::facts() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return published_;
 }
 
@@ -310,7 +310,7 @@ void PartialsKeeper::publish() {
         scans = std::min(scans, machine.scans);
     }
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         published_ = std::move(facts);
     }
     published_scans_ = scans;

@@ -25,7 +25,6 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -35,6 +34,7 @@
 #include "daemon/status/machine_facts.h"
 #include "pipeline/mosaic/mosaic_maker.h"
 #include "service/pulse.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/station_rule.h"
 
 namespace stormcellar::daemon {
@@ -95,8 +95,8 @@ class PartialsKeeper {
     std::vector<Machine> machines_;  // of the thread
     bool has_more_ = false;          // of the thread: news wait
     SteadyTime next_mending_{};      // of the thread
-    mutable std::mutex mutex_;
-    std::vector<MachineFacts> published_;  // guarded by mutex_
+    mutable Mutex mutex_;
+    std::vector<MachineFacts> published_ STORMCELLAR_GUARDED_BY(mutex_);
     std::atomic<std::uint64_t> published_scans_{0};
     WakeUp wake_up_;
     Pulse pulse_;

@@ -83,7 +83,7 @@ void TriedFiles::write() {
 }
 
 std::map<std::filesystem::path, std::chrono::seconds> TriedFiles::waits() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     std::map<std::filesystem::path, std::chrono::seconds> waits;
     std::map<int, int> before;  // by the number of ends
     for (const auto& [path, tried] : tried_) {
@@ -94,7 +94,7 @@ std::map<std::filesystem::path, std::chrono::seconds> TriedFiles::waits() const 
 }
 
 bool TriedFiles::is_given_up(const std::filesystem::path& path, const FileStamp& stamp) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto tried = tried_.find(path.native());
     return tried != tried_.end() && tried->second.ends >= most_ends &&
            tried->second.stamp.size_bytes == stamp.size_bytes &&
@@ -102,7 +102,7 @@ bool TriedFiles::is_given_up(const std::filesystem::path& path, const FileStamp&
 }
 
 void TriedFiles::begin(const std::filesystem::path& path, const FileStamp& stamp) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     Tried& tried = tried_[path.native()];
     const bool is_another =
         tried.stamp.size_bytes != stamp.size_bytes || tried.stamp.modified_ns != stamp.modified_ns;
@@ -113,7 +113,7 @@ void TriedFiles::begin(const std::filesystem::path& path, const FileStamp& stamp
 }
 
 void TriedFiles::end(const std::filesystem::path& path) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     tried_.erase(path.native());
     write();
 }

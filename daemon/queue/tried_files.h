@@ -16,11 +16,11 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "daemon/watch/file_stamp.h"
 #include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::daemon {
 
@@ -48,12 +48,12 @@ class TriedFiles {
         int ends = 0;  // of the process, in a row
         bool is_running = false;
     };
-    void read(const std::string& text);
-    void write();
+    void read(const std::string& text) STORMCELLAR_REQUIRES(mutex_);
+    void write() STORMCELLAR_REQUIRES(mutex_);
 
-    Descriptor file_;
-    mutable std::mutex mutex_;
-    std::map<std::string, Tried> tried_;  // guarded by mutex_; by path
+    mutable Mutex mutex_;
+    Descriptor file_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::map<std::string, Tried> tried_ STORMCELLAR_GUARDED_BY(mutex_);  // by path
 };
 
 }  // namespace stormcellar::daemon

@@ -16,7 +16,7 @@ WorkerPool::WorkerPool(Work work, const char* thread_name, int workers, std::fun
 
 WorkerPool::~WorkerPool() {
     {
-        const std::lock_guard lock(mutex_);
+        const MutexLock lock(mutex_);
         stopping_ = true;
     }
     changed_.notify_all();
@@ -27,7 +27,7 @@ WorkerPool::~WorkerPool() {
 void WorkerPool::resize(int workers) {
     int missing = 0;
     {
-        const std::lock_guard lock(mutex_);
+        const MutexLock lock(mutex_);
         wanted_ = std::max(1, workers);
         missing = std::max(0, wanted_ - alive_);
         alive_ += missing;
@@ -38,40 +38,44 @@ void WorkerPool::resize(int workers) {
 }
 
 bool WorkerPool::has_free_worker() const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return !stopping_ && static_cast<int>(running_.size() + inbox_.size()) < wanted_;
 }
 
 void WorkerPool::submit(Job job) {
     {
-        const std::lock_guard lock(mutex_);
+        const MutexLock lock(mutex_);
         inbox_.push_back(std::move(job));
     }
     changed_.notify_one();
 }
 
 std::vector<Finished> WorkerPool::collect() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return std::exchange(outbox_, {});
 }
 
 std::optional<WorkerPool::Oldest> WorkerPool::oldest() const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (running_.empty()) return std::nullopt;
     return Oldest{running_.begin()->second, running_.begin()->first};
 }
 
 bool WorkerPool::drain(std::chrono::milliseconds within) {
-    std::unique_lock lock(mutex_);
+    const SteadyTime end = std::chrono::steady_clock::now() + within;
+    const MutexLock lock(mutex_);
     stopping_ = true;
     inbox_.clear();
     changed_.notify_all();
-    return changed_.wait_for(lock, within, [this] { return running_.empty(); });
+    while (!running_.empty() && std::chrono::steady_clock::now() < end)
+        changed_.wait_until(mutex_, end);
+    return running_.empty();
 }
 
 std::optional<WorkerPool::Begun> WorkerPool::wait_for_job() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return stopping_ || alive_ > wanted_ || !inbox_.empty(); });
+    const MutexLock lock(mutex_);
+    while (!stopping_ && alive_ <= wanted_ && inbox_.empty())
+        changed_.wait(mutex_);
     if (stopping_ || inbox_.empty()) {
         --alive_;
         return std::nullopt;
@@ -98,7 +102,7 @@ void WorkerPool::work() {
         Result<Taken> taken = take(begun->job);
         const SteadyTime ended = std::chrono::steady_clock::now();
         {
-            const std::lock_guard lock(mutex_);
+            const MutexLock lock(mutex_);
             const SteadyTime started = begun->entry->first;
             running_.erase(begun->entry);
             outbox_.push_back({std::move(begun->job), std::move(taken), started, ended});

@@ -6,17 +6,16 @@
 // Threads   One thread owns the pool. `wake` is called from the workers and must only signal.
 #pragma once
 
-#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
 
 #include "daemon/queue/schedule.h"
 #include "daemon/queue/sink.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::daemon {
@@ -64,14 +63,15 @@ class WorkerPool {
     Work work_;
     const char* thread_name_;
     std::function<void()> wake_;
-    mutable std::mutex mutex_;  // guards all members below except threads_
-    std::condition_variable changed_;
-    std::deque<Job> inbox_;
-    std::vector<Finished> outbox_;
-    std::multimap<SteadyTime, std::filesystem::path> running_;  // by the start of each
-    int wanted_ = 0;
-    int alive_ = 0;
-    bool stopping_ = false;
+    mutable Mutex mutex_;
+    ConditionVariable changed_;
+    std::deque<Job> inbox_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::vector<Finished> outbox_ STORMCELLAR_GUARDED_BY(mutex_);
+    // By the start of each.
+    std::multimap<SteadyTime, std::filesystem::path> running_ STORMCELLAR_GUARDED_BY(mutex_);
+    int wanted_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    int alive_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    bool stopping_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     std::vector<std::thread> threads_;
 };
 

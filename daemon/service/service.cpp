@@ -307,7 +307,7 @@ void Service::report(const Finished& finished) {
 
 void Service::sites_compared(pipeline::PairReport report) {
     {
-        const std::scoped_lock lock(compared_mutex_);
+        const MutexLock lock(compared_mutex_);
         compared_.push_back(std::move(report));
     }
     wake_up_.set();
@@ -316,7 +316,7 @@ void Service::sites_compared(pipeline::PairReport report) {
 void Service::report_sites() {
     std::vector<pipeline::PairReport> reports;
     {
-        const std::scoped_lock lock(compared_mutex_);
+        const MutexLock lock(compared_mutex_);
         reports.swap(compared_);
     }
     for (pipeline::PairReport& report : reports) {

@@ -21,7 +21,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -47,6 +46,7 @@
 #include "service/notify.h"
 #include "service/pulse.h"
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::daemon {
 
@@ -129,8 +129,9 @@ class Service {
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
     std::atomic<bool> idle_ = false;
-    std::mutex compared_mutex_;
-    std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
+    Mutex compared_mutex_;
+    // Not reported yet.
+    std::vector<pipeline::PairReport> compared_ STORMCELLAR_GUARDED_BY(compared_mutex_);
     Readiness readiness_;
     DropTrouble drop_trouble_;
     StateTrouble state_trouble_;

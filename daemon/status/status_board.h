@@ -7,9 +7,9 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 
 #include "daemon/status/status.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::daemon {
 
@@ -22,18 +22,18 @@ class StatusBoard {
   public:
     void post(const StatusFacts& facts, const Pending& pending) {
         auto fresh = std::make_shared<const StatusSnapshot>(StatusSnapshot{facts, pending});
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         latest_.swap(fresh);
     }
     // Returns null before the first status was posted.
     [[nodiscard]] std::shared_ptr<const StatusSnapshot> latest() const {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         return latest_;
     }
 
   private:
-    mutable std::mutex mutex_;
-    std::shared_ptr<const StatusSnapshot> latest_;
+    mutable Mutex mutex_;
+    std::shared_ptr<const StatusSnapshot> latest_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::daemon

@@ -238,7 +238,7 @@ void StatusServer::run() {
             const AtWork at_work(pulse_);
             worker_->turn(std::chrono::steady_clock::now());
             worker_->open(std::chrono::steady_clock::now());
-            const std::scoped_lock lock(unanswered_mutex_);
+            const MutexLock lock(unanswered_mutex_);
             unanswered_ = worker_->unanswered();
         }
         worker_->wait(std::chrono::steady_clock::now(), wake_up_);
@@ -246,7 +246,7 @@ void StatusServer::run() {
 }
 
 Status StatusServer::answers() const {
-    const std::scoped_lock lock(unanswered_mutex_);
+    const MutexLock lock(unanswered_mutex_);
     if (unanswered_.empty()) return {};
     return fail(ErrorCode::io, "{}", unanswered_);
 }

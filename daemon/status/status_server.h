@@ -24,13 +24,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 
 #include "daemon/process/wake_up.h"
 #include "daemon/status/status_board.h"
 #include "service/pulse.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::daemon {
 
@@ -68,9 +68,10 @@ class StatusServer {
     std::unique_ptr<Worker> worker_;  // used only by the thread
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
-    mutable std::mutex unanswered_mutex_;
-    std::string unanswered_ =
-        "the status is not served yet";  // guarded by the mutex; empty: all are
+    mutable Mutex unanswered_mutex_;
+    // Empty: all addresses are served.
+    std::string unanswered_ STORMCELLAR_GUARDED_BY(unanswered_mutex_) =
+        "the status is not served yet";
     Pulse pulse_;
     std::thread thread_;  // the last member: it uses the members above
 };
