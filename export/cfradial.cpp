@@ -205,7 +205,7 @@ void write_axes(const CfradialParts& parts) {
 
 Result<std::vector<std::byte>> build(const Volume& volume, const CfradialLayout& layout,
                                      const VolumeWriteOptions& options) {
-    const std::lock_guard lock(library_mutex());
+    const MutexLock lock(library_mutex());
     const Coverage coverage = coverage_of(volume);
     NetcdfBuilder file;
     CfradialParts parts{file,

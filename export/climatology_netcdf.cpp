@@ -264,7 +264,7 @@ Status write_climatology(FileSystem& file_system, const std::filesystem::path& p
         if (group.tally.spec() == groups.front().tally.spec()) continue;
         return fail(ErrorCode::bad_argument, "{}: the groups have different grids", path.native());
     }
-    const std::scoped_lock lock(library_mutex());
+    const MutexLock lock(library_mutex());
     const auto bytes = ClimatologyFile(groups, text).write();
     if (!bytes) return pass_on(bytes);
     return write_file_atomically(file_system, path, *bytes);

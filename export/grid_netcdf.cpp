@@ -335,7 +335,7 @@ Status check_together(std::span<const Grid> grids) {
 }
 
 Result<std::vector<std::byte>> build(std::span<const Grid> grids, const GridWriteOptions& options) {
-    const std::lock_guard lock(library_mutex());
+    const MutexLock lock(library_mutex());
     NetcdfBuilder file;
     const grid::GridSpec& spec = grids.front().spec;
     const MapNames names = map_names(spec);

@@ -10,8 +10,8 @@ namespace stormcellar::netcdf {
 
 static_assert(NetcdfBuilder::file == NC_GLOBAL);
 
-std::mutex& library_mutex() {
-    static std::mutex mutex;
+Mutex& library_mutex() {
+    static Mutex mutex;
     return mutex;
 }
 

@@ -7,21 +7,21 @@
 #pragma once
 
 #include <cstddef>
-#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::netcdf {
 
-[[nodiscard]] std::mutex& library_mutex();
+[[nodiscard]] Mutex& library_mutex();
 
 class NetcdfBuilder {
   public:
-    NetcdfBuilder();
+    NetcdfBuilder() STORMCELLAR_REQUIRES(library_mutex());
     NetcdfBuilder(const NetcdfBuilder&) = delete;
     NetcdfBuilder& operator=(const NetcdfBuilder&) = delete;
     ~NetcdfBuilder();

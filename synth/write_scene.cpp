@@ -1,9 +1,9 @@
 #include "synth/write_scene.h"
 
 #include <algorithm>
-#include <mutex>
 
 #include "base/parallel.h"
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/level2/encode.h"
 #include "synth/observe.h"
 
@@ -25,6 +25,7 @@ class Work {
     }
 
     Result<WrittenScene> finish() {
+        const MutexLock lock(mutex_);
         if (error_) return tl::unexpected(*error_);
         std::sort(done_.begin(), done_.end());
         for (const auto& [number, path] : done_) {
@@ -47,7 +48,7 @@ class Work {
     }
 
     void note(int number, const std::filesystem::path& path, const Result<std::uint64_t>& bytes) {
-        const std::lock_guard lock(mutex_);
+        const MutexLock lock(mutex_);
         if (!bytes) {
             if (!error_) error_ = bytes.error();
             failed_ = true;
@@ -63,10 +64,10 @@ class Work {
     FileSystem& file_system_;
     const WriteSceneOptions& options_;
     std::atomic<bool> failed_{false};
-    std::mutex mutex_;  // guards what follows
-    std::vector<std::pair<int, std::filesystem::path>> done_;
-    WrittenScene written_;
-    std::optional<Error> error_;
+    Mutex mutex_;
+    std::vector<std::pair<int, std::filesystem::path>> done_ STORMCELLAR_GUARDED_BY(mutex_);
+    WrittenScene written_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::optional<Error> error_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ Result<std::unique_ptr<PullService>> PullService::open(FileSystem& file_system,
 
 PullService::~PullService() {
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         stop_ = true;
     }
     stopped_.notify_all();
@@ -61,10 +61,10 @@ void PullService::run(SourcePuller& puller) {
 
 void PullService::wait(SourcePuller& puller) {
     const SteadyTime end = steady_now() + puller.pause();
-    std::unique_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     while (!stop_ && steady_now() < end) {
         puller.beat();
-        stopped_.wait_until(lock, std::min(end, steady_now() + longest_wait));
+        stopped_.wait_until(mutex_, std::min(end, steady_now() + longest_wait));
     }
 }
 

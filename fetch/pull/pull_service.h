@@ -11,9 +11,7 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,6 +20,7 @@
 #include "fetch/pull/pull_config.h"
 #include "fetch/pull/source_puller.h"
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pull {
 
@@ -42,13 +41,13 @@ class PullService {
   private:
     PullService(FileSystem& file_system, PullConfig config);
     void run(SourcePuller& puller);
-    void wait(SourcePuller& puller);
+    void wait(SourcePuller& puller) STORMCELLAR_EXCLUDES(mutex_);
 
     FileSystem& file_system_;
     const PullConfig config_;
     std::atomic<bool> stop_{false};
-    std::mutex mutex_;  // with stopped_, for waiting
-    std::condition_variable stopped_;
+    Mutex mutex_;  // held to set stop_, so that no thread that is about to wait misses it
+    ConditionVariable stopped_;
     std::string published_;  // without its time
     std::vector<std::unique_ptr<SourcePuller>> pullers_;
     std::vector<std::thread> threads_;  // the last: they use the members above

@@ -1,13 +1,13 @@
 #include "fetch/pull/pulled_grids.h"
 
 #include <algorithm>
-#include <mutex>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <sys/stat.h>
 
+#include "stormcellar/base/mutex.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
 
@@ -31,8 +31,8 @@ constexpr std::size_t most_told_of_tag = 40;  // a server may send 100 kB
 // Reads all of the file, so that nothing half is given a name. One at a time, for all machines: it
 // may take half a gigabyte.
 Status check(const fs::path& path, const cache::GridName& name, const std::string& tag) {
-    static std::mutex one_at_a_time;
-    const std::scoped_lock lock(one_at_a_time);
+    static Mutex one_at_a_time;
+    const MutexLock lock(one_at_a_time);
     const auto file = cache::GridFile::open(path, cache::limits_of_site);
     if (!file) return pass_on(file);
     const cache::GridDescription& grid = file->description();

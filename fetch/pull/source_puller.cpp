@@ -63,7 +63,7 @@ Status SourcePuller::turn() {
     if (stop_) return {};
     const std::size_t removed = grids_.prune(now_utc());
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         status_.removed += removed;
     }
     failures_ = done ? 0 : failures_ + 1;
@@ -87,13 +87,13 @@ std::chrono::milliseconds SourcePuller::pause() const {
 }
 
 SourceStatus SourcePuller::status() const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return status_;
 }
 
 // Called also at the start, when nothing was asked yet.
 void SourcePuller::note_outcome(const Status& done) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     status_.grids = grids_.count();
     status_.bytes = grids_.bytes();
     status_.newest = grids_.newest();
@@ -136,7 +136,7 @@ Result<bool> SourcePuller::list(UtcTime from, UtcTime now) {
         list_tag_ = answer->tag;
         forget_unlisted(from, now);
     }
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     status_.answered = now_utc();
     return !answer->is_unchanged;
 }
@@ -162,7 +162,7 @@ bool SourcePuller::make_room_for(const cache::GridName& name) {
     const std::uint64_t bytes = grids_.bytes();
     const std::size_t removed = grids_.prune(now_utc());
     if (!grids_.has(name)) no_room_ = {name.time, bytes - grids_.bytes()};
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     status_.removed += removed;
     return grids_.has(name);
 }
@@ -219,7 +219,7 @@ Status SourcePuller::fetch(const cache::GridName& name) {
     bad.next = steady_now() + pause_after(++bad.tries);
     if (bad.tries == 1) complain(done.error());
     {
-        const std::scoped_lock lock(mutex_);
+        const MutexLock lock(mutex_);
         ++status_.refused;
     }
     if (++refused_in_a_row_ < most_refused_in_a_row) return {};
@@ -249,7 +249,7 @@ Status SourcePuller::get(const cache::GridName& name) {
     if (Status kept = grids_.keep(std::move(*incoming), answer->tag); !kept) return kept;
     say(LogLevel::debug, "{}: {} {} {}, {} bytes", source_.name, name.domain,
         level2::moment_name(name.moment), format_utc(name.time), answer->bytes);
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     ++status_.pulled;
     return {};
 }

@@ -16,7 +16,6 @@
 #include <atomic>
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -26,6 +25,7 @@
 #include "fetch/pull/pull_config.h"
 #include "fetch/pull/pull_status.h"
 #include "fetch/pull/pulled_grids.h"
+#include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pull {
 
@@ -90,8 +90,8 @@ class SourcePuller {
     int refused_in_a_row_ = 0;  // of the turn
     RateLimit lines_{20, std::chrono::seconds{60}};
 
-    mutable std::mutex mutex_;
-    SourceStatus status_;  // guarded by mutex_
+    mutable Mutex mutex_;
+    SourceStatus status_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
 }  // namespace stormcellar::pull
