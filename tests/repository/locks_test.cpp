@@ -1,0 +1,112 @@
+// A mutex says what it guards, so that clang can check it (stormcellar/base/mutex.h,
+// scripts/check-locks).
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/repository/text_of.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string the_header = "include/stormcellar/base/mutex.h";
+
+std::string code_alone(const std::string& text) {
+    std::istringstream lines(text);
+    std::string code;
+    for (std::string line; std::getline(lines, line);)
+        code += line.substr(0, line.find("//")) + '\n';
+    return code;
+}
+
+// The headers and sources of the product, below the root.
+std::vector<std::string> product_sources() {
+    const fs::path root = testing::source_directory();
+    const std::set<std::string> others{"bench", "build", "docs", "tests"};
+    std::vector<std::string> found;
+    for (const auto& room : fs::directory_iterator(root)) {
+        const std::string name = room.path().filename().string();
+        if (!room.is_directory() || name.starts_with('.') || others.contains(name)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(room)) {
+            const auto ending = entry.path().extension();
+            if (ending == ".h" || ending == ".cpp")
+                found.push_back(fs::relative(entry.path(), root).string());
+        }
+    }
+    return found;
+}
+
+// Locks of the standard library, whose uses the analysis does not see.
+std::vector<std::string> unseen_locks(const std::string& code) {
+    std::vector<std::string> found;
+    for (const char* lock :
+         {"std::mutex", "std::timed_mutex", "std::recursive_mutex", "std::shared_mutex",
+          "std::shared_timed_mutex", "std::condition_variable", "std::lock_guard",
+          "std::scoped_lock", "std::unique_lock", "std::shared_lock"}) {
+        if (code.find(lock) != std::string::npos) found.emplace_back(lock);
+    }
+    return found;
+}
+
+// Mutex members that no annotation of the same file names.
+std::vector<std::string> silent_mutexes(const std::string& code) {
+    static const std::regex member(R"(\n *(?:mutable )?(?:Shared)?Mutex (\w+);)");
+    std::vector<std::string> silent;
+    if (code.find("Mutex ") == std::string::npos) return silent;
+    for (std::sregex_iterator at(code.begin(), code.end(), member), end; at != end; ++at) {
+        const std::string name = (*at)[1];
+        const std::regex annotation(R"(STORMCELLAR_\w+\([^()]*\b)" + name + R"(\b)");
+        if (!std::regex_search(code, annotation)) silent.push_back(name);
+    }
+    return silent;
+}
+
+TEST(Locks, AreThoseThatClangChecks) {
+    const auto sources = product_sources();
+    ASSERT_GE(sources.size(), 1000U);
+    for (const std::string& path : sources) {
+        if (path == the_header) continue;
+        const std::string code = code_alone(testing::text_of(testing::source_directory() / path));
+        for (const std::string& lock : unseen_locks(code))
+            ADD_FAILURE() << path << ": " << lock << "; use " << the_header;
+    }
+}
+
+TEST(Locks, EveryMutexSaysWhatItGuards) {
+    std::size_t guarded = 0;
+    for (const std::string& path : product_sources()) {
+        if (path == the_header) continue;
+        const std::string code = code_alone(testing::text_of(testing::source_directory() / path));
+        for (const std::string& name : silent_mutexes(code))
+            ADD_FAILURE() << path << ": nothing says what " << name << " guards";
+        guarded += code.find("STORMCELLAR_GUARDED_BY(") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_GE(guarded, 50U) << "files";
+}
+
+TEST(Locks, TheTestFindsWhatItRefuses) {
+    EXPECT_EQ(unseen_locks("    const std::scoped_lock lock(mutex_);\n"),
+              std::vector<std::string>{"std::scoped_lock"});
+    EXPECT_EQ(unseen_locks("std::unique_lock<std::mutex>& lock"),
+              (std::vector<std::string>{"std::mutex", "std::unique_lock"}));
+    EXPECT_TRUE(unseen_locks("const MutexLock lock(mutex_); std::once_flag once;").empty());
+    EXPECT_EQ(silent_mutexes("\n    mutable Mutex mutex_;\n    int count_ = 0;\n"),
+              std::vector<std::string>{"mutex_"});
+    EXPECT_EQ(
+        silent_mutexes("\n    Mutex mutex;\n    int a STORMCELLAR_GUARDED_BY(other_mutex);\n"),
+        std::vector<std::string>{"mutex"});
+    EXPECT_TRUE(
+        silent_mutexes("\n    Mutex mutex_;\n    int a STORMCELLAR_GUARDED_BY(mutex_) = 0;\n")
+            .empty());
+}
+
+}  // namespace
+}  // namespace stormcellar
