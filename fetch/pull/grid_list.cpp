@@ -70,8 +70,7 @@ Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> 
     std::ranges::sort(grids, [](const auto& a, const auto& b) {
         return std::tie(b.time, a.domain, a.moment) < std::tie(a.time, b.domain, b.moment);
     });
-    const auto repeated = std::ranges::unique(grids);
-    grids.erase(repeated.begin(), repeated.end());
+    grids.erase(std::unique(grids.begin(), grids.end()), grids.end());
     if (grids.size() > most_listed) grids.resize(most_listed);
     return grids;
 }
