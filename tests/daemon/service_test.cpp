@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <sys/inotify.h>
 
-#include "tests/service/fake_notifier.h"
 #include "tests/daemon/fake_sink.h"
 #include "tests/daemon/write_file.h"
+#include "tests/service/fake_notifier.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/service/fake_notifier.h"
 #include "tests/daemon/steady_start.h"
+#include "tests/service/fake_notifier.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 
