@@ -38,6 +38,10 @@ std::string volume_in_chunk_names(UtcTime time) {
     return text;
 }
 
+Clock::duration clock_seconds(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 // A file that is written piece by piece.
 struct Growing {
     std::vector<std::byte> bytes;
@@ -92,8 +96,9 @@ class Player {
             due_s = std::max(due_s, turns_[arrival.piece].start_s);
             if (!wait_until(due_s, arrival.piece)) return {};
             const ReplayItem& item = items_[arrival.piece];
-            const auto bytes = sources_.read(item.source);
+            auto bytes = sources_.read(item.source);
             if (!bytes) return pass_on(bytes);
+            if (options_.stamp) options_.stamp(item, *bytes);
             const std::size_t kept = note_arrival(item, item.name, 0, arrival, bytes->size());
             if (arrival.fault != Fault::drop) {
                 const fs::path target = drop_ / item.name;
@@ -104,7 +109,7 @@ class Player {
                 }
                 if (!done) return done;
             }
-            if (!arrival.again) end_turn();
+            if (!arrival.again) end_turn(item);
         }
         return {};
     }
@@ -146,7 +151,7 @@ class Player {
         if (!written) return written;
         if (++growing.next == growing.arrivals.size()) {
             growing_.erase(place);
-            end_turn();
+            end_turn(items_[item]);
         }
         return {};
     }
@@ -160,6 +165,7 @@ class Player {
         if (!made) return pass_on(made);
         Growing growing;
         growing.bytes = chunks ? level2::without_gzip(*bytes) : std::move(*bytes);
+        if (options_.stamp) options_.stamp(items_[item], growing.bytes);
         growing.ends = piece_ends(growing.bytes);
         growing.arrivals =
             arrivals_of(options_.faults, static_cast<std::uint32_t>(item + 1), growing.ends.size());
@@ -206,15 +212,21 @@ class Player {
         return kept;
     }
 
-    void end_turn() {
+    void end_turn(const ReplayItem& item) {
         ++report_.files;
         if (options_.replayed) options_.replayed(report_.files);
+        if (options_.ended) options_.ended(item);
     }
 
     // Waits, checking the flag ten times a second. Returns false if the flag is set.
-    [[nodiscard]] bool wait_until(double seconds, std::size_t item) const {
-        const auto end = begin_ + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(seconds));
+    [[nodiscard]] bool wait_until(double seconds, std::size_t item) {
+        if (!has_begun_ && seconds >= options_.past_s) {
+            has_begun_ = true;
+            if (options_.begun) options_.begun();
+            begin_ = Clock::now() - clock_seconds(options_.past_s);
+        }
+        if (!has_begun_) return !stopped();
+        const auto end = begin_ + clock_seconds(seconds);
         const double wait_s = std::chrono::duration<double>(end - Clock::now()).count();
         if (wait_s > long_wait_s && options_.waits) options_.waits(wait_s, items_[item].source);
         while (!stopped() && Clock::now() < end) {
@@ -234,7 +246,8 @@ class Player {
     PieceWriter writer_;
     std::map<std::size_t, Growing> growing_;  // by item
     ReplayReport report_;
-    Clock::time_point begin_ = Clock::now();
+    bool has_begun_ = false;  // what is past is written
+    Clock::time_point begin_;
 };
 
 }  // namespace

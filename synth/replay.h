@@ -34,6 +34,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,14 @@ struct ReplayOptions {
     FaultRates faults;
     const std::atomic<bool>* stop = nullptr;         // when set, the replay ends between two pieces
     std::function<void(std::size_t done)> replayed;  // called after each file
+    // Called after each file, too, for who must know which one it was.
+    std::function<void(const ReplayItem& item)> ended;
+    // Called with a file's bytes before they are written. It may change them, but not their pieces.
+    std::function<void(const ReplayItem& item, std::span<std::byte> bytes)> stamp;
+    // What is due in the first `past_s` seconds is written at once, as if the replay had begun so
+    // long ago. Then `begun` is called, and the clock goes on after it.
+    double past_s = 0;
+    std::function<void()> begun;
     // Called before each wait of more than `long_wait_s`, with its length and the source of the
     // next file.
     std::function<void(double seconds, const std::filesystem::path& source)> waits;

@@ -120,6 +120,39 @@ TEST_F(Replay, StoppedBetweenFilesNothingIsUnfinished) {
     EXPECT_FALSE(fs::exists(drop() / "b"));
 }
 
+// Headers are 500 ms apart; only the third is not due yet when the second is.
+TEST_F(Replay, WhatIsPastIsWrittenBeforeItBegins) {
+    put("a", volume_at(1000));
+    put("b", volume_at(1500));
+    put("c", volume_at(2000));
+    ReplayOptions options;
+    options.past_s = 0.75;
+    std::vector<std::string> ended, past;
+    options.ended = [&](const ReplayItem& item) { ended.push_back(item.name); };
+    options.begun = [&] { past = ended; };
+    const auto report = play(options);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_THAT(past, ElementsAre("a", "b"));
+    EXPECT_THAT(ended, ElementsAre("a", "b", "c"));
+}
+
+TEST_F(Replay, FilesAreWrittenAsTheyAreStamped) {
+    put("a", volume_at(1000, 3));
+    const auto source = read_file(directory_ / "in/a").value();
+    for (const Delivery delivery : {Delivery::whole, Delivery::growing, Delivery::open}) {
+        ReplayOptions options = at_once(delivery);
+        options.stamp = [](const ReplayItem& item, std::span<std::byte> bytes) {
+            EXPECT_EQ(item.name, "a");
+            bytes[0] = std::byte{'X'};
+        };
+        ASSERT_TRUE(play(options));
+        auto expected = source;
+        expected[0] = std::byte{'X'};
+        EXPECT_EQ(read_file(drop() / "a").value(), expected);
+        fs::remove_all(drop() / "a");
+    }
+}
+
 TEST_F(Replay, TimeBetweenFilesComesFromTheirHeadersOrTheInterval) {
     put("a", volume_at(0));
     put("b", volume_at(3'600'000));
