@@ -1,4 +1,4 @@
-#include "bench/quality_chart.h"
+#include "tests/grid/quality_chart.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "synth/observe.h"
 #include "synth/truth.h"
 
-namespace stormcellar::bench {
+namespace stormcellar::grid {
 namespace {
 
 using grid::CellStatus;
@@ -335,4 +335,4 @@ WaveChart wave_chart(const Observed& given, const grid::Method& method) {
             -std::atan2(cosine, sine) / (2 * std::numbers::pi) * wave.length_m / 1000};
 }
 
-}  // namespace stormcellar::bench
+}  // namespace stormcellar::grid

@@ -1,5 +1,6 @@
-// bench/quality_chart.h -- quality figures of a grid: how wide a point becomes, how far it moves,
-// how steep an edge stays, how much of a wave is left, and whether reflectivity is conserved.
+// tests/grid/quality_chart.h -- quality figures of a grid: how wide a point becomes, how far it
+// moves, how steep an edge stays, how much of a wave is left, and whether reflectivity is
+// conserved.
 //
 // A simulated radar (synth/observe.h, VCP 212) observes one small feature at a range. Its gates are
 // points, or means over the beam and the pulse of a WSR-88D. The grid about the feature is compared
@@ -14,7 +15,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "synth/synth_scene.h"
 
-namespace stormcellar::bench {
+namespace stormcellar::grid {
 
 // A feature as its radar observes it.
 struct Observed {
@@ -61,4 +62,4 @@ struct WaveChart {
 };
 [[nodiscard]] WaveChart wave_chart(const Observed& observed, const grid::Method& method);
 
-}  // namespace stormcellar::bench
+}  // namespace stormcellar::grid

@@ -1,12 +1,13 @@
-// Tests what each method does to a point, an edge and a wave (bench/quality_chart.h), with gates
-// sampled at their centers, against limits in closed form. docs/accuracy.md has the whole table.
-#include "bench/quality_chart.h"
+// Tests what each method does to a point, an edge and a wave (tests/grid/quality_chart.h), with
+// gates sampled at their centers, against limits in closed form. docs/accuracy.md has the whole
+// table.
+#include "tests/grid/quality_chart.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace stormcellar::bench {
+namespace stormcellar::grid {
 namespace {
 
 using grid::Averaging;
@@ -135,4 +136,4 @@ TEST_P(AtRange, AWaveKeepsWhatAMeanOverABoxLeaves) {
 }
 
 }  // namespace
-}  // namespace stormcellar::bench
+}  // namespace stormcellar::grid
