@@ -1,48 +1,66 @@
-// bench_events: the stream of events of stormcellar-web, beside the real stormcellard.
+// bench_events: how soon stormcellard's grids, and events of them from stormcellar-web, follow
+// data.
 //
-// First, real volumes are sent record by record, one file a chunk, on a machine that does nothing
-// else; a client hears of the station. A row for each volume:
+// usage: bench_events [--data DIR] [--work DIR] [--sweeps | --hour] [--streams N]
+//        [--seconds N] [--sites N] [--json] [FILE ...]      (bench/request.h)
+// --sweeps: three real volumes, unless files are named, are sent record by record, on a machine
+// that does nothing else; a client hears of the station. A row for each volume and way:
+//   as              appended to one file that is closed each time, or one file for each chunk
 //   sweeps          those that an event told of
-//   latency_*       from the close of a sweep's last chunk to its event at the client
+//   grid_*_ms       from the close of a sweep's last chunk to the rename of its grid
+//   event_*_ms      from there to its event at the client
 //   bzip2_p50_ms    bunzip alone for those chunks
-//   beyond_*        the difference of the two, chunk by chunk
-//   end_ms          the same latency for the end of the volume, whose grid is synced
-// Then the heaviest national hour (bench/national_feed.h) is played at its own speed, as chunks,
+//   *_beyond_*      the difference, chunk by chunk
+//   end_ms          from the last chunk of the volume to its grid, which is made of everything and
+//                   synced; end_event_ms: to its event
+// --hour: the heaviest national hour (bench/national_feed.h) is played at its own speed, as chunks,
 // before as many streams of one station each as --streams says (1,000). A row:
-//   asked_per_s     other requests a second beside the streams
-//   events_per_s    grids told of; heard_per_s: events that clients read
+//   grids_per_s     renames of grids; events_per_s: grids told of; heard_per_s: events read
 //   lost            events of a station that one of its clients heard and another did not
+//   closed          streams that ended
 //   event_*         from the rename of a grid to its event, at each client
 //   web_cores       CPU time of stormcellar-web divided by wall time
 //   web_peak_mib    its peak resident memory (VmHWM)
 //   grid_*          from the last chunk of a volume to its grid (bench/feed_run.h)
-// --sites N: the first N of the 160 sites, each sending as much, for a trial.
+// --sites N: the first N of the 160 sites, each sending as much, for a trial. Without either of
+// both, both.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <memory>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
-#include "bench/daemon_process.h"
-#include "bench/event_clients.h"
 #include "bench/feed_run.h"
 #include "bench/grid_watch.h"
+#include "bench/measure.h"
 #include "bench/national_feed.h"
+#include "bench/process.h"
 #include "bench/request.h"
-#include "bench/sent_volume.h"
 #include "bench/table.h"
 #include "bench/web_load.h"
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/grid_name.h"
+#include "stormcellar/level2/chunk_name.h"
+#include "stormcellar/level2/decode.h"
 #include "synth/replay_pieces.h"
 
 namespace stormcellar::bench {
@@ -52,7 +70,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr std::chrono::milliseconds longest_wait{1200};
+constexpr double longest_wait_ms = 1200;
 
 std::string configuration_for(int port) {
     return fmt::format(
@@ -67,15 +85,134 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-struct ToldSweeps {
-    std::vector<double> latency_ms, bzip2_ms, beyond_ms;
-    double end_ms = std::nan("");
+// The value of a key in a line of JSON that our server wrote: "" if there is none.
+std::string value_of(std::string_view json, std::string_view key) {
+    const std::string sought = '"' + std::string(key) + "\":\"";
+    const std::size_t at = json.find(sought);
+    if (at == std::string_view::npos) return {};
+    const std::size_t begin = at + sought.size();
+    return std::string(json.substr(begin, json.find('"', begin) - begin));
+}
+
+struct Stream {
+    Descriptor socket;
+    std::string unread;
+};
+
+// Sends the request and reads the head of the answer; what follows it stays in `unread`.
+Result<Stream> open_stream(int port, const std::string& query) {
+    Stream client{Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), {}};
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const std::string request =
+        "GET /api/v1/events?" + query + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    if (::connect(client.socket.number(), reinterpret_cast<const sockaddr*>(&address),
+                  sizeof address) != 0 ||
+        ::send(client.socket.number(), request.data(), request.size(), MSG_NOSIGNAL) !=
+            static_cast<ssize_t>(request.size()))
+        return fail(ErrorCode::io, "no connection to port {}", port);
+    std::array<char, 4096> buffer{};
+    while (client.unread.find("\r\n\r\n") == std::string::npos) {
+        const ssize_t count = ::recv(client.socket.number(), buffer.data(), buffer.size(), 0);
+        if (count <= 0) return fail(ErrorCode::io, "the server closed a connection");
+        client.unread.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+    if (!client.unread.starts_with("HTTP/1.1 200"))
+        return fail(ErrorCode::io, "a stream was refused: {}", client.unread);
+    client.unread.erase(0, client.unread.find("\r\n\r\n") + 4);
+    return client;
+}
+
+struct HeardEvent {
+    std::size_t client = 0;
+    Clock::time_point at;             // when its last byte was read
+    std::string type, station, grid;  // grid: its time, as the event says it
+};
+
+// Many clients of /api/v1/events, read by one thread of its own.
+class EventClients {
+  public:
+    // Opens a stream for each query ("station=KTLX"), one after another.
+    [[nodiscard]] static Result<std::unique_ptr<EventClients>> open(
+        int port, const std::vector<std::string>& queries) {
+        auto clients = std::make_unique<EventClients>();
+        for (const std::string& query : queries) {
+            auto stream = open_stream(port, query);
+            if (!stream) return pass_on(stream);
+            epoll_event wanted{};
+            wanted.events = EPOLLIN;
+            wanted.data.u64 = clients->streams_.size();
+            clients->streams_.push_back(std::move(*stream));
+            ::epoll_ctl(clients->epoll_.number(), EPOLL_CTL_ADD,
+                        clients->streams_.back().socket.number(), &wanted);
+        }
+        clients->thread_ = std::thread([reading = clients.get()] { reading->read_on(); });
+        return clients;
+    }
+    EventClients() = default;
+    EventClients(const EventClients&) = delete;
+    EventClients& operator=(const EventClients&) = delete;
+    ~EventClients() {
+        is_stopping_ = true;
+        if (thread_.joinable()) thread_.join();
+    }
+    // Returns what was heard since the last call, in the order in which it was read.
+    [[nodiscard]] std::vector<HeardEvent> take() {
+        const std::scoped_lock lock(mutex_);
+        return std::exchange(heard_, {});
+    }
+    [[nodiscard]] std::size_t closed() const { return closed_; }  // streams that ended
+
+  private:
+    void read_on() {
+        std::array<epoll_event, 256> ready{};
+        while (!is_stopping_) {
+            const int count = ::epoll_wait(epoll_.number(), ready.data(), ready.size(), 100);
+            for (int i = 0; i < count; ++i)
+                read_stream(ready[static_cast<std::size_t>(i)].data.u64);
+        }
+    }
+    // Sizes of chunks stand between the frames, on lines of their own, and are skipped with them.
+    void read_stream(std::size_t index) {
+        Stream& stream = streams_[index];
+        std::array<char, 16384> buffer{};
+        const ssize_t count =
+            ::recv(stream.socket.number(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+        if (count == 0) {
+            ++closed_;
+            ::epoll_ctl(epoll_.number(), EPOLL_CTL_DEL, stream.socket.number(), nullptr);
+        }
+        if (count <= 0) return;
+        const auto now = Clock::now();
+        stream.unread.append(buffer.data(), static_cast<std::size_t>(count));
+        std::size_t end = 0;
+        while ((end = stream.unread.find("\n\n")) != std::string::npos) {
+            const std::string_view frame = std::string_view(stream.unread).substr(0, end);
+            const std::size_t data = frame.find("data: ");
+            if (data != std::string_view::npos) {
+                const std::string_view json = frame.substr(data);
+                const std::scoped_lock lock(mutex_);
+                heard_.push_back({index, now, value_of(json, "type"), value_of(json, "station"),
+                                  value_of(json, "grid")});
+            }
+            stream.unread.erase(0, end + 2);
+        }
+    }
+
+    std::vector<Stream> streams_;
+    Descriptor epoll_{::epoll_create1(EPOLL_CLOEXEC)};
+    std::atomic<bool> is_stopping_ = false;
+    std::atomic<std::size_t> closed_ = 0;
+    std::mutex mutex_;
+    std::vector<HeardEvent> heard_;  // guarded by mutex_
+    std::thread thread_;
 };
 
 // A daemon and a data server over the same directories.
 struct Pair {
     explicit Pair(const fs::path& where) : root(where), daemon(where) {}
-    [[nodiscard]] Status start_daemon() { return daemon.start(configuration_for(port)); }
     [[nodiscard]] Result<WebServer> serve() const {
         return serve_configured(root / "stormcellard.toml", port, root);
     }
@@ -84,148 +221,152 @@ struct Pair {
     int port = free_port();
 };
 
-Result<ToldSweeps> send(const SentPieces& volume, const fs::path& root) {
+// A real volume with LDM records.
+struct SentVolume {
+    fs::path path;
+    Bytes bytes;
+    std::string station;
+    UtcTime time;
+
+    // The file of a piece, counted from 1.
+    [[nodiscard]] fs::path file_of(std::size_t number, bool is_last, bool as_chunks) const {
+        if (!as_chunks) return path.filename();
+        level2::ChunkName name;
+        name.volume = format_compact(time);
+        name.volume[8] = '-';
+        name.number = static_cast<int>(number);
+        if (is_last) name.kind = level2::ChunkKind::end;
+        if (number == 1) name.kind = level2::ChunkKind::start;
+        return to_string(name);
+    }
+};
+
+Result<SentVolume> read_volume(const fs::path& path) {
+    auto bytes = read_file(path);
+    if (!bytes) return pass_on(bytes);
+    const auto decoded = level2::decode(*bytes);
+    if (!decoded) return pass_on(decoded);
+    if (!decoded->volume.header || !synth::has_ldm_records(*bytes))
+        return fail(ErrorCode::unsupported, "{}: no LDM records", path.native());
+    return SentVolume{path, std::move(*bytes), decoded->volume.station,
+                      decoded->volume.header->time()};
+}
+
+// Appends and returns the time just before the close.
+Clock::time_point append(const fs::path& path, std::span<const std::byte> bytes) {
+    std::ofstream file(path, std::ios::binary | std::ios::app);
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    file.flush();
+    return Clock::now();
+}
+
+double bunzip_ms(std::span<const std::byte> piece) {
+    const Bytes bytes(piece.begin(), piece.end());
+    Bytes peeled;
+    const auto records = ldm_records(bytes, peeled);
+    double least_s = 1e9;
+    for (int run = 0; run < 3; ++run)
+        keep_least_seconds(least_s, [&] { bunzip_all(records); });
+    return 1000 * least_s;
+}
+
+// The grid and the event that followed a piece.
+struct Told {
+    std::optional<double> grid_ms, event_ms;
+    bool is_complete = false;
+};
+
+Told wait_for_both(const GridWatch& watch, EventClients& client, Clock::time_point closed) {
+    Told told;
+    while (!(told.grid_ms && told.event_ms) && ms_between(closed, Clock::now()) < longest_wait_ms) {
+        watch.wait(0.005);
+        watch.read([&](std::string_view) {
+            if (!told.grid_ms) told.grid_ms = ms_between(closed, Clock::now());
+        });
+        for (const HeardEvent& event : client.take()) {
+            if (event.type != "sweep_gridded" && event.type != "volume_complete") continue;
+            if (!told.event_ms) told.event_ms = ms_between(closed, event.at);
+            told.is_complete = event.type == "volume_complete";
+        }
+    }
+    return told;
+}
+
+struct Sweeps {
+    std::vector<double> grid_ms, event_ms, bzip2_ms, grid_beyond_ms, event_beyond_ms;
+    double end_ms = std::nan(""), end_event_ms = std::nan("");
+};
+
+Result<Sweeps> send(const SentVolume& volume, bool as_chunks, const fs::path& root) {
     Pair pair(root);
-    const fs::path directory = pair.daemon.drop() / volume.decoded.station;
+    const fs::path directory = pair.daemon.drop() / volume.station;
     std::error_code error;
     fs::create_directories(directory, error);
-    if (Status started = pair.start_daemon(); !started) return pass_on(started);
+    GridWatch watch;
+    const std::vector<std::string> stations = {volume.station};
+    const std::vector<std::string> days = {cache::day_name(volume.time)};
+    if (Status watched = watch.watch(pair.daemon.cache(), stations, days); !watched)
+        return pass_on(watched);
+    if (Status started = pair.daemon.start(configuration_for(pair.port)); !started)
+        return pass_on(started);
     auto web = pair.serve();
     if (!web) return pass_on(web);
-    auto client = EventClients::open(pair.port, {"station=" + volume.decoded.station});
+    auto client = EventClients::open(pair.port, {"station=" + volume.station});
     if (!client) return pass_on(client);
-    ToldSweeps told;
+    Sweeps sweeps;
     const std::vector<std::size_t> ends = synth::piece_ends(volume.bytes);
     std::size_t begin = 0;
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const auto piece = std::span{volume.bytes}.subspan(begin, ends[i] - begin);
         begin = ends[i];
-        const bool is_last = i + 1 == ends.size();
-        const auto closed = append_piece(directory / chunk_name(volume, i + 1, is_last), piece);
-        const auto event = (*client)->wait_for({"sweep_gridded", "volume_complete"}, longest_wait);
-        if (!event) continue;
-        const double latency_ms = ms_between(closed, event->at);
-        if (event->type == "volume_complete") {
-            told.end_ms = latency_ms;
+        const auto closed =
+            append(directory / volume.file_of(i + 1, i + 1 == ends.size(), as_chunks), piece);
+        const Told told = wait_for_both(watch, **client, closed);
+        if (!told.event_ms || !told.grid_ms) continue;
+        if (told.is_complete) {
+            sweeps.end_ms = *told.grid_ms;
+            sweeps.end_event_ms = *told.event_ms;
             continue;
         }
-        const double bzip2_ms = 1000 * bzip2_of(piece);
-        told.latency_ms.push_back(latency_ms);
-        told.bzip2_ms.push_back(bzip2_ms);
-        told.beyond_ms.push_back(latency_ms - bzip2_ms);
+        const double bzip2_ms = bunzip_ms(piece);
+        sweeps.grid_ms.push_back(*told.grid_ms);
+        sweeps.event_ms.push_back(*told.event_ms);
+        sweeps.bzip2_ms.push_back(bzip2_ms);
+        sweeps.grid_beyond_ms.push_back(*told.grid_ms - bzip2_ms);
+        sweeps.event_beyond_ms.push_back(*told.event_ms - bzip2_ms);
     }
     (void)web->process.stop();
     if (!pair.daemon.stop()) return fail(ErrorCode::io, "the daemon did not end well");
-    return told;
+    return sweeps;
 }
 
 Status measure_volume(const fs::path& path, const fs::path& root, Table& table) {
-    const auto volume = read_sent_volume(path);
+    const auto volume = read_volume(path);
     if (!volume) return pass_on(volume);
-    const auto told = send(*volume, root);
-    std::error_code error;
-    fs::remove_all(root, error);
-    if (!told) return pass_on(told);
-    table.add({{"volume", path.filename().string()},
-               {"sweeps", static_cast<int>(told->latency_ms.size())},
-               {"latency_p50_ms", Cell{quantile(told->latency_ms, 0.5), 1}},
-               {"latency_max_ms", Cell{quantile(told->latency_ms, 1), 1}},
-               {"bzip2_p50_ms", Cell{quantile(told->bzip2_ms, 0.5), 1}},
-               {"beyond_p50_ms", Cell{quantile(told->beyond_ms, 0.5), 1}},
-               {"beyond_p95_ms", Cell{quantile(told->beyond_ms, 0.95), 1}},
-               {"beyond_max_ms", Cell{quantile(told->beyond_ms, 1), 1}},
-               {"end_ms", Cell{told->end_ms, 1}}});
+    for (const bool as_chunks : {false, true}) {
+        const auto sweeps = send(*volume, as_chunks, root);
+        std::error_code error;
+        fs::remove_all(root, error);
+        if (!sweeps) return pass_on(sweeps);
+        Row row = {{"volume", path.filename().string()},
+                   {"as", as_chunks ? "chunks" : "growing"},
+                   {"sweeps", static_cast<int>(sweeps->event_ms.size())}};
+        const auto add = [&](const std::string& name, const std::vector<double>& ms) {
+            for (const auto& [share, label] : {std::pair{0.5, "p50"}, {0.95, "p95"}, {1.0, "max"}})
+                row.emplace_back(name + label + "_ms", Cell{quantile(ms, share), 1});
+        };
+        add("grid_", sweeps->grid_ms);
+        add("event_", sweeps->event_ms);
+        row.emplace_back("bzip2_p50_ms", Cell{quantile(sweeps->bzip2_ms, 0.5), 1});
+        add("grid_beyond_", sweeps->grid_beyond_ms);
+        add("event_beyond_", sweeps->event_beyond_ms);
+        row.emplace_back("end_ms", Cell{sweeps->end_ms, 1});
+        row.emplace_back("end_event_ms", Cell{sweeps->end_event_ms, 1});
+        table.add(std::move(row));
+    }
     return {};
 }
-
-// Notes when grids get their names, on a thread of its own.
-class RenameClock {
-  public:
-    [[nodiscard]] Status start(const fs::path& cache, const NationalFeed& feed) {
-        std::vector<std::string> stations;
-        for (const NationalSite& site : feed.sites())
-            stations.emplace_back(site.station.icao);
-        const std::vector<std::string> days = {cache::day_name(national_start()),
-                                               cache::day_name(national_start() - 24h)};
-        if (Status watched = watch_.watch(cache, stations, days); !watched) return watched;
-        thread_ = std::thread([this] {
-            while (!is_stopping_) {
-                watch_.wait(0.05);
-                watch_.read([&](std::string_view file) {
-                    times_[std::string(file)].push_back(Clock::now());
-                });
-            }
-        });
-        return {};
-    }
-    void stop() {
-        is_stopping_ = true;
-        if (thread_.joinable()) thread_.join();
-    }
-    ~RenameClock() { stop(); }
-    // The rename that is nearest to an event; call it after stop().
-    [[nodiscard]] std::optional<Clock::time_point> nearest(const std::string& file,
-                                                           Clock::time_point at) const {
-        const auto times = times_.find(file);
-        if (times == times_.end()) return std::nullopt;
-        return *std::min_element(
-            times->second.begin(), times->second.end(), [&](const auto& one, const auto& other) {
-                return std::abs(ms_between(one, at)) < std::abs(ms_between(other, at));
-            });
-    }
-    [[nodiscard]] std::size_t renames_after(Clock::time_point begin) const {
-        std::size_t count = 0;
-        for (const auto& [file, times] : times_)
-            count += static_cast<std::size_t>(
-                std::count_if(times.begin(), times.end(), [&](auto at) { return at >= begin; }));
-        return count;
-    }
-
-  private:
-    GridWatch watch_;
-    std::atomic<bool> is_stopping_ = false;
-    std::map<std::string, std::vector<Clock::time_point>> times_;  // the thread's until stop()
-    std::thread thread_;
-};
-
-// Asks so often a second, for lists, packed grids and metrics in turn, one after another.
-class OtherRequests {
-  public:
-    OtherRequests(WebServer& server, const NationalFeed& feed, int a_second, fs::path scratch) {
-        if (a_second <= 0) return;
-        thread_ = std::thread(
-            [this, address = server.address(), &feed, a_second, scratch = std::move(scratch)] {
-                auto next = Clock::now();
-                for (std::size_t i = 0; !is_stopping_; ++i) {
-                    const auto& site = feed.sites()[i % feed.sites().size()];
-                    const std::vector<std::string> paths = {
-                        "/api/v1/stations",
-                        fmt::format("/api/v1/grids/{}/REF/latest/packed", site.station.icao),
-                        fmt::format("/volumes/{}/?limit=5", site.station.icao), "/metrics"};
-                    const auto got =
-                        get(address + paths[i % paths.size()], {"Accept-Encoding: gzip"}, scratch);
-                    if (!got || got->status != 200) {
-                        ++failed;
-                        fmt::print(stderr, "{}: {}\n", paths[i % paths.size()],
-                                   got ? std::to_string(got->status) : got.error().message);
-                    }
-                    ++asked;
-                    next += std::chrono::microseconds{1'000'000 / a_second};
-                    std::this_thread::sleep_until(next);
-                }
-            });
-    }
-    ~OtherRequests() { stop(); }
-    void stop() {
-        is_stopping_ = true;
-        if (thread_.joinable()) thread_.join();
-    }
-    std::atomic<int> asked = 0, failed = 0;
-
-  private:
-    std::atomic<bool> is_stopping_ = false;
-    std::thread thread_;
-};
 
 struct Heard {
     std::vector<double> event_ms;
@@ -233,7 +374,7 @@ struct Heard {
 };
 
 // Every client of a station hears the same grids; what one of them lacks is lost.
-Heard compare(const std::vector<HeardEvent>& events, const RenameClock& renames,
+Heard compare(const std::vector<HeardEvent>& events, const Renames& renames,
               const std::vector<std::string>& stations, std::size_t clients) {
     Heard result;
     std::map<std::string, std::vector<std::size_t>> counts;  // by station, of each client
@@ -246,8 +387,14 @@ Heard compare(const std::vector<HeardEvent>& events, const RenameClock& renames,
         const auto time = parse_utc(event.grid, UtcTime{});
         if (!time) continue;
         const cache::GridName name{event.station, level2::Moment::ref, *time};
-        const auto renamed = renames.nearest(cache::relative_path(name).filename(), event.at);
-        if (renamed) result.event_ms.push_back(std::max(ms_between(*renamed, event.at), 0.0));
+        const auto renamed = renames.find(cache::relative_path(name).filename());
+        if (renamed == renames.end()) continue;
+        double nearest_ms = HUGE_VAL;  // of the renames of this grid
+        for (const Clock::time_point at : renamed->second) {
+            if (std::abs(ms_between(at, event.at)) < std::abs(nearest_ms))
+                nearest_ms = ms_between(at, event.at);
+        }
+        result.event_ms.push_back(std::max(nearest_ms, 0.0));
     }
     for (std::size_t i = 0; i < clients; ++i) {
         const auto& of_station = counts[stations[i % stations.size()]];
@@ -261,61 +408,61 @@ Heard compare(const std::vector<HeardEvent>& events, const RenameClock& renames,
 struct Wanted {
     int streams = 1000;
     int sites = national_sites;
-    int asked_per_s = 0;
     double seconds = 60;
 };
 
 Status measure_streams(const NationalFeed& feed, const Wanted& wanted, const fs::path& root,
                        Table& table) {
     Pair pair(root);
-    FeedRun run(feed, pair.daemon, Delivery::chunks);
-    if (Status sent = run.send_beginnings(); !sent) return sent;
-    if (Status watched = run.watch(feed); !watched) return watched;
-    RenameClock renames;
-    if (Status watched = renames.start(pair.daemon.cache(), feed); !watched) return watched;
-    if (Status started = pair.start_daemon(); !started) return started;
-    if (!run.drain(120)) fmt::print(stderr, "not all of the beginnings were read\n");
-    auto web = pair.serve();
-    if (!web) return pass_on(web);
     std::vector<std::string> stations, queries;
     for (const NationalSite& site : feed.sites())
         stations.emplace_back(site.station.icao);
     const auto streams = static_cast<std::size_t>(wanted.streams);
     for (std::size_t i = 0; i < streams; ++i)
         queries.push_back("station=" + stations[i % stations.size()]);
-    auto clients = EventClients::open(pair.port, queries);
-    if (!clients) return pass_on(clients);
-    (void)(*clients)->take();
-    OtherRequests others(*web, feed, wanted.asked_per_s, root);
-    const double cpu_before_s = web->process.cpu_s();
-    const auto begin = Clock::now();
+    std::optional<WebServer> web;
+    std::unique_ptr<EventClients> clients;
+    double cpu_before_s = 0;
+    Clock::time_point begin;
+    const auto open = [&]() -> Status {
+        auto served = pair.serve();
+        if (!served) return pass_on(served);
+        web.emplace(std::move(*served));
+        auto opened = EventClients::open(pair.port, queries);
+        if (!opened) return pass_on(opened);
+        clients = std::move(*opened);
+        (void)clients->take();
+        cpu_before_s = web->process.cpu_s();
+        begin = Clock::now();
+        return {};
+    };
     StretchOptions options;
+    options.delivery = synth::Delivery::chunks;
     options.most_wall_s = wanted.seconds;
-    const auto stretch = run.run(options);
+    FeedRun run(feed, pair.daemon);
+    const auto stretch = run.run(options, configuration_for(pair.port), open);
     if (!stretch) return pass_on(stretch);
-    std::this_thread::sleep_for(200ms);
     const double wall_s = ms_between(begin, Clock::now()) / 1000;
     const double cpu_s = web->process.cpu_s() - cpu_before_s;
-    others.stop();
-    renames.stop();
-    const Heard heard = compare((*clients)->take(), renames, stations, streams);
+    std::size_t renames = 0;
+    for (const auto& [grid, times] : run.renames())
+        renames += times.size();
+    const Heard heard = compare(clients->take(), run.renames(), stations, streams);
     table.add({{"streams", wanted.streams},
-               {"asked_per_s", Cell{others.asked / wall_s, 1}},
-               {"failed", others.failed.load()},
                {"seconds", Cell{wall_s, 0}},
-               {"grids_per_s", Cell{static_cast<double>(renames.renames_after(begin)) / wall_s, 1}},
+               {"grids_per_s", Cell{static_cast<double>(renames) / wall_s, 1}},
                {"events_per_s", Cell{static_cast<double>(heard.told) / wall_s, 1}},
                {"heard_per_s", Cell{static_cast<double>(heard.heard) / wall_s, 1}},
                {"lost", static_cast<int>(heard.lost)},
-               {"closed", static_cast<int>((*clients)->closed())},
+               {"closed", static_cast<int>(clients->closed())},
                {"event_p50_ms", Cell{quantile(heard.event_ms, 0.5), 1}},
                {"event_p95_ms", Cell{quantile(heard.event_ms, 0.95), 1}},
                {"event_max_ms", Cell{quantile(heard.event_ms, 1), 1}},
                {"web_cores", Cell{cpu_s / wall_s, 3}},
-               {"web_peak_mib", Cell{web->process.peak_mib(), 0}},
+               {"web_peak_mib", Cell{web->process.memory_mib(), 0}},
                {"daemon_cores", Cell{stretch->daemon_cpu_s / stretch->wall_s, 2}},
-               {"grid_p50_s", Cell{stretch->latency_s(0.5), 3}},
-               {"grid_p95_s", Cell{stretch->latency_s(0.95), 3}}});
+               {"grid_p50_s", Cell{quantile(stretch->latencies_s, 0.5), 3}},
+               {"grid_p95_s", Cell{quantile(stretch->latencies_s, 0.95), 3}}});
     (void)web->process.stop();
     if (!pair.daemon.stop()) return fail(ErrorCode::io, "the daemon did not end well");
     return {};
@@ -326,17 +473,11 @@ Status measure_hour(const Request& request, const Wanted& wanted, const fs::path
     const auto feed = NationalFeed::make(wanted.sites, 1, request.data_directory(), work / "feed",
                                          request.threads.back());
     if (!feed) return pass_on(feed);
-    std::set<int> rates = {0, wanted.asked_per_s};
-    for (const int rate : rates) {
-        const fs::path root = work / fmt::format("events-{}", ::getpid());
-        Wanted one = wanted;
-        one.asked_per_s = rate;
-        const Status measured = measure_streams(*feed, one, root, table);
-        std::error_code error;
-        fs::remove_all(root, error);
-        if (!measured) return measured;
-    }
-    return {};
+    const fs::path root = work / fmt::format("events-{}", ::getpid());
+    Status measured = measure_streams(*feed, wanted, root, table);
+    std::error_code error;
+    fs::remove_all(root, error);
+    return measured;
 }
 
 std::vector<fs::path> files_of(const Request& request) {
@@ -353,7 +494,6 @@ int run(const Request& request) {
         (fs::temp_directory_path() / "stormcellar-bench-feed").string()));
     Wanted wanted;
     wanted.streams = std::atoi(request.value("--streams").value_or("1000").c_str());
-    wanted.asked_per_s = std::atoi(request.value("--asked").value_or("10").c_str());
     wanted.seconds = std::atof(request.value("--seconds").value_or("60").c_str());
     wanted.sites =
         std::atoi(request.value("--sites").value_or(std::to_string(national_sites)).c_str());
@@ -386,11 +526,10 @@ int main(int argc, char** argv) {
         .name = "bench_events",
         .files = "[FILE ...]",
         .purpose =
-            "events of the data server: latency of sweeps, and many streams at the heaviest\n"
-            "national hour; --streams N, --asked REQUESTS_A_SECOND, --seconds N, --sites N,\n"
-            "--work DIR",
+            "how soon grids and events of the data server follow: --sweeps, one by one;\n"
+            "--hour, many --streams at the heaviest national hour",
         .flags = {"--sweeps", "--hour"},
-        .values = {"--streams", "--asked", "--seconds", "--sites", "--work"}};
+        .values = {"--streams", "--seconds", "--sites", "--work"}};
     const auto read = bench::read_request(program, std::span(argv, static_cast<std::size_t>(argc)));
     return read.request ? bench::run(*read.request) : read.status;
 }

@@ -1,9 +1,12 @@
 // bench_feed: plays the heaviest national hour of Level II to the real stormcellard.
 //
-// A national feed (bench/national_feed.h) is made once, untimed, below --work. Then the daemon that
-// was built with this program is started with its own directories there, gridding every volume at 1
-// km and 32 levels. What every site has already sent of its current volume is there from the start.
-// The feed is played at each speed in turn to the same daemon. A row for each speed:
+// usage: bench_feed [--data DIR] [--work DIR] [--as growing|open|whole|chunks] [--speeds "1 16"]
+//        [--seconds N] [--sites N] [--full] [--soak-hours N] [--threads N] [--json]
+//        (bench/request.h)
+// A national feed (bench/national_feed.h) is made once, untimed, below --work. For each speed, the
+// daemon that was built with this program is started with its own directories there, gridding every
+// volume at 1 km and 32 levels. What every site has already sent of its current volume is there
+// from the start. A row for each speed:
 //   speed          the requested speed
 //   sustained_x    heaviest hours an hour (bench/feed_run.h); with --sites, of that part of them
 //   raw_mb_per_s   10^6 bytes of messages a second of wall time
@@ -18,10 +21,14 @@
 //   held           share of the time during which the feed was paused
 //   cache_mib      the largest size of the cache
 // --sites N: the first N of the 160 sites, each sending as much, for a trial.
-// --full: the whole hour at speed 1, then a long run of 16 sites over 24 hours of the feed's clock.
+// --soak-hours N: instead, 16 sites over N hours of the feed's clock, as fast as the daemon takes
+// them; files, rows and grids must agree in the end. --full: the whole hour at speed 1, then that
+// of 24 hours.
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -30,7 +37,6 @@
 #include <unistd.h>
 
 #include "bench/feed_run.h"
-#include "bench/feed_soak.h"
 #include "bench/measure.h"
 #include "bench/national_feed.h"
 #include "bench/request.h"
@@ -46,52 +52,51 @@ constexpr double unlimited_speed = 16;
 constexpr double default_paced_s = 90, default_fast_s = 90, full_fast_s = 600;
 constexpr int soak_sites = 16, soak_hours = 24;
 constexpr std::uint64_t cache_budget = std::uint64_t{2} << 30U;
-constexpr std::size_t kinds = 3;
 
 constexpr const char* daemon_configuration =
     "[cache]\nbytes = \"2 GiB\"\n[ingest]\nspacing_km = 1.0\nextent_km = [460, 460]\n"
     "levels_km = \"0.5:16:0.5\"\n[log]\nlevel = \"warning\"\n";
 
-// CPU seconds of bunzip alone for a byte of each kind.
+// CPU seconds of bunzip alone for a byte of the feed.
 class BzipCost {
   public:
     explicit BzipCost(const NationalFeed& feed) {
-        for (std::size_t kind = 0; kind < kinds; ++kind) {
-            const auto site = std::find_if(
-                feed.sites().begin(), feed.sites().end(),
-                [kind](const auto& one) { return one.kind == static_cast<int>(kind); });
-            if (site == feed.sites().end()) continue;
-            if (auto file = read_file(site->hours.front().path)) files_[kind] = std::move(*file);
+        double bytes = 0;
+        for (const NationalSite& site : feed.sites()) {
+            Kind& kind = kinds_[site.kind];
+            if (kind.file.empty()) {
+                if (auto file = read_file(site.hours.front())) kind.file = std::move(*file);
+            }
+            kind.share += static_cast<double>(site.bytes);
+            bytes += static_cast<double>(site.bytes);
         }
+        for (auto& [number, kind] : kinds_)
+            kind.share /= bytes;
     }
     void measure() {
-        for (std::size_t kind = 0; kind < kinds; ++kind) {
+        for (const auto& [number, kind] : kinds_) {
             Bytes peeled;
-            const auto records = ldm_records(files_[kind], peeled);
+            const auto records = ldm_records(kind.file, peeled);
             const double before_s = cpu_s();
             bunzip_all(records);
-            seconds_[kind] += cpu_s() - before_s;
+            seconds_ += (cpu_s() - before_s) / static_cast<double>(kind.file.size()) * kind.share;
         }
         ++runs_;
     }
-    [[nodiscard]] double seconds_for(const std::vector<std::uint64_t>& bytes_of_kind) const {
-        double seconds = 0;
-        for (std::size_t kind = 0; kind < kinds; ++kind) {
-            if (files_[kind].empty()) continue;
-            seconds += seconds_[kind] / runs_ * static_cast<double>(bytes_of_kind[kind]) /
-                       static_cast<double>(files_[kind].size());
-        }
-        return seconds;
-    }
+    [[nodiscard]] double seconds_for(double bytes) const { return bytes * seconds_ / runs_; }
 
   private:
-    std::array<Bytes, kinds> files_;
-    std::array<double, kinds> seconds_{};
+    struct Kind {
+        Bytes file;
+        double share = 0;  // of the feed's bytes
+    };
+    std::map<int, Kind> kinds_;
+    double seconds_ = 0;
     int runs_ = 0;
 };
 
 struct Wanted {
-    Delivery delivery = Delivery::growing;
+    synth::Delivery delivery = synth::Delivery::growing;
     std::string delivery_name = "growing";
     fs::path work;
     bool full = false;
@@ -105,12 +110,11 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
     table.add({{"as", wanted.delivery_name},
                {"speed", {speed, 1}},
                {"sites", wanted.sites},
-               {"sustained_x", {stretch.sustained(), 2}},
-               {"raw_mb_per_s",
-                {static_cast<double>(stretch.bytes) * expansion / 1e6 / stretch.wall_s, 1}},
-               {"latency_p50_s", {stretch.latency_s(0.5), 3}},
-               {"latency_p95_s", {stretch.latency_s(0.95), 3}},
-               {"latency_max_s", {stretch.latency_s(1), 3}},
+               {"sustained_x", {stretch.sustained, 2}},
+               {"raw_mb_per_s", {stretch.bytes * expansion / 1e6 / stretch.wall_s, 1}},
+               {"latency_p50_s", {quantile(stretch.latencies_s, 0.5), 3}},
+               {"latency_p95_s", {quantile(stretch.latencies_s, 0.95), 3}},
+               {"latency_max_s", {quantile(stretch.latencies_s, 1), 3}},
                {"bzip2_share", {bunzip_s / stretch.daemon_cpu_s, 3}},
                {"peak_mib", {stretch.memory.peak_mib, 0}},
                {"anonymous_mib", {stretch.memory.anonymous_mib, 0}},
@@ -121,14 +125,11 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
                {"ungridded", static_cast<int>(stretch.ungridded)},
                {"held", {stretch.held_s / stretch.wall_s, 2}},
                {"cache_mib", {static_cast<double>(stretch.most_cache_bytes) / mebibyte, 0}}});
-    fmt::print(
-        stderr,
-        "speed {}: {:.0f} s of the feed ({:.2f} GB, {} chunks) in {:.1f} s, {:.1f} of them "
-        "after the last chunk; at most {} files waited; {} failures, {} overflows; the daemon's "
-        "own latency: median {:.2f} s, 95 % {:.2f} s\n",
-        speed, stretch.feed_s, static_cast<double>(stretch.bytes) / 1e9, stretch.chunks,
-        stretch.wall_s, stretch.drain_s, stretch.most_waiting, stretch.last.failures,
-        stretch.last.overflows, stretch.last.latency_median_s, stretch.last.latency_p95_s);
+    fmt::print(stderr,
+               "speed {}: {:.2f} GB in {:.1f} s, {:.1f} of them after the last chunk; at most {} "
+               "files waited; {} failures, {} overflows\n",
+               speed, stretch.bytes / 1e9, stretch.wall_s, stretch.drain_s, stretch.most_waiting,
+               stretch.last.failures, stretch.last.overflows);
     if (!stretch.drained) {
         fmt::print(stderr,
                    "NOT ALL WAS READ: {} files wait, {} volumes have no grid; sustained_x "
@@ -138,101 +139,84 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
     if (stretch.most_cache_bytes > cache_budget) fmt::print(stderr, "THE CACHE IS OVER BUDGET\n");
 }
 
-// Returns when the daemon has read what was there from the start; the feed's clock is then at 0.
-Status begin(const NationalFeed& feed, DaemonProcess& daemon, FeedRun& run) {
-    if (auto sent = run.send_beginnings(); !sent) return sent;
-    if (auto watched = run.watch(feed); !watched) return watched;
-    if (auto started = daemon.start(daemon_configuration); !started) return started;
-    bool idle = false;
-    const double warm_s = seconds_of([&] { idle = run.drain(120); });
-    fmt::print(stderr, "the beginnings of {} volumes were read in {:.0f} s{}\n",
-               feed.sites().size(), warm_s, idle ? "" : ", and not all");
+// Plays the feed once to a daemon of its own, whose directories are kept if anything fails. `check`
+// is called after the daemon has ended.
+Status play(const NationalFeed& feed, const Wanted& wanted, const StretchOptions& options,
+            const std::function<Status(const Stretch&, const DaemonProcess&)>& check) {
+    const fs::path root = wanted.work / fmt::format("run-{}", ::getpid());
+    DaemonProcess daemon(root);
+    FeedRun run(feed, daemon);
+    const auto stretch = run.run(options, daemon_configuration);
+    if (!stretch) return pass_on(stretch);
+    if (!daemon.stop())
+        return fail(ErrorCode::internal, "the end was not clean: {}", root.native());
+    if (Status checked = check(*stretch, daemon); !checked) return checked;
+    std::error_code ignored;
+    fs::remove_all(root, ignored);
     return {};
 }
 
 Status measure_hour(const Request& request, const Wanted& wanted, Table& table) {
-    Result<NationalFeed> feed = fail(ErrorCode::internal, "");
-    const double made_s = seconds_of([&] {
-        feed = NationalFeed::make(wanted.sites, 1, request.data_directory(), wanted.work / "feed",
-                                  request.threads.back());
-    });
+    const auto feed = NationalFeed::make(wanted.sites, 1, request.data_directory(),
+                                         wanted.work / "feed", request.threads.back());
     if (!feed) return pass_on(feed);
-    fmt::print(
-        stderr,
-        "feed: {} sites, {:.2f} GB on disk, {:.1f} times as much unpacked, a volume in {:.0f} "
-        "s, {:.1f} chunks a second, made in {:.0f} s\n",
-        feed->sites().size(), static_cast<double>(feed->bytes_on_disk()) / 1e9,
-        feed->message_bytes_per_byte(), feed->period_s(), feed->chunks_a_second(), made_s);
-    const fs::path root = wanted.work / fmt::format("run-{}", ::getpid());
-    Status outcome;
-    {
-        DaemonProcess daemon(root);
-        FeedRun run(*feed, daemon, wanted.delivery);
+    fmt::print(stderr,
+               "feed: {} sites, {:.1f} times as much unpacked, a volume in {:.0f} s, {:.1f} chunks "
+               "a second\n",
+               feed->sites().size(), feed->message_bytes_per_byte(), feed->period_s(),
+               feed->chunks_a_second());
+    for (const double speed : wanted.speeds) {
+        StretchOptions options;
+        options.delivery = wanted.delivery;
+        options.speed = speed;
+        options.most_wall_s = speed <= 1 ? wanted.paced_s : wanted.fast_s;
+        options.most_feed_s = options.most_wall_s * speed + feed->period_s();
         BzipCost bzip(*feed);
-        outcome = begin(*feed, daemon, run);
-        for (std::size_t i = 0; outcome && i < wanted.speeds.size(); ++i) {
-            StretchOptions options;
-            options.speed = wanted.speeds[i];
-            options.most_wall_s = options.speed <= 1 ? wanted.paced_s : wanted.fast_s;
+        bzip.measure();
+        Status played = play(*feed, wanted, options, [&](const Stretch& stretch, const auto&) {
             bzip.measure();
-            const auto stretch = run.run(options);
-            bzip.measure();
-            if (!stretch) {
-                outcome = pass_on(stretch);
-            } else {
-                add_row(wanted, options.speed, *stretch, bzip.seconds_for(stretch->bytes_of_kind),
-                        feed->message_bytes_per_byte(), table);
-            }
-        }
-        if (outcome && !daemon.stop()) outcome = fail(ErrorCode::internal, "the end was not clean");
+            add_row(wanted, speed, stretch, bzip.seconds_for(stretch.bytes),
+                    feed->message_bytes_per_byte(), table);
+            return Status{};
+        });
+        if (!played) return played;
     }
-    std::error_code ignored;
-    if (outcome) fs::remove_all(root, ignored);
-    return outcome;
+    return {};
 }
 
 Status measure_soak(const Request& request, const Wanted& wanted, int hours, Table& table) {
     const auto feed = NationalFeed::make(soak_sites, hours, request.data_directory(),
                                          wanted.work / "feed", request.threads.back());
     if (!feed) return pass_on(feed);
-    const fs::path root = wanted.work / fmt::format("soak-{}", ::getpid());
-    DaemonProcess daemon(root);
-    FeedRun run(*feed, daemon, wanted.delivery);
-    if (auto begun = begin(*feed, daemon, run); !begun) return begun;
     StretchOptions options;
+    options.delivery = wanted.delivery;
     options.speed = unlimited_speed * national_sites / soak_sites;
     options.most_feed_s = 3600.0 * hours;
-    const auto stretch = run.run(options);
-    if (!stretch) return pass_on(stretch);
-    const bool clean = daemon.stop();
-    const auto check = check_soak(*feed, run.player().volumes_sent(), daemon);
-    if (!check) return pass_on(check);
-    const double slope = memory_slope_mib_h(stretch->samples);
-    const auto count = [](std::size_t number) { return static_cast<int>(number); };
-    table.add({{"soak_hours", hours},
-               {"sites", soak_sites},
-               {"volumes", count(stretch->volumes)},
-               {"wall_s", {stretch->wall_s, 0}},
-               {"sustained_x", {stretch->sustained() * soak_sites / national_sites, 2}},
-               {"slope_mib_an_hour", {slope, 2}},
-               {"slope_mib_a_day_of_feed", {slope * stretch->wall_s / 3600 * 24 / hours, 2}},
-               {"peak_mib", {stretch->memory.peak_mib, 0}},
-               {"anonymous_mib", {stretch->memory.anonymous_mib, 0}},
-               {"files", count(check->files)},
-               {"rows", count(check->rows)},
-               {"missing_rows", count(check->missing_rows)},
-               {"wrong_rows", count(check->wrong_rows)},
-               {"grids", count(check->grids)},
-               {"missing_grids", count(check->missing_grids)},
-               {"ungridded", count(stretch->ungridded)},
-               {"cache_mib", {static_cast<double>(stretch->most_cache_bytes) / mebibyte, 0}}});
-    if (!clean) return fail(ErrorCode::internal, "the end was not clean: {}", root.native());
-    if (!check->agrees()) {
-        return fail(ErrorCode::internal, "files, rows and grids disagree: {}", root.native());
-    }
-    std::error_code ignored;
-    fs::remove_all(root, ignored);
-    return {};
+    return play(*feed, wanted, options, [&](const Stretch& stretch, const DaemonProcess& daemon) {
+        const auto check = check_soak(*feed, stretch.volumes_sent, daemon);
+        if (!check) return Status(pass_on(check));
+        const double slope = memory_slope_mib_h(stretch.samples);
+        const auto count = [](std::size_t number) { return static_cast<int>(number); };
+        table.add({{"soak_hours", hours},
+                   {"sites", soak_sites},
+                   {"volumes", count(stretch.volumes)},
+                   {"wall_s", {stretch.wall_s, 0}},
+                   {"sustained_x", {stretch.sustained * soak_sites / national_sites, 2}},
+                   {"slope_mib_an_hour", {slope, 2}},
+                   {"slope_mib_a_day_of_feed", {slope * stretch.wall_s / 3600 * 24 / hours, 2}},
+                   {"peak_mib", {stretch.memory.peak_mib, 0}},
+                   {"anonymous_mib", {stretch.memory.anonymous_mib, 0}},
+                   {"files", count(check->files)},
+                   {"rows", count(check->rows)},
+                   {"missing_rows", count(check->missing_rows)},
+                   {"wrong_rows", count(check->wrong_rows)},
+                   {"grids", count(check->grids)},
+                   {"missing_grids", count(check->missing_grids)},
+                   {"ungridded", count(stretch.ungridded)},
+                   {"cache_mib", {static_cast<double>(stretch.most_cache_bytes) / mebibyte, 0}}});
+        if (check->agrees()) return Status{};
+        return Status(fail(ErrorCode::internal, "files, rows and grids disagree"));
+    });
 }
 
 std::optional<Wanted> wanted_of(const Request& request) {
@@ -241,6 +225,7 @@ std::optional<Wanted> wanted_of(const Request& request) {
         (fs::temp_directory_path() / "stormcellar-bench-feed").string()));
     wanted.full = request.has("--full");
     wanted.delivery_name = request.value("--as").value_or("growing");
+    using synth::Delivery;
     const std::array<std::pair<const char*, Delivery>, 4> ways = {{{"growing", Delivery::growing},
                                                                    {"open", Delivery::open},
                                                                    {"whole", Delivery::whole},
@@ -275,8 +260,7 @@ int run(int argc, char** argv) {
         {"bench_feed",
          "",
          "the heaviest national hour before stormcellard: speed, latency, memory, bzip2's share.\n"
-         "--as growing|open|whole|chunks, --speeds \"1 16\", --seconds of each, --sites N, "
-         "--soak-hours N",
+         "--as growing|open|whole|chunks, --speeds \"1 16\", --seconds of each",
          {"--full"},
          {"--work", "--as", "--speeds", "--seconds", "--sites", "--soak-hours"}},
         std::span(argv, static_cast<std::size_t>(argc)));

@@ -35,12 +35,9 @@
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "bench/volume_site.h"
 #include "stormcellar/base/file_system.h"
-#include "stormcellar/base/station_table.h"
 #include "stormcellar/export/grid_netcdf.h"
 #include "stormcellar/grid/gridder.h"
-#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -71,17 +68,6 @@ grid::GridSpec spec_about(const grid::SitePosition& site, const NamedSpec& named
     return spec;
 }
 
-Result<level2::Volume> decode_ref(const fs::path& file, const Bytes& bytes, int threads) {
-    const std::string name = file.filename().string().substr(0, 4);
-    level2::DecodeOptions options;
-    if (find_station(name)) options.fallback_station = name;
-    options.threads = threads;
-    options.selection.moments = {level2::Moment::ref};
-    auto decoded = level2::decode(bytes, options);
-    if (!decoded) return pass_on(decoded);
-    return std::move(decoded->volume);
-}
-
 // The least seconds of each phase.
 struct Phases {
     double decode_s = HUGE_VAL, geometry_s = HUGE_VAL, first_grid_s = HUGE_VAL, grid_s = HUGE_VAL;
@@ -103,7 +89,8 @@ double seconds_said(std::string_view json, std::string_view key) {
 void run_once(const fs::path& file, const Bytes& bytes, const NamedSpec& named, int threads,
               const fs::path& netcdf, Phases& least) {
     Result<level2::Volume> volume = fail(ErrorCode::empty, "");
-    const double decode_s = seconds_of([&] { volume = decode_ref(file, bytes, threads); });
+    const double decode_s =
+        seconds_of([&] { volume = decode_ref(bytes, file.filename().native(), threads); });
     const auto site = site_of(volume.value()).value();
     const grid::GridSpec spec = spec_about(site, named);
     const grid::GridderOptions options{level2::Moment::ref, 0, threads, {}, {}};
@@ -114,7 +101,8 @@ void run_once(const fs::path& file, const Bytes& bytes, const NamedSpec& named, 
     const std::string levels = fmt::format("{0}:{1}:{0}", named.level_step_m / 1000,
                                            named.levels * named.level_step_m / 1000);
     const double side_km = named.side * named.spacing_m / 1000;
-    const auto whole = run_stormcellar(
+    const auto whole = run_program(
+        built_program("cli/stormcellar"),
         {"grid", file.string(), "-o", netcdf.string(), "--json", "--threads",
          std::to_string(threads), "--extent-km", fmt::format("{0},{0}", side_km), "--spacing-km",
          fmt::format("{}", named.spacing_m / 1000), "--levels-km", levels});
@@ -137,7 +125,7 @@ void run_once(const fs::path& file, const Bytes& bytes, const NamedSpec& named, 
 }
 
 bool can_be_gridded(const fs::path& file, const Bytes& bytes) {
-    const auto volume = decode_ref(file, bytes, 1);
+    const auto volume = decode_ref(bytes, file.filename().native(), 1);
     if (!volume) return false;
     const auto site = site_of(*volume);
     if (!site) return false;
@@ -160,7 +148,7 @@ Row row_of(const fs::path& file, const NamedSpec& named, int threads, const Phas
             {"libbz2_s", {least.libbz2_s, 4}},
             {"ratio", {least.ratio(), 3}},
             {"mcells_per_s", {cells / 1e6 / least.grid_s, 1}},
-            {"peak_mib", {peak.value_or(HUGE_VAL), 1}}};
+            {"peak_mib", {peak, 1}}};
 }
 
 void measure(const fs::path& file, const Request& request, Table& table) {
@@ -183,20 +171,16 @@ void measure(const fs::path& file, const Request& request, Table& table) {
 }
 
 int grid_once(const char* file, const char* threads, std::string_view spec) {
-    const auto raw = read_file(file);
-    if (!raw) return 1;
     const int count = static_cast<int>(number_in(threads));
-    const auto volume = decode_ref(file, *raw, count);
-    if (!volume) return 1;
+    const auto named = std::find_if(specs.begin(), specs.end(),
+                                    [&](const NamedSpec& one) { return spec == one.name; });
+    const auto volume = decode_ref(fs::path{file}, count);
+    if (!volume || named == specs.end()) return 1;
     const auto site = site_of(*volume);
     if (!site) return 1;
-    for (const NamedSpec& named : specs) {
-        if (spec != named.name) continue;
-        const auto geometry = grid::make_column_geometry(*site, spec_about(*site, named));
-        const auto grid =
-            grid::make_grid(*volume, *site, **geometry, {level2::Moment::ref, 0, count, {}, {}});
-        if (!grid) return 1;
-    }
+    const auto geometry = grid::make_column_geometry(*site, spec_about(*site, *named));
+    if (!grid::make_grid(*volume, *site, **geometry, {level2::Moment::ref, 0, count, {}, {}}))
+        return 1;
     fmt::print("{}\n", high_water_kib());
     return 0;
 }

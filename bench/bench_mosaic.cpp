@@ -1,7 +1,8 @@
 // bench_mosaic: turns raw files of five hours of 1 to 100 radars into merged volumes for rendering.
 //
 // usage: bench_mosaic [--data DIR] [--work DIR] [--threads N] [--runs N] [--full]
-//        [--sites | --us | --only SITES] [--hours H] [--alone] [--json] (bench/request.h)
+//        [--sites | --us | --only SITES] [--hours H] [--alone] [--cache DIR]
+//        [--batch local|make|slurm] [--json]      (bench/request.h)
 // This is the experiment of the paper of 2008: 100 sites, 5 hours, 27 GB uncompressed, on a grid of
 // 256 x 256 x 128 cells over the common box of the sites. bench/mosaic_feed.h describes the files,
 // bench/mosaic_run.h what is timed. Files are made once, untimed, in the directory of --work (by
@@ -18,49 +19,82 @@
 //   peak_mib   peak memory of the process
 //   paper_min  the paper's minutes, which are known for 100 sites: 46.87 in sequence (shown for one
 //              thread), 8.92 on its pool of 512 nodes (shown for more)
-// Then the rows of the United States at 0.01 degrees follow, with the columns of bench_merge, the
-// least of the runs (bench/us_mosaic.h). --sites or --us: one of the two alone; --only: this number
-// of sites alone; --hours: the first H of the five hours, for a trial; --alone: without the runs of
-// libbz2, so that libbz2_s and ratio have no value, and no row is left out. Without --full only
-// those rows are run that are expected to end within 9 minutes, judged by the bytes and seconds of
-// the rows before. stderr shows what was read, what was left out, and CPU times, which are more
-// reliable than total_s if other programs use the same cores. The program runs itself with
-// --sites-once SITES THREADS FEED CACHE HOURS BESIDE.
+// --only: this number of sites alone; --hours: the first H of the five hours; --alone: without the
+// runs of libbz2, so that libbz2_s and ratio have no value, and no row is left out. Without --full
+// only those rows are run that are expected to end within 9 minutes, judged by the rows before.
+//
+// Then the rows of the United States at 0.01 degrees follow (bench/nation.h), the least of the
+// runs; --sites or --us: one of the two alone; --cache: the mosaic stays there as the domain US.
+//   update_cpu, update_s  merging the new volume's partial into the mosaic, in place
+//   sum_cpu     from the bytes of the new volume to there: seconds of CPU time of all threads
+//   merge_cpu, merge_s    merging the mosaic anew from all partials
+//   peak_mib    peak memory of the process so far
+//
+// --batch: instead, the same as a batch of tasks (`stormcellar batch`) beside one process. All raw
+// files are made then, 3.5 GB for 100 sites and five hours. A task is what one station sent on one
+// day, or the frames of an hour; --threads says how many run at a time. Slurm must run;
+// scripts/bench-batch starts one. Both ways alternate, and each row is one run:
+//   engine, sites, tasks, frames
+//   batch_s      from `batch submit` to the end of the last task
+//   mosaic_s     the same files in one process; ratio: batch_s / mosaic_s
+//   task_cpu_s, mosaic_cpu_s, cpu_ratio  CPU time inside tasks, and of the one process
+//   overhead_s   time in which a place for a task was not inside one, a task
+//   plan_s       `batch plan`, which is not part of batch_s
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "batch/check.h"
 #include "bench/measure.h"
 #include "bench/mosaic_feed.h"
 #include "bench/mosaic_run.h"
+#include "bench/nation.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "bench/us_mosaic.h"
 
 namespace stormcellar::bench {
 namespace {
 
 namespace fs = std::filesystem;
+using std::chrono::hours;
 
 constexpr double most_default_s = 540;
 constexpr double sites_of_paper = 100;
 constexpr double sequential_min = 46.87, pool_min = 8.92;
 
-int sites_once(int sites, int threads, const fs::path& feed, const fs::path& cache,
-               std::chrono::hours hours, Beside beside) {
+struct Case {
+    fs::path data, work;
+    hours length = feed_length;
+    FeedFiles files = FeedFiles::first_hour;
+    Beside beside = Beside::libbz2;
+    std::vector<int> sites = {1, 10, 30, 50, 100};
+    std::optional<std::string> engine;  // of --batch
+
+    [[nodiscard]] fs::path feed() const {
+        return work / (files == FeedFiles::first_hour ? std::string{"feed"}
+                                                      : fmt::format("files-{}", sites.back()));
+    }
+};
+
+// In a process of its own, with the words of run_sites().
+int sites_once(char** words) {
     keep_freed_memory();
-    const auto run = run_mosaic(sites, threads, feed, cache, hours, FeedFiles::first_hour, beside);
+    const auto run =
+        run_mosaic(static_cast<int>(number_in(words[0])), static_cast<int>(number_in(words[1])),
+                   words[2], words[3], hours(number_in(words[4])),
+                   std::string(words[5]) == "all" ? FeedFiles::every_hour : FeedFiles::first_hour,
+                   std::string(words[6]) == "alone" ? Beside::nothing : Beside::libbz2);
     if (!run) {
         fmt::print(stderr, "bench_mosaic: {}\n", run.error().message);
         return 1;
@@ -76,13 +110,12 @@ struct SitesRow {
     long peak_kib = 0;
 };
 
-std::optional<SitesRow> run_sites(int sites, int threads, const fs::path& work,
-                                  std::chrono::hours hours, Beside beside) {
-    const fs::path cache = work / fmt::format("cache-{}", ::getpid());
-    const auto said =
-        run_self({"--sites-once", std::to_string(sites), std::to_string(threads),
-                  (work / "feed").string(), cache.string(), std::to_string(hours.count()),
-                  beside == Beside::nothing ? "nothing" : "libbz2"});
+std::optional<SitesRow> run_sites(const Case& a_case, int sites, int threads) {
+    const fs::path cache = a_case.work / fmt::format("cache-{}", ::getpid());
+    const auto said = run_self({"--sites-once", std::to_string(sites), std::to_string(threads),
+                                a_case.feed(), cache, std::to_string(a_case.length.count()),
+                                a_case.files == FeedFiles::every_hour ? "all" : "first",
+                                a_case.beside == Beside::nothing ? "alone" : "beside"});
     std::error_code ignored;
     fs::remove_all(cache, ignored);
     if (!said) return std::nullopt;
@@ -121,14 +154,10 @@ void add_row(int sites, int threads, const SitesRow& row, Table& table) {
 }
 
 // Measures the rows of sites in the order in which they are run.
-Status measure_sites(const Request& request, const fs::path& work, std::chrono::hours hours,
-                     Table& table) {
+Status measure_sites(const Request& request, const Case& a_case, Table& table) {
     double elapsed_s = 0;
     double libbz2_a_site_s = 0;  // of one thread
-    const auto only = request.value("--only");
-    const auto beside = request.has("--alone") ? Beside::nothing : Beside::libbz2;
-    for (const int sites : {1, 10, 30, 50, 100}) {
-        if (only && number_in(*only) != sites) continue;
+    for (const int sites : a_case.sites) {
         for (const int threads : request.threads) {
             // A row takes some 1.6 times as long as libbz2 alone, which is timed as well. Making
             // files of new sites takes half as long as libbz2.
@@ -141,8 +170,8 @@ Status measure_sites(const Request& request, const fs::path& work, std::chrono::
             std::optional<SitesRow> row;
             Status made;
             elapsed_s += seconds_of([&] {
-                made = make_feed(sites, request.data_directory(), work / "feed", 2);
-                if (made) row = run_sites(sites, threads, work, hours, beside);
+                made = make_feed(sites, a_case.data, a_case.feed(), 2);
+                if (made) row = run_sites(a_case, sites, threads);
             });
             if (!made) return made;
             if (!row) return fail(ErrorCode::internal, "{} sites could not be run", sites);
@@ -153,53 +182,166 @@ Status measure_sites(const Request& request, const fs::path& work, std::chrono::
     return {};
 }
 
-std::optional<std::chrono::hours> hours_of(const Request& request) {
-    const auto asked = request.value("--hours");
-    if (!asked) return feed_length;
-    const std::chrono::hours hours(number_in(*asked));
-    if (hours.count() < 1 || hours > feed_length) return std::nullopt;
-    return hours;
+Result<double> seconds_of_stormcellar(std::vector<std::string> words) {
+    const auto ran = run_program(built_program("cli/stormcellar"), std::move(words));
+    if (!ran) return fail(ErrorCode::internal, "stormcellar batch failed");
+    return ran->seconds;
+}
+
+// Returns how long `batch plan` took, which takes the domain as options.
+Result<double> plan(const Case& a_case, int sites, const fs::path& directory) {
+    const grid::GridSpec domain = feed_domain(sites);
+    const double width_km = domain.spacing_m * domain.nx / 1000;
+    return seconds_of_stormcellar(
+        {"batch", "plan", "--source", a_case.feed(), "--from",
+         format_utc(feed_start() + std::chrono::minutes{5}), "--to",
+         format_utc(feed_start() + a_case.length), "--mosaic", "bench",
+         fmt::format("--center={},{}", domain.center_latitude_deg, domain.center_longitude_deg),
+         "--extent-km", fmt::format("{},{}", width_km, width_km), "--spacing-km",
+         fmt::format("{}", domain.spacing_m / 1000), "--levels-km",
+         fmt::format("{}:{}:{}", domain.levels_m.front() / 1000, domain.levels_m.back() / 1000,
+                     (domain.levels_m[1] - domain.levels_m[0]) / 1000),
+         "-o", directory});
+}
+
+struct BatchRun {
+    double total_s = 0, inside_s = 0;  // by the clock; inside all tasks
+    std::size_t tasks = 0;
+    batch::Totals done;
+};
+
+Result<BatchRun> run_batch(const Case& a_case, int threads, const fs::path& directory) {
+    const auto opened = batch::Plan::open(directory);
+    if (!opened) return pass_on(opened);
+    BatchRun run;
+    run.tasks = opened->facts().tasks();
+    Result<batch::CheckReport> report = fail(ErrorCode::internal, "not all tasks were done");
+    const auto began = std::chrono::steady_clock::now();
+    // Slurm takes half a second to give a place to the next task, and these take two.
+    const auto submitted = seconds_of_stormcellar(
+        {"batch", "submit", "--plan", directory, "--engine", *a_case.engine, "--jobs",
+         std::to_string(threads), "--array-size", std::to_string(run.tasks / 5 + 1)});
+    if (!submitted) return pass_on(submitted);
+    // Slurm has only taken the tasks; nothing says more surely than the records that they are done.
+    constexpr double longest_s = 3600;
+    while (run.total_s < longest_s) {
+        report = batch::check(*opened, {});
+        run.total_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        if (!report || report->missing.empty()) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds{200});
+    }
+    if (!report) return pass_on(report);
+    if (!report->missing.empty()) return fail(ErrorCode::internal, "tasks are missing");
+    run.done = report->done;
+    for (std::size_t number = 0; number < run.tasks; ++number) {
+        const auto task = opened->task(number);
+        const auto record = task ? batch::read_record(*opened, *task) : std::nullopt;
+        if (record)
+            run.inside_s += std::chrono::duration<double>(record->ended - record->started).count();
+    }
+    return run;
+}
+
+Status add_batch_row(const Case& a_case, int threads, Table& table) {
+    const int sites = a_case.sites.back();
+    const fs::path directory = a_case.work / fmt::format("plan-{}", ::getpid());
+    const auto plan_s = plan(a_case, sites, directory);
+    if (!plan_s) return pass_on(plan_s);
+    const auto batch = run_batch(a_case, threads, directory);
+    std::error_code ignored;
+    fs::remove_all(directory, ignored);
+    if (!batch) return pass_on(batch);
+    const auto row = run_sites(a_case, sites, threads);
+    if (!row) return fail(ErrorCode::internal, "the one process failed");
+    const MosaicRun& mosaic = row->run;
+    const double idle_s = batch->total_s * threads - batch->inside_s;
+    table.add({{"engine", *a_case.engine},
+               {"sites", sites},
+               {"tasks", static_cast<int>(batch->tasks)},
+               {"frames", static_cast<int>(batch->done.frames)},
+               {"batch_s", {batch->total_s, 2}},
+               {"mosaic_s", {mosaic.total_s, 2}},
+               {"ratio", {batch->total_s / mosaic.total_s, 3}},
+               {"task_cpu_s", {batch->done.cpu_s, 2}},
+               {"mosaic_cpu_s", {mosaic.cpu_s, 2}},
+               {"cpu_ratio", {batch->done.cpu_s / mosaic.cpu_s, 3}},
+               {"overhead_s", {idle_s / static_cast<double>(batch->tasks), 3}},
+               {"plan_s", {*plan_s, 2}}});
+    fmt::print(stderr,
+               "{} files of {:.2f} GB, {} left out, {:.2f} GB of grids and frames written, at most "
+               "{:.0f} MiB a task; in one process {} volumes, {} frames\n",
+               batch->done.files, static_cast<double>(batch->done.bytes_read) / 1e9,
+               batch->done.left_out, static_cast<double>(batch->done.bytes_written) / 1e9,
+               static_cast<double>(batch->done.most_memory_bytes) / mebibyte, mosaic.volumes,
+               mosaic.frames);
+    return {};
+}
+
+Status measure_batch(const Request& request, const Case& a_case, Table& table) {
+    Status status = make_feed(a_case.sites.back(), a_case.data, a_case.feed(), 2, a_case.length);
+    for (const int threads : request.threads) {
+        for (int turn = 0; status && turn < request.runs; ++turn)
+            status = add_batch_row(a_case, threads, table);
+    }
+    return status;
+}
+
+// None for bad usage, which is said.
+std::optional<Case> case_of(const Request& request) {
+    Case a_case;
+    a_case.data = request.data_directory();
+    a_case.work = request.value("--work").value_or(
+        (fs::temp_directory_path() / "stormcellar-bench-mosaic").string());
+    if (const auto only = request.value("--only"))
+        a_case.sites = {static_cast<int>(number_in(*only))};
+    if (const auto asked = request.value("--hours")) a_case.length = hours(number_in(*asked));
+    if (request.has("--alone")) a_case.beside = Beside::nothing;
+    a_case.engine = request.value("--batch");
+    if (a_case.engine) {
+        a_case.files = FeedFiles::every_hour;
+        a_case.beside = Beside::nothing;
+    }
+    const bool is_known = !a_case.engine || *a_case.engine == "local" || *a_case.engine == "make" ||
+                          *a_case.engine == "slurm";
+    if (is_known && a_case.sites.back() >= 1 && a_case.sites.back() <= most_sites &&
+        a_case.length >= hours{1} && a_case.length <= feed_length)
+        return a_case;
+    fmt::print(stderr,
+               "bench_mosaic: --only takes 1 to {} sites, --hours 1 to {}, --batch local, make or "
+               "slurm\n",
+               most_sites, feed_length.count());
+    return std::nullopt;
 }
 
 int run(int argc, char** argv) {
-    if (argc == 8 && std::string(argv[1]) == "--sites-once") {
-        return sites_once(static_cast<int>(number_in(argv[2])),
-                          static_cast<int>(number_in(argv[3])), argv[4], argv[5],
-                          std::chrono::hours(number_in(argv[6])),
-                          std::string(argv[7]) == "nothing" ? Beside::nothing : Beside::libbz2);
-    }
+    if (argc == 9 && std::string(argv[1]) == "--sites-once") return sites_once(argv + 2);
     keep_freed_memory();
     const auto [request, usage_status] =
         read_request({"bench_mosaic",
                       "",
                       "raw files of many sites to merged volumes, beside the paper's figures",
                       {"--full", "--sites", "--us", "--alone"},
-                      {"--work", "--only", "--hours"}},
+                      {"--work", "--only", "--hours", "--batch", "--cache"}},
                      std::span(argv, static_cast<std::size_t>(argc)));
     if (!request) return usage_status;
-    const fs::path work = request->value("--work").value_or(
-        (fs::temp_directory_path() / "stormcellar-bench-mosaic").string());
-    const auto hours = hours_of(*request);
-    if (!hours) {
-        fmt::print(stderr, "bench_mosaic: --hours takes 1 to {}\n", feed_length.count());
-        return 2;
-    }
+    const auto a_case = case_of(*request);
+    if (!a_case) return 2;
     Table table(request->json);
-    const auto exit_status = [](const Status& done) {
-        if (done) return 0;
-        fmt::print(stderr, "bench_mosaic: {}\n", done.error().message);
-        return done.error().code == ErrorCode::not_found ? 3 : 1;
-    };
-    if (!request->has("--us")) {
-        const int status = exit_status(measure_sites(*request, work, *hours, table));
-        if (status != 0) return status;
+    Status done;
+    if (a_case->engine) {
+        done = measure_batch(*request, *a_case, table);
+    } else {
+        if (!request->has("--us")) done = measure_sites(*request, *a_case, table);
+        if (done && !request->has("--sites") && !request->value("--only"))
+            done = measure_nation(*request, a_case->work, request->value("--cache"), table);
     }
-    if (!request->has("--sites") && !request->value("--only")) {
-        const int status = exit_status(measure_us(*request, work, table));
-        if (status != 0) return status;
+    if (done) {
+        table.finish();
+        return 0;
     }
-    table.finish();
-    return 0;
+    fmt::print(stderr, "bench_mosaic: {}\n", done.error().message);
+    return done.error().code == ErrorCode::not_found ? 3 : 1;
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
-// bench_plan: compares the time that the planner predicts for gridding with the time that it takes.
+// bench_plan: compares what the planner says of a grid, its time and its error, with what is true.
 //
-// usage: bench_plan [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
+// usage: bench_plan [--data DIR] [--threads N] [--runs N] [--times | --errors] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
-// There is a row for each file, moment, number of threads and choice of rungs:
+// --times: a row for each file, moment, number of threads and choice of rungs:
 //   file         its name
 //   moment       REF or VEL
 //   threads      for gridding
@@ -15,9 +15,15 @@
 //   predict_s    the time that predicting took, once for all choices
 // The grid has 460 x 460 x 32 cells at 1 km, 0.4 degrees east of the site so that the frames
 // differ. The choices are: each rung of each step with the others at their default, every
-// interpolation with either extent of cells, and the chain's exact form. Files without the moment
-// are left out.
+// interpolation with either extent of cells, and the chain's exact form.
+// --errors: a row for each volume, domain and budget that leaves something off:
+//   cells        that have a value in the chosen grid and in the exact one
+//   stated_db    99th percentile that the plan states
+//   true_db      99th percentile over all these cells
+//   held         1 if the true one is at most the stated one, else 0
+// Without either option, both. Files without the moment are left out.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -32,6 +38,9 @@
 #include "bench/request.h"
 #include "bench/table.h"
 #include "grid/plan/grid_effects.h"
+#include "grid/plan/grid_scene.h"
+#include "stormcellar/accuracy/error_statistics.h"
+#include "stormcellar/accuracy/planner.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
@@ -120,20 +129,19 @@ double seconds_of_gridding(grid::GridScene& scene, const grid::SceneChoice& choi
     return least_s;
 }
 
-void measure(const fs::path& file, level2::Moment moment, int threads, int runs, Table& table) {
+void measure_times(const fs::path& file, level2::Moment moment, int threads, int runs,
+                   Table& table) {
     const auto volume = decode_moment(file, moment);
     if (!volume) return;
-    const auto antenna = level2::antenna_position(*volume);
-    if (!antenna) return;
-    const grid::SitePosition site{volume->station, antenna->latitude_deg, antenna->longitude_deg,
-                                  antenna->altitude_m};
-    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg + 0.4);
+    const auto site = site_of(*volume);
+    if (!site) return;
+    grid::GridSpec spec = grid::default_spec(site->latitude_deg, site->longitude_deg + 0.4);
     spec.nx = spec.ny = 460;
     spec.spacing_m = 1000;
     grid::SceneOptions options;
     options.moment = moment;
     options.threads = threads;
-    auto scene = grid::GridScene::make(*volume, site, spec, options);
+    auto scene = grid::GridScene::make(*volume, *site, spec, options);
     if (!scene || scene->columns_with_echo() == 0) return;
     accuracy::Chain chain = grid::effects_of(moment);
     const double start_s = accuracy::monotonic_s();
@@ -154,18 +162,107 @@ void measure(const fs::path& file, level2::Moment moment, int threads, int runs,
     }
 }
 
-void measure_all(const fs::path& file, const Request& request, Table& table) {
-    for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::vel}) {
-        for (const int threads : request.threads)
-            measure(file, moment, threads, request.runs, table);
+struct Domain {
+    const char* name;
+    double side_m;
+    double spacing_m;
+    double off_km;  // of its center, to the east of the site
+};
+constexpr std::array domains = {Domain{"460 km", 460e3, 1000, 0}, Domain{"300 km", 300e3, 1000, 0},
+                                Domain{"300 km coarse", 300e3, 2000, 0},
+                                Domain{"80 km fine", 80e3, 500, 60}};
+constexpr std::array budgets = {"250 m, 1 dB", "1 km, 3 dB", "1 km, 5 dB", "2 km, 6 dB",
+                                "3 km, 10 dB"};
+
+grid::GridSpec spec_of(const grid::SitePosition& site, const Domain& domain) {
+    const double degrees_a_km = 1 / (111.2 * std::cos(site.latitude_deg * 0.017453292519943295));
+    grid::GridSpec spec =
+        grid::default_spec(site.latitude_deg, site.longitude_deg + domain.off_km * degrees_a_km);
+    spec.spacing_m = domain.spacing_m;
+    spec.nx = spec.ny = static_cast<int>(domain.side_m / domain.spacing_m);
+    spec.levels_m.clear();
+    for (int level = 1; level <= 24; ++level)
+        spec.levels_m.push_back(500.0 * level);
+    return spec;
+}
+
+grid::SceneChoice exact_of(const accuracy::Chain& chain) {
+    accuracy::Choice all;
+    for (const accuracy::Step& step : chain.steps)
+        all.rungs.push_back(step.effects.size());
+    return grid::scene_choice(chain, all);
+}
+
+Result<grid::Grid> whole(grid::GridScene& scene, const grid::SceneChoice& choice) {
+    const auto geometry = scene.geometry(choice.frame);
+    if (!geometry) return pass_on(geometry);
+    return grid::make_grid(scene.volume(), scene.site(), **geometry,
+                           {level2::Moment::ref, 0, 1, choice.method, {}});
+}
+
+std::vector<double> errors_of(const grid::Grid& chosen, const grid::Grid& exact) {
+    std::vector<double> errors;
+    for (std::size_t cell = 0; cell < chosen.status.size(); ++cell) {
+        const bool both = chosen.status[cell] == grid::CellStatus::value &&
+                          exact.status[cell] == grid::CellStatus::value;
+        if (both) errors.push_back(static_cast<double>(chosen.values[cell] - exact.values[cell]));
     }
+    return errors;
+}
+
+void measure_errors(const std::string& name, const level2::Volume& volume,
+                    const grid::SitePosition& site, const Domain& domain, Table& table) {
+    grid::SceneOptions options;
+    options.threads = 1;
+    auto scene = grid::GridScene::make(volume, site, spec_of(site, domain), options);
+    if (!scene) return;
+    const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);
+    const auto exact = whole(*scene, exact_of(chain));
+    if (!exact) return;
+    for (const char* text : budgets) {
+        const auto budget = accuracy::parse_budget(text);
+        const auto plan = grid::plan_grid(*scene, chain, *budget);
+        if (!plan || plan->choice == exact_of(chain)) continue;
+        const double stated = plan->plan.measured && plan->plan.measured->value
+                                  ? *plan->plan.measured->value
+                                  : plan->plan.left_off.value;
+        const auto chosen = whole(*scene, plan->choice);
+        if (!chosen) continue;
+        const auto errors = errors_of(*chosen, *exact);
+        const auto summary = accuracy::summarize(errors);
+        if (!summary) continue;
+        table.add({{"file", name},
+                   {"domain", domain.name},
+                   {"budget", text},
+                   {"cells", static_cast<int>(errors.size())},
+                   {"stated_db", {stated, 3}},
+                   {"true_db", {summary->p99, 3}},
+                   {"held", summary->p99 <= stated + 1e-6 ? 1 : 0}});
+    }
+}
+
+void measure(const fs::path& file, const Request& request, Table& table) {
+    if (!request.has("--errors")) {
+        for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::vel}) {
+            for (const int threads : request.threads)
+                measure_times(file, moment, threads, request.runs, table);
+        }
+    }
+    if (request.has("--times")) return;
+    const auto decoded = level2::decode_file(file);
+    const auto site = decoded ? site_of(decoded->volume) : fail(ErrorCode::not_found, "");
+    if (!site) return;
+    for (const Domain& domain : domains)
+        measure_errors(file.filename().string(), decoded->volume, *site, domain, table);
 }
 
 int run(int argc, char** argv) {
     keep_freed_memory();
-    return run_over_files({"bench_plan", "[FILE ...]",
-                           "what the planner says that gridding takes, and what it takes"},
-                          std::span(argv, static_cast<std::size_t>(argc)), measure_all);
+    return run_over_files({"bench_plan",
+                           "[FILE ...]",
+                           "what the planner says of a grid's time and error, and what is true",
+                           {"--times", "--errors"}},
+                          std::span(argv, static_cast<std::size_t>(argc)), measure);
 }
 
 }  // namespace

@@ -21,24 +21,190 @@
 // What depends on view and colors alone is made once for all frames, as in a loop. Times are the
 // least of the runs, each the mean of five frames. The files come from the page cache.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "bench/measure.h"
-#include "bench/render_scene.h"
 #include "bench/request.h"
 #include "bench/table.h"
+#include "render/color/color_difference.h"
+#include "render/image/shades.h"
+#include "render/volume/reference_marcher.h"
+#include "render/volume/slicer.h"
+#include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
 
 namespace stormcellar::bench {
 namespace {
 
 namespace fs = std::filesystem;
 using render::Integration;
+
+constexpr int picture_width = 796, picture_height = 532;
+
+// The size of one of the paper's grids, and the paper's frames a second by number of slices.
+struct PaperVolume {
+    const char* name;
+    int side, levels;
+    std::array<double, 5> fps;
+};
+constexpr std::array<int, 5> paper_slices = {64, 128, 256, 512, 1024};
+constexpr std::array<PaperVolume, 3> paper_volumes = {{
+    {"128x128x64", 128, 64, {20, 15, 8, 5, 3}},
+    {"256x256x128", 256, 128, {18, 12, 8, 5, 3}},
+    {"512x512x256", 512, 256, {4, 4, 3.5, 2.5, 1.5}},
+}};
+
+// Five volumes of KBGM (2005-08-22, a line of storms), gridded over the same box for any number of
+// cells, each in a file of its own.
+class RenderScene {
+  public:
+    static Result<RenderScene> make(const PaperVolume& volume, const std::filesystem::path& data,
+                                    const std::filesystem::path& directory);
+
+    [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+    // 20 degrees from the vertical
+    [[nodiscard]] render::ViewGeometry view() const;
+
+  private:
+    grid::GridSpec spec_;
+    std::vector<std::filesystem::path> files_;
+};
+
+// Every `stride`-th pixel of the reference picture. The stride is odd, so that pixels on and
+// between the coarser grids of rays count alike.
+struct ReferencePixels {
+    static constexpr int stride = 5;
+    static constexpr int steps = 8192;
+    std::vector<std::array<double, 4>> rays;
+
+    ReferencePixels(const grid::BrickView& view, const render::ViewGeometry& geometry, int threads);
+};
+
+struct PictureError {
+    double mean = 0, p99 = 0;            // CIEDE2000 over all pixels compared
+    double echo_mean = 0, echo_p99 = 0;  // over those where the reference has echo
+};
+
+constexpr std::array<const char*, 5> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
+                                                 "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
+                                                 "KBGM20050822_030830.gz"};
+constexpr double extent_m = 300e3;
+constexpr double lowest_m = 500, highest_m = 12000;
+constexpr double exaggeration = 5;
+constexpr double view_from_vertical_deg = 20;
+
+grid::GridSpec spec_about(const grid::SitePosition& site, const PaperVolume& volume) {
+    grid::GridSpec spec;
+    spec.center_latitude_deg = site.latitude_deg;
+    spec.center_longitude_deg = site.longitude_deg;
+    spec.nx = spec.ny = volume.side;
+    spec.spacing_m = extent_m / volume.side;
+    for (int i = 0; i < volume.levels; ++i)
+        spec.levels_m.push_back(lowest_m + (highest_m - lowest_m) * i / (volume.levels - 1));
+    return spec;
+}
+
+Result<RenderScene> RenderScene::make(const PaperVolume& volume, const fs::path& data,
+                                      const fs::path& directory) {
+    RenderScene scene;
+    std::shared_ptr<const grid::ColumnGeometry> columns;
+    for (const char* name : sequence) {
+        const auto decoded = decode_ref(data / "sequence-kbgm" / name, 1);
+        if (!decoded) return pass_on(decoded);
+        const auto found = site_of(*decoded);
+        if (!found) return pass_on(found);
+        const grid::SitePosition& site = *found;
+        if (!columns) {
+            scene.spec_ = spec_about(site, volume);
+            const auto made = grid::make_column_geometry(site, scene.spec_);
+            if (!made) return pass_on(made);
+            columns = *made;
+        }
+        const auto grid = grid::make_grid(*decoded, site, *columns, {});
+        if (!grid) return pass_on(grid);
+        const auto bricks =
+            grid::BrickGrid::from(*grid, grid::default_quantization(level2::Moment::ref));
+        const fs::path file = directory / fmt::format("{}-{}.scg", volume.name, name);
+        const auto written =
+            cache::write_grid_file(real_file_system(), file, cache::describe(*grid), bricks.view());
+        if (!written) return pass_on(written);
+        scene.files_.push_back(file);
+    }
+    return scene;
+}
+
+render::ViewGeometry RenderScene::view() const {
+    render::Camera camera;
+    camera.tilt_deg = view_from_vertical_deg;
+    camera.zoom = 1.2;
+    return {spec_, camera, exaggeration, picture_width, picture_height};
+}
+
+// Composites over the color of the page, as every frame of the benchmark.
+render::Image finished(const render::Layer& layer, int threads) {
+    render::Image picture(layer.width, layer.height, render::shades::dark.page);
+    render::composite_over(layer, picture, 0, 0, threads);
+    return picture;
+}
+
+ReferencePixels::ReferencePixels(const grid::BrickView& view, const render::ViewGeometry& geometry,
+                                 int threads) {
+    const render::ReferenceMarcher marcher(view, render::nws_reflectivity(), geometry, 1);
+    constexpr int across = (picture_width + stride - 1) / stride;
+    constexpr int down = (picture_height + stride - 1) / stride;
+    rays.resize(static_cast<std::size_t>(across) * down);
+    for_each_piece(down, threads, [&](int row) {
+        for (int column = 0; column < across; ++column) {
+            rays[static_cast<std::size_t>(row) * across + static_cast<std::size_t>(column)] =
+                marcher.ray({column * stride + 0.5, row * stride + 0.5}, steps);
+        }
+    });
+}
+
+PictureError compare(const ReferencePixels& reference, const render::Image& picture) {
+    constexpr int across = (picture_width + ReferencePixels::stride - 1) / ReferencePixels::stride;
+    std::vector<double> all, echo;
+    for (std::size_t i = 0; i < reference.rays.size(); ++i) {
+        const auto& ray = reference.rays[i];
+        render::Rgba8 exact{0, 0, 0, 255};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double level = 255 * ray[c] + (1 - ray[3]) * render::shades::dark.page[c];
+            exact[c] = static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0)));
+        }
+        const int x = static_cast<int>(i % across) * ReferencePixels::stride;
+        const int y = static_cast<int>(i / across) * ReferencePixels::stride;
+        const double difference = render::color_difference(exact, picture.at(x, y));
+        all.push_back(difference);
+        if (ray[3] > 1.0 / 255) echo.push_back(difference);
+    }
+    const auto mean = [](const std::vector<double>& values) {
+        const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+        return values.empty() ? 0 : sum / static_cast<double>(values.size());
+    };
+    const auto p99 = [](const std::vector<double>& values) {
+        return values.empty() ? 0 : quantile(values, 0.99);
+    };
+    PictureError error;
+    error.mean = mean(all);
+    error.p99 = p99(all);
+    error.echo_mean = mean(echo);
+    error.echo_p99 = p99(echo);
+    return error;
+}
 
 struct Method {
     const char* name;
@@ -166,11 +332,6 @@ int run(int argc, char** argv) {
             status = 3;
             break;
         }
-        fmt::print(stderr,
-                   "{}: {} time steps, {:.1f} % of the cells with echo, footprint {:.0f} % of the "
-                   "picture; files in the page cache\n",
-                   volume.name, scene->files().size(), 100 * scene->echo_share(),
-                   100 * scene->footprint());
         measure_volume(volume, *scene, *request, table);
     }
     table.finish();

@@ -1,9 +1,10 @@
-// bench_web: what the data server serves a second, beside nginx with the same bytes.
+// bench_web: what the data server serves a second, beside nginx; and how soon it draws tiles.
 //
-// usage: bench_web [--data DIR] [--seconds N] [--clients "1 64"] [--json] [FILE ...]
-//   (bench/request.h; one busy volume, unless files are named; 5 seconds a row)
-// `stormcellar serve` and nginx run on one processor, wrk on another, by turns. There is a row for
-// each thing that is asked for and number of clients:
+// usage: bench_web [--data DIR] [--seconds N] [--clients "1 64"] [--json]
+//        [--tiles [--requests 20] [--cache DIR]] [FILE ...]      (bench/request.h)
+// `stormcellar serve` of the files (one busy volume, unless files are named) and nginx run on one
+// processor, wrk on another, by turns, --seconds (5) for each row. There is a row for each thing
+// that is asked for and number of clients:
 //   what            what is asked for, and from whom
 //   clients         connections that are kept open
 //   requests_per_s  answers a second
@@ -15,7 +16,16 @@
 //   of_nginx        requests_per_s divided by nginx's in the row before; "-" where nginx has none
 // "first" rows have one client and one request of each kind: p50_ms is their median, p99_ms the
 // longest of them.
+//
+// --tiles: instead, one client asks `stormcellar serve` of a file, and then of the cache DIR with
+// the domain US (bench_mosaic --us --cache), for --requests tiles about the middle, one by one:
+//   what        domain, layer and zoom
+//   first_ms    the layer's first tile, for which the product and its overviews are made
+//   new_p50_ms, new_max_ms    tiles that nobody asked for before
+//   kept_p50_ms               the same tiles again
+//   peak_mib    resident memory of the server since its start
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -34,7 +44,8 @@
 #include "bench/request.h"
 #include "bench/table.h"
 #include "bench/web_load.h"
-#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -43,6 +54,13 @@ namespace fs = std::filesystem;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> gzip = {"Accept-Encoding: gzip"};
+
+std::vector<double> times_of(const std::vector<Fetched>& all) {
+    std::vector<double> times_ms;
+    for (const Fetched& one : all)
+        times_ms.push_back(one.ms);
+    return times_ms;
+}
 
 struct Asked {
     std::string what, path;
@@ -57,19 +75,11 @@ class WebBench {
     // Asks once for each, and keeps the time of each.
     Status ask_first(const std::string& what, const std::vector<std::string>& paths,
                      const std::vector<std::string>& headers) {
-        std::vector<double> times;
-        for (const std::string& path : paths) {
-            const auto fetched = get(ours_.address() + path, headers, scratch_);
-            if (!fetched) return pass_on(fetched);
-            if (fetched->status != 200)
-                return fail(ErrorCode::internal, "{} answered {}", path, fetched->status);
-            times.push_back(fetched->ms);
-        }
-        if (times.empty()) return {};
-        std::sort(times.begin(), times.end());
+        const auto fetched = get_all(ours_, paths, headers, scratch_);
+        if (!fetched) return pass_on(fetched);
         Load figures;
-        figures.p50_ms = times[times.size() / 2];
-        figures.p99_ms = times.back();
+        figures.p50_ms = quantile(times_of(*fetched), 0.5);
+        figures.p99_ms = quantile(times_of(*fetched), 1);
         figures.requests_per_s = figures.mb_per_s = figures.cpu_cores = none;
         add(what + ", first", 1, ours_, figures, none);
         return {};
@@ -77,13 +87,12 @@ class WebBench {
 
     // Loads nginx with the same bytes as a file, then us.
     Status compare(const Asked& asked, const std::vector<int>& clients, std::chrono::seconds time) {
-        const auto fetched = get(ours_.address() + asked.path, asked.headers, scratch_);
+        std::string body;
+        const auto fetched = get_all(ours_, {asked.path}, asked.headers, scratch_, &body);
         if (!fetched) return pass_on(fetched);
-        if (fetched->status != 200)
-            return fail(ErrorCode::internal, "{} answered {}", asked.path, fetched->status);
         const fs::path files = scratch_ / "files";
         fs::create_directories(files);
-        std::ofstream(files / "same", std::ios::binary) << fetched->body;
+        std::ofstream(files / "same", std::ios::binary) << body;
         auto nginx = serve_with_nginx(files, scratch_);
         if (!nginx) return pass_on(nginx);
         for (const int count : clients) {
@@ -98,13 +107,18 @@ class WebBench {
         return {};
     }
 
-    Result<nlohmann::json> json_of(const std::string& path) {
-        const auto fetched = get(ours_.address() + path, {}, scratch_);
+    // The grids of the server, as "/api/v1/grids/DOMAIN/MOMENT/TIME/packed".
+    Result<std::vector<std::string>> packed_grids() {
+        std::string body;
+        const auto fetched = get_all(ours_, {"/api/v1/grids"}, {}, scratch_, &body);
         if (!fetched) return pass_on(fetched);
-        auto parsed = nlohmann::json::parse(fetched->body, nullptr, false);
-        if (fetched->status != 200 || parsed.is_discarded())
-            return fail(ErrorCode::internal, "{} answered {}", path, fetched->status);
-        return parsed;
+        std::vector<std::string> paths;
+        for (const auto& grid : nlohmann::json::parse(body)["grids"]) {
+            paths.push_back(
+                fmt::format("/api/v1/grids/{}/{}/{}/packed", grid["domain"].get<std::string>(),
+                            grid["moment"].get<std::string>(), grid["time"].get<std::string>()));
+        }
+        return paths;
     }
 
   private:
@@ -117,7 +131,7 @@ class WebBench {
                     {"p50_ms", Cell{figures.p50_ms, 2}},
                     {"p99_ms", Cell{figures.p99_ms, 2}},
                     {"cpu_cores", Cell{figures.cpu_cores, 2}},
-                    {"peak_mib", Cell{server.process.peak_mib(), 0}},
+                    {"peak_mib", Cell{server.process.memory_mib(), 0}},
                     {"failed", static_cast<int>(figures.failed)},
                     {"of_nginx", Cell{of_nginx, 2}}});
     }
@@ -127,60 +141,114 @@ class WebBench {
     Table& table_;
 };
 
-// The grids of the server, as "/api/v1/grids/DOMAIN/MOMENT/TIME".
-Result<std::vector<std::string>> paths_of_grids(WebBench& bench) {
-    const auto listed = bench.json_of("/api/v1/grids");
-    if (!listed) return pass_on(listed);
-    std::vector<std::string> paths;
-    for (const auto& grid : (*listed)["grids"]) {
-        paths.push_back(fmt::format("/api/v1/grids/{}/{}/{}", grid["domain"].get<std::string>(),
-                                    grid["moment"].get<std::string>(),
-                                    grid["time"].get<std::string>()));
-    }
-    return paths;
-}
-
-std::vector<std::string> paths_of_volumes(const std::vector<fs::path>& files) {
-    std::vector<std::string> paths;
-    for (const fs::path& file : files) {
-        const std::string name = file.filename();
-        paths.push_back(fmt::format("/volumes/{}/{}", name.substr(0, 4), name));
-    }
-    return paths;
-}
-
-Status measure(WebBench& bench, const std::vector<fs::path>& files, const std::vector<int>& clients,
-               std::chrono::seconds time) {
-    const auto grids = paths_of_grids(bench);
-    if (!grids) return pass_on(grids);
-    std::vector<std::string> packed;
-    for (const std::string& path : *grids)
-        packed.push_back(path + "/packed");
-    if (Status first = bench.ask_first("packed grid, gzip", packed, gzip); !first) return first;
-    if (Status first = bench.ask_first("packed grid, plain", packed, {}); !first) return first;
-    const auto volumes = paths_of_volumes(files);
-    const auto reflectivity = std::find_if(packed.begin(), packed.end(), [](const auto& path) {
-        return path.find("/REF/") != std::string::npos;
-    });
-    if (reflectivity == packed.end())
-        return fail(ErrorCode::not_found, "no grid of reflectivity could be made of the files");
-    const std::vector<Asked> kept = {
-        {"packed grid, gzip", *reflectivity, gzip},
-        {"packed grid, plain", *reflectivity, {}},
-        {"raw volume", volumes.front(), {}},
-        {"list of stations", "/api/v1/stations", {}},
-    };
-    for (const Asked& asked : kept)
-        if (Status compared = bench.compare(asked, clients, time); !compared) return compared;
-    return {};
-}
-
 std::vector<int> numbers_in(const std::string& text) {
     std::istringstream words(text);
     std::vector<int> numbers;
     for (int number = 0; words >> number;)
         numbers.push_back(number);
     return numbers;
+}
+
+std::size_t number_of(const Request& request, std::string_view option, std::size_t usual) {
+    const auto text = request.value(option);
+    return text ? static_cast<std::size_t>(std::max(1, std::atoi(text->c_str()))) : usual;
+}
+
+Status measure_load(const std::vector<fs::path>& files, const Request& request,
+                    const fs::path& scratch, Table& table) {
+    auto ours = serve({files.begin(), files.end()}, scratch, processor_of_servers);
+    if (!ours) return pass_on(ours);
+    WebBench bench(std::move(*ours), scratch, table);
+    const auto packed = bench.packed_grids();
+    if (!packed) return pass_on(packed);
+    const auto reflectivity = std::ranges::find_if(
+        *packed, [](const auto& path) { return path.find("/REF/") != std::string::npos; });
+    if (reflectivity == packed->end())
+        return fail(ErrorCode::not_found, "no grid of reflectivity could be made of the files");
+    if (Status first = bench.ask_first("packed grid, gzip", *packed, gzip); !first) return first;
+    if (Status first = bench.ask_first("packed grid, plain", *packed, {}); !first) return first;
+    const std::string name = files.front().filename();
+    const std::vector<Asked> kept = {
+        {"packed grid, gzip", *reflectivity, gzip},
+        {"packed grid, plain", *reflectivity, {}},
+        {"raw volume", fmt::format("/volumes/{}/{}", name.substr(0, 4), name), {}},
+        {"list of stations", "/api/v1/stations", {}},
+    };
+    const std::chrono::seconds time{number_of(request, "--seconds", 5)};
+    const auto clients = numbers_in(request.value("--clients").value_or("1 64"));
+    for (const Asked& asked : kept)
+        if (Status compared = bench.compare(asked, clients, time); !compared) return compared;
+    return {};
+}
+
+struct TilePlace {
+    std::string domain;
+    double latitude_deg = 0, longitude_deg = 0;
+    std::vector<int> zooms;
+};
+
+// The tiles of a zoom in the order of their distance from the place's.
+std::vector<std::string> tiles_about(const TilePlace& place, std::string_view layer, int zoom,
+                                     std::size_t count) {
+    const double tiles = std::exp2(zoom);
+    const double latitude = place.latitude_deg * M_PI / 180;
+    const int column = static_cast<int>(tiles * (place.longitude_deg + 180) / 360);
+    const int middle = static_cast<int>(tiles * (1 - std::asinh(std::tan(latitude)) / M_PI) / 2);
+    std::vector<std::string> paths;
+    const int most = static_cast<int>(tiles) - 1;
+    for (int ring = 0; paths.size() < count && ring <= most; ++ring) {
+        for (int y = std::max(0, middle - ring); y <= std::min(most, middle + ring); ++y) {
+            for (int x = std::max(0, column - ring); x <= std::min(most, column + ring); ++x) {
+                const bool on_ring = std::max(std::abs(x - column), std::abs(y - middle)) == ring;
+                if (on_ring && paths.size() < count)
+                    paths.push_back(fmt::format("/tiles/{}/{}/latest/{}/{}/{}.png", place.domain,
+                                                layer, zoom, x, y));
+            }
+        }
+    }
+    return paths;
+}
+
+Status measure_tiles_of(const TilePlace& place, const Result<WebServer>& server, std::size_t count,
+                        const fs::path& scratch, Table& table) {
+    if (!server) return pass_on(server);
+    for (const render::ProductFacts& facts : render::all_products()) {
+        if (facts.view != render::View::map || facts.is_of_sweep) continue;
+        const auto first = get_all(
+            *server,
+            {tiles_about(place, facts.name, place.zooms.front(), 1).front() + "?smooth=cubic"}, {},
+            scratch);
+        if (!first) return pass_on(first);
+        for (const int zoom : place.zooms) {
+            const auto paths = tiles_about(place, facts.name, zoom, count);
+            const auto fresh = get_all(*server, paths, {}, scratch);
+            if (!fresh) return pass_on(fresh);
+            const auto kept = get_all(*server, paths, {}, scratch);
+            if (!kept) return pass_on(kept);
+            table.add({{"what", fmt::format("{} {}, zoom {}", place.domain, facts.name, zoom)},
+                       {"first_ms", Cell{first->front().ms, 1}},
+                       {"new_p50_ms", Cell{quantile(times_of(*fresh), 0.5), 1}},
+                       {"new_max_ms", Cell{quantile(times_of(*fresh), 1), 1}},
+                       {"kept_p50_ms", Cell{quantile(times_of(*kept), 0.5), 2}},
+                       {"peak_mib", Cell{server->process.memory_mib(), 0}}});
+        }
+    }
+    return {};
+}
+
+Status measure_tiles(const fs::path& file, const Request& request, const fs::path& scratch,
+                     Table& table) {
+    const auto station = find_station(file.filename().native().substr(0, 4));
+    if (!station)
+        return fail(ErrorCode::bad_argument, "{}: the name begins with no station", file.native());
+    const std::size_t count = number_of(request, "--requests", 20);
+    const TilePlace site{
+        std::string(station->icao), station->latitude_deg, station->longitude_deg, {6, 8, 10}};
+    Status status = measure_tiles_of(site, serve({file}, scratch), count, scratch, table);
+    const auto cache = request.value("--cache");
+    if (!status || !cache) return status;
+    return measure_tiles_of({"US", 37.5, -95, {4, 6, 8, 10}}, serve({"--cache", *cache}, scratch),
+                            count, scratch, table);
 }
 
 std::vector<fs::path> files_of(const Request& request) {
@@ -200,19 +268,10 @@ int run(const Request& request) {
     std::string pattern = (fs::temp_directory_path() / "bench_web.XXXXXX").native();
     if (::mkdtemp(pattern.data()) == nullptr) return 1;
     const fs::path scratch = pattern;
-    const std::chrono::seconds time{std::stoi(request.value("--seconds").value_or("5"))};
-    const auto clients = numbers_in(request.value("--clients").value_or("1 64"));
     Table table(request.json);
-    Status status = {};
-    {
-        auto ours = serve_files(files, scratch);
-        if (!ours) {
-            status = pass_on(ours);
-        } else {
-            WebBench bench(std::move(*ours), scratch, table);
-            status = measure(bench, files, clients, time);
-        }
-    }
+    const Status status = request.has("--tiles")
+                              ? measure_tiles(files.front(), request, scratch, table)
+                              : measure_load(files, request, scratch, table);
     table.finish();
     if (!status) {
         fmt::print(stderr, "bench_web: {}\n", status.error().message);
@@ -228,12 +287,15 @@ int run(const Request& request) {
 
 int main(int argc, char** argv) {
     namespace bench = stormcellar::bench;
-    const bench::Program program{.name = "bench_web",
-                                 .files = "[FILE ...]",
-                                 .purpose =
-                                     "what the data server serves a second, beside nginx; "
-                                     "--seconds N, --clients \"1 64\"",
-                                 .values = {"--seconds", "--clients"}};
+    const bench::Program program{
+        .name = "bench_web",
+        .files = "[FILE ...]",
+        .purpose =
+            "what the data server serves a second, beside nginx; --seconds N, --clients "
+            "\"1 64\"; or how soon it lists an --archive or draws --tiles",
+        .flags = {"--archive", "--tiles"},
+        .values = {"--seconds", "--clients", "--stations", "--rows", "--grids", "--requests",
+                   "--cache", "--work"}};
     const auto read = bench::read_request(program, std::span(argv, static_cast<std::size_t>(argc)));
     return read.request ? bench::run(*read.request) : read.status;
 }

@@ -2,15 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <thread>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "bench/measure.h"
+#include "bench/restamp.h"
+#include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/grid_name.h"
+#include "stormcellar/catalog/catalog.h"
+#include "synth/replay_turns.h"
 
 namespace stormcellar::bench {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double longest_wait_s = 0.05;
+// A file written a moment ago appears in the status a second later.
+constexpr double idle_s = 1.5;
 constexpr std::chrono::milliseconds between_looks{500};
 
 double seconds_between(std::chrono::steady_clock::time_point from,
@@ -20,23 +32,9 @@ double seconds_between(std::chrono::steady_clock::time_point from,
 
 }  // namespace
 
-double Stretch::latency_s(double share) const {
-    if (latencies_s.empty()) return std::nan("");
-    const double rank = std::ceil(share * static_cast<double>(latencies_s.size()));
-    return latencies_s[std::max<std::size_t>(1, static_cast<std::size_t>(rank)) - 1];
-}
-
-Status FeedRun::send_beginnings() {
-    while (player_.next_s() <= 0) {
-        auto sent = player_.write_next([](const SentVolume&) {});
-        if (!sent) return sent;
-    }
-    return {};
-}
-
-Status FeedRun::watch(const NationalFeed& feed) {
+Status FeedRun::watch() {
     std::vector<std::string> stations, days;
-    for (const NationalSite& site : feed.sites())
+    for (const NationalSite& site : feed_.sites())
         stations.emplace_back(site.station.icao);
     for (int day = -1; day <= 1; ++day)
         days.push_back(cache::day_name(national_start() + std::chrono::days{day}));
@@ -45,125 +43,233 @@ Status FeedRun::watch(const NationalFeed& feed) {
 
 void FeedRun::note_grids() {
     watch_.read([this](std::string_view name) {
+        const auto now = Clock::now();
+        renames_[std::string(name)].push_back(now);
         const auto sent = sent_.find(std::string(name));
         if (sent == sent_.end()) return;  // of a volume that has not ended yet
         if (sent->second.latency_s < 0) {
             --unfinished_;
-            int& before = gridded_[sent->second.site];
-            if (before >= 0) player_.scour(sent->second.site, before);
-            before = sent->second.volume;
+            const std::size_t volume = sent->second.volume;
+            const auto [before, is_first] = last_.try_emplace(volumes_[volume].site, volume);
+            std::error_code ignored;
+            if (!is_first) fs::remove_all(daemon_.drop() / targets_[before->second], ignored);
+            before->second = volume;
         }
-        sent->second.latency_s = seconds_between(sent->second.closed, Clock::now());
+        sent->second.latency_s = seconds_between(sent->second.closed, now);
     });
+    gridded_.notify_all();
 }
 
-void FeedRun::look(Stretch& stretch, Clock::time_point begin) {
+void FeedRun::look() {
     const auto now = Clock::now();
     if (now < next_look_) return;
     next_look_ = now + between_looks;
     const DaemonMemory memory = daemon_.memory();
-    stretch.memory.peak_mib = std::max(stretch.memory.peak_mib, memory.peak_mib);
-    stretch.memory.anonymous_mib = std::max(stretch.memory.anonymous_mib, memory.anonymous_mib);
-    stretch.memory.file_mib = std::max(stretch.memory.file_mib, memory.file_mib);
-    stretch.samples.push_back({seconds_between(begin, now), memory.anonymous_mib});
-    stretch.last = daemon_.status();
-    stretch.most_cache_bytes = std::max(stretch.most_cache_bytes, stretch.last.cache_bytes);
-    stretch.most_waiting = std::max(stretch.most_waiting, stretch.last.waiting);
+    DaemonMemory& most = stretch_.memory;
+    most.peak_mib = std::max(most.peak_mib, memory.peak_mib);
+    most.anonymous_mib = std::max(most.anonymous_mib, memory.anonymous_mib);
+    most.file_mib = std::max(most.file_mib, memory.file_mib);
+    stretch_.samples.push_back({seconds_between(begin_, now), memory.anonymous_mib});
+    stretch_.last = daemon_.status();
+    stretch_.most_cache_bytes = std::max(stretch_.most_cache_bytes, stretch_.last.cache_bytes);
+    stretch_.most_waiting = std::max(stretch_.most_waiting, stretch_.last.waiting);
 }
 
-bool FeedRun::drain(double most_s) {
+bool FeedRun::wait_until_idle(double most_s) {
     const auto begin = Clock::now();
-    // A file written a moment ago appears in the status a second later.
-    double idle_since_s = 0;
+    auto busy = begin;
     while (seconds_between(begin, Clock::now()) < most_s && daemon_.is_running()) {
         watch_.wait(longest_wait_s);
-        note_grids();
+        watch_.read([](std::string_view) {});
         const DaemonStatus status = daemon_.status();
-        const double now_s = seconds_between(begin, Clock::now());
-        if (status.waiting + status.running > 0 || unfinished_ > 0) idle_since_s = now_s;
-        if (now_s - idle_since_s > 1.5) return true;
+        if (status.waiting + status.running > 0) busy = Clock::now();
+        if (seconds_between(busy, Clock::now()) > idle_s) return true;
     }
     return false;
 }
 
-// The feed's clock stops while too much is unfinished.
-Status FeedRun::play(const StretchOptions& options, Stretch& stretch) {
-    const auto begin = Clock::now();
-    const double begin_s = feed_s_;
-    auto last = begin;
-    double held_for_s = 0;
-    const auto sent = [&](const SentVolume& volume) {
-        sent_[volume.grid] = {volume.closed, -1, volume.site, volume.volume};
-        ++unfinished_;
-        ++stretch.volumes;
-    };
-    while (feed_s_ - begin_s < options.most_feed_s &&
-           seconds_between(begin, Clock::now()) < options.most_wall_s) {
-        if (!daemon_.is_running()) return fail(ErrorCode::internal, "stormcellard has ended");
-        const auto now = Clock::now();
-        const double passed_s = seconds_between(last, now);
-        last = now;
-        note_grids();
-        const bool held = unfinished_ > options.most_unfinished;
-        if (held) {
-            stretch.held_s += passed_s;
-            held_for_s += passed_s;
-            if (held_for_s > options.most_drain_s) break;
-        } else {
-            held_for_s = 0;
-            feed_s_ = std::min(feed_s_ + passed_s * options.speed, begin_s + options.most_feed_s);
-        }
-        while (player_.next_s() <= feed_s_) {
-            if (auto written = player_.write_next(sent); !written) return written;
-        }
-        look(stretch, begin);
-        const double to_next_s = (player_.next_s() - feed_s_) / options.speed;
-        watch_.wait(held ? longest_wait_s : std::clamp(to_next_s, 0.0, longest_wait_s));
-    }
-    stretch.feed_s = feed_s_ - begin_s;
+Status FeedRun::start(const StretchOptions& options, const std::string& configuration) {
+    if (Status started = daemon_.start(configuration); !started) return started;
+    if (!wait_until_idle(options.most_drain_s))
+        fmt::print(stderr, "not all of the beginnings were read\n");
+    daemon_.reset_peak();
     return {};
 }
 
-Result<Stretch> FeedRun::run(const StretchOptions& options) {
-    Stretch stretch;
-    sent_.clear();
-    unfinished_ = 0;
-    next_look_ = {};
-    daemon_.reset_peak();
-    const std::uint64_t bytes = player_.bytes(), chunks = player_.chunks();
-    for (int kind = 0; kind < 3; ++kind)
-        stretch.bytes_of_kind.push_back(player_.bytes_of_kind(kind));
-    const double daemon_before_s = daemon_.cpu_s(), own_before_s = cpu_s();
-    const auto begin = Clock::now();
-    if (auto played = play(options, stretch); !played) return pass_on(played);
-    const auto end = Clock::now();
-    stretch.player_cpu_s = cpu_s() - own_before_s;
+// Waits while too many volumes have no grid.
+void FeedRun::end_volume(std::size_t volume, const StretchOptions& options) {
+    const auto closed = Clock::now();
+    std::unique_lock lock(mutex_);
+    sent_[volumes_[volume].grid] = {closed, -1, volume};
+    ++unfinished_;
+    ++stretch_.volumes;
+    ++stretch_.volumes_sent[volumes_[volume].site];
+    const auto is_free = [&] { return stop_ || unfinished_ <= options.most_unfinished; };
+    const auto most = std::chrono::duration<double>(options.most_drain_s);
+    if (!gridded_.wait_for(lock, most, is_free)) stop_ = true;
+    stretch_.held_s += seconds_between(closed, Clock::now());
+}
 
-    // Waits for grids of what was sent, then for everything else to be read.
-    auto busy_until = end;
-    for (auto now = end; seconds_between(end, now) < options.most_drain_s; now = Clock::now()) {
+void FeedRun::watch_on(const StretchOptions& options) {
+    while (!is_over_) {
         watch_.wait(longest_wait_s);
+        const std::scoped_lock lock(mutex_);
         note_grids();
-        look(stretch, begin);
-        if (unfinished_ + stretch.last.waiting + stretch.last.running > 0) busy_until = now;
-        stretch.drained = seconds_between(busy_until, now) > 1.5;
-        if (stretch.drained) break;
+        look();
+        if (seconds_between(begin_, Clock::now()) > options.most_wall_s) stop_ = true;
     }
-    stretch.drain_s = seconds_between(end, busy_until);
-    stretch.wall_s = seconds_between(begin, busy_until);
-    stretch.daemon_cpu_s = daemon_.cpu_s() - daemon_before_s;
-    stretch.bytes = player_.bytes() - bytes;
-    stretch.chunks = player_.chunks() - chunks;
-    for (int kind = 0; kind < 3; ++kind) {
-        auto& sent = stretch.bytes_of_kind[static_cast<std::size_t>(kind)];
-        sent = player_.bytes_of_kind(kind) - sent;
+}
+
+// Waits for grids of what was sent, then for everything else to be read. Returns when the daemon
+// had something to do for the last time.
+FeedRun::Clock::time_point FeedRun::drain(double most_s) {
+    const auto begin = Clock::now();
+    auto busy = begin;
+    while (!stretch_.drained && seconds_between(begin, Clock::now()) < most_s) {
+        std::this_thread::sleep_for(between_looks / 10);
+        const std::scoped_lock lock(mutex_);
+        const auto now = Clock::now();
+        if (unfinished_ + stretch_.last.waiting + stretch_.last.running > 0) busy = now;
+        stretch_.drained = seconds_between(busy, now) > idle_s;
     }
+    return busy;
+}
+
+void FeedRun::finish(double bytes) {
+    stretch_.bytes = bytes;
+    stretch_.sustained = bytes / feed_.bytes_a_second() / stretch_.wall_s;
     for (const auto& [grid, volume] : sent_) {
-        if (volume.latency_s >= 0) stretch.latencies_s.push_back(volume.latency_s);
+        if (volume.latency_s >= 0) stretch_.latencies_s.push_back(volume.latency_s);
     }
-    stretch.ungridded = unfinished_;
-    std::sort(stretch.latencies_s.begin(), stretch.latencies_s.end());
-    return stretch;
+    stretch_.ungridded = unfinished_;
+}
+
+Result<Stretch> FeedRun::run(const StretchOptions& options, const std::string& configuration,
+                             const std::function<Status()>& begin) {
+    std::error_code failed;
+    fs::create_directories(daemon_.drop(), failed);
+    if (Status watched = watch(); !watched) return pass_on(watched);
+    volumes_ = feed_.volumes(options.most_feed_s);
+    for (const NationalVolume& volume : volumes_)
+        items_.push_back(feed_.item_of(volume));
+    auto targets = synth::targets_of(items_, options.delivery);
+    if (!targets) return pass_on(targets);
+    targets_ = std::move(*targets);
+    stretch_.volumes_sent.resize(feed_.sites().size());
+
+    Status begun = fail(ErrorCode::internal, "the feed did not begin");
+    double daemon_before_s = 0, own_before_s = 0;
+    std::thread watcher;
+    synth::ReplayOptions replaying;
+    replaying.delivery = options.delivery;
+    replaying.speed = options.speed;
+    replaying.stop = &stop_;
+    // Whole files come at their start, so that none is half sent when the clock begins.
+    if (options.delivery != synth::Delivery::whole)
+        replaying.past_s = feed_.past_s() / options.speed;
+    replaying.stamp = [](const synth::ReplayItem& item, std::span<std::byte> bytes) {
+        stamp_header_time(bytes, *item.time);
+    };
+    replaying.ended = [&](const synth::ReplayItem& item) {
+        end_volume(static_cast<std::size_t>(&item - items_.data()), options);
+    };
+    double past_bytes = 0;
+    replaying.begun = [&] {
+        begun = start(options, configuration);
+        if (begun) begun = begin();
+        stop_ = !begun;
+        if (!begun) return;
+        for (const auto& entry : fs::recursive_directory_iterator(daemon_.drop()))
+            past_bytes += entry.is_regular_file() ? static_cast<double>(entry.file_size()) : 0;
+        begin_ = Clock::now();
+        daemon_before_s = daemon_.cpu_s();
+        own_before_s = cpu_s();
+        watcher = std::thread([&] { watch_on(options); });
+    };
+    const auto played = synth::replay(items_, daemon_.drop(), real_file_system(), replaying);
+    const auto end = Clock::now();
+    stretch_.player_cpu_s = cpu_s() - own_before_s;
+
+    const auto busy = watcher.joinable() ? drain(options.most_drain_s) : end;
+    is_over_ = true;
+    if (watcher.joinable()) watcher.join();
+    if (!begun) return pass_on(begun);
+    if (!played) return pass_on(played);
+    if (!daemon_.is_running()) return fail(ErrorCode::internal, "stormcellard has ended");
+    stretch_.drain_s = seconds_between(end, busy);
+    stretch_.wall_s = seconds_between(begin_, busy);
+    stretch_.daemon_cpu_s = daemon_.cpu_s() - daemon_before_s;
+    finish(static_cast<double>(played->bytes) - past_bytes);
+    return std::move(stretch_);
+}
+
+namespace {
+
+std::size_t files_below(const fs::path& directory, const std::string& ending) {
+    std::size_t files = 0;
+    std::error_code problem;
+    for (const auto& entry : fs::recursive_directory_iterator(directory, problem)) {
+        if (entry.is_regular_file(problem) && entry.path().native().ends_with(ending)) ++files;
+    }
+    return files;
+}
+
+Status check_site(const NationalFeed& feed, const NationalSite& site, int sent,
+                  const catalog::CatalogReader& catalog, const DaemonProcess& daemon,
+                  SoakCheck& check) {
+    const auto rows = catalog.list(site.station.icao, {});
+    if (!rows) return pass_on(rows);
+    std::set<UtcTime> known;
+    for (const catalog::CatalogEntry& row : *rows) {
+        ++check.rows;
+        std::error_code problem;
+        const bool there = fs::exists(row.path, problem);
+        if (there == (row.state == catalog::FileState::gone)) ++check.wrong_rows;
+        const bool settled =
+            row.state == catalog::FileState::complete || row.state == catalog::FileState::gone;
+        if (settled && row.volume.start_time) known.insert(*row.volume.start_time);
+    }
+    for (int volume = 0; volume < sent; ++volume) {
+        if (!known.contains(feed.start_of(site, volume))) ++check.missing_rows;
+    }
+    if (sent == 0) return {};
+    const cache::GridName newest{std::string(site.station.icao), level2::Moment::ref,
+                                 feed.start_of(site, sent - 1)};
+    std::error_code problem;
+    if (!fs::exists(daemon.cache() / cache::relative_path(newest), problem)) ++check.missing_grids;
+    return {};
+}
+
+}  // namespace
+
+double memory_slope_mib_h(std::span<const MemorySample> samples) {
+    samples = samples.subspan(samples.size() / 10);
+    if (samples.size() < 2) return std::nan("");
+    double mean_s = 0, mean_mib = 0;
+    for (const MemorySample& sample : samples) {
+        mean_s += sample.wall_s / static_cast<double>(samples.size());
+        mean_mib += sample.anonymous_mib / static_cast<double>(samples.size());
+    }
+    double products = 0, squares = 0;
+    for (const MemorySample& sample : samples) {
+        products += (sample.wall_s - mean_s) * (sample.anonymous_mib - mean_mib);
+        squares += (sample.wall_s - mean_s) * (sample.wall_s - mean_s);
+    }
+    return 3600 * products / squares;
+}
+
+Result<SoakCheck> check_soak(const NationalFeed& feed, const std::vector<int>& volumes_sent,
+                             const DaemonProcess& daemon) {
+    SoakCheck check;
+    auto catalog = catalog::CatalogReader::open(daemon.catalog());
+    if (!catalog) return pass_on(catalog);
+    check.files = files_below(daemon.drop(), "");
+    check.grids = files_below(daemon.cache(), ".scg");
+    for (std::size_t i = 0; i < feed.sites().size(); ++i) {
+        auto done = check_site(feed, feed.sites()[i], volumes_sent[i], *catalog, daemon, check);
+        if (!done) return pass_on(done);
+    }
+    return check;
 }
 
 }  // namespace stormcellar::bench

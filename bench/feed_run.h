@@ -1,33 +1,42 @@
-// bench/feed_run.h -- plays a part of a national feed to a running daemon, and measures it.
+// bench/feed_run.h -- plays a national feed to stormcellard by synth/replay, and measures it.
 //
 // Latency    From the close of the last chunk of a volume (or its rename) to the appearance of its
 //            last grid in the cache, by this program's clock.
-// Sustained  The feed's time divided by the wall time, from the first chunk until the daemon has
-//            nothing left to read. If more than `most_unfinished` volumes were sent and not
-//            gridded, the feed pauses; if that lasts for most_drain_s, the part ends.
+// Sustained  The bytes sent, divided by those that the feed sends in the wall time, from the first
+//            chunk until the daemon has nothing left to read. If more than `most_unfinished`
+//            volumes were sent and not gridded, the feed pauses, and then catches up; if that lasts
+//            for most_drain_s, it ends.
 // Files are deleted when both they and a later volume of their station have their grids.
 //
-// Threads    One thread at a time.
+// Threads    One thread at a time; run() starts another that watches.
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <map>
+#include <mutex>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "bench/daemon_process.h"
-#include "bench/feed_player.h"
 #include "bench/grid_watch.h"
+#include "bench/national_feed.h"
+#include "bench/process.h"
 #include "stormcellar/base/result.h"
+#include "synth/replay.h"
 
 namespace stormcellar::bench {
 
 struct StretchOptions {
+    synth::Delivery delivery = synth::Delivery::growing;
     double speed = 1;
     double most_wall_s = std::numeric_limits<double>::infinity();
-    double most_feed_s = std::numeric_limits<double>::infinity();
+    double most_feed_s = 3600;
     std::size_t most_unfinished = 8;
     double most_drain_s = 100;
 };
@@ -37,62 +46,89 @@ struct MemorySample {
 };
 
 struct Stretch {
-    double feed_s = 0, wall_s = 0;  // wall_s includes the drain
+    double wall_s = 0;  // with the drain
     double drain_s = 0, held_s = 0;
     bool drained = false;  // if false, the daemon had more to read, and the figures are too good
-    std::vector<double> latencies_s;  // ascending
-    std::size_t volumes = 0;          // volumes whose last chunk was sent
-    std::size_t ungridded = 0;        // those of them without a grid at the end of the drain
+    double sustained = 0;
+    std::vector<double> latencies_s;
+    std::size_t volumes = 0;    // volumes whose last chunk was sent
+    std::size_t ungridded = 0;  // those of them without a grid at the end of the drain
     double daemon_cpu_s = 0, player_cpu_s = 0;
-    std::vector<std::uint64_t> bytes_of_kind;
-    std::uint64_t bytes = 0, chunks = 0;
+    double bytes = 0;
     DaemonMemory memory;  // the maximum of each
     std::uint64_t most_cache_bytes = 0;
     std::size_t most_waiting = 0;
     std::vector<MemorySample> samples;
     DaemonStatus last;
-
-    // By nearest rank, share in (0, 1]; NaN without latencies.
-    [[nodiscard]] double latency_s(double share) const;
-    [[nodiscard]] double sustained() const { return feed_s / wall_s; }
+    std::vector<int> volumes_sent;  // by site
 };
+
+// When grids got their names, by these.
+using Renames = std::map<std::string, std::vector<std::chrono::steady_clock::time_point>>;
 
 class FeedRun {
   public:
-    FeedRun(const NationalFeed& feed, DaemonProcess& daemon, Delivery delivery)
-        : daemon_(daemon),
-          player_(feed, daemon.drop(), delivery),
-          gridded_(feed.sites().size(), -1) {}
-
-    // Sends what every site sent before the feed's clock began. Call it before the daemon starts.
-    [[nodiscard]] Status send_beginnings();
-    [[nodiscard]] Status watch(const NationalFeed& feed);
-    // Waits until the daemon has read what is there. Returns false if that takes longer than
-    // `most_s`.
-    [[nodiscard]] bool drain(double most_s);
-    [[nodiscard]] Result<Stretch> run(const StretchOptions& options);
-    [[nodiscard]] const FeedPlayer& player() const { return player_; }
+    FeedRun(const NationalFeed& feed, DaemonProcess& daemon) : feed_(feed), daemon_(daemon) {}
+    // The daemon is started when there is what every site sent before the feed's clock began. When
+    // it has read that, `begin` is called, and then the clock begins.
+    [[nodiscard]] Result<Stretch> run(
+        const StretchOptions& options, const std::string& configuration,
+        const std::function<Status()>& begin = [] { return Status{}; });
+    [[nodiscard]] const Renames& renames() const { return renames_; }
 
   private:
     using Clock = std::chrono::steady_clock;
     struct Sent {
         Clock::time_point closed;
         double latency_s = -1;  // below 0: there is no grid
-        std::size_t site = 0;
-        int volume = 0;
+        std::size_t volume = 0;
     };
+    [[nodiscard]] Status watch();
+    [[nodiscard]] Status start(const StretchOptions& options, const std::string& configuration);
+    [[nodiscard]] bool wait_until_idle(double most_s);
+    void end_volume(std::size_t volume, const StretchOptions& options);
+    void watch_on(const StretchOptions& options);
     void note_grids();
-    void look(Stretch& stretch, Clock::time_point begin);
-    [[nodiscard]] Status play(const StretchOptions& options, Stretch& stretch);
+    void look();
+    [[nodiscard]] Clock::time_point drain(double most_s);
+    void finish(double bytes);
 
+    const NationalFeed& feed_;
     DaemonProcess& daemon_;
-    FeedPlayer player_;
     GridWatch watch_;
-    double feed_s_ = 0;                           // the feed's clock
-    std::unordered_map<std::string, Sent> sent_;  // in this part, by grid
-    std::vector<int> gridded_;  // by site: the volume of the last grid that appeared; -1: none yet
+    std::vector<NationalVolume> volumes_;
+    std::vector<synth::ReplayItem> items_;
+    std::vector<std::filesystem::path> targets_;
+    std::atomic<bool> stop_ = false, is_over_ = false;
+    Clock::time_point begin_;
+    Renames renames_;
+
+    std::mutex mutex_;  // for all below
+    std::condition_variable gridded_;
+    std::unordered_map<std::string, Sent> sent_;  // by grid
+    std::map<std::size_t, std::size_t> last_;     // by site: the volume of the last grid
     std::size_t unfinished_ = 0;
     Clock::time_point next_look_;
+    Stretch stretch_;
 };
+
+// Returns the slope of a least-squares line through the samples after the first tenth, in MiB an
+// hour. NaN for fewer than two.
+[[nodiscard]] double memory_slope_mib_h(std::span<const MemorySample> samples);
+
+// Files, rows and grids must agree after a long run.
+struct SoakCheck {
+    std::size_t files = 0;          // below the drop directory
+    std::size_t rows = 0;           // of the catalog: volumes of whole files, deleted ones included
+    std::size_t missing_rows = 0;   // volumes that were sent and have no such row
+    std::size_t wrong_rows = 0;     // rows that say "gone" of an existing file, or the reverse
+    std::size_t grids = 0;          // in the cache
+    std::size_t missing_grids = 0;  // stations whose newest whole volume has no grid
+    [[nodiscard]] bool agrees() const { return missing_rows + wrong_rows + missing_grids == 0; }
+};
+// Call it after the daemon has ended. Errors: those of the catalog and the cache.
+[[nodiscard]] Result<SoakCheck> check_soak(const NationalFeed& feed,
+                                           const std::vector<int>& volumes_sent,
+                                           const DaemonProcess& daemon);
 
 }  // namespace stormcellar::bench

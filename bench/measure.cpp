@@ -1,7 +1,6 @@
 #include "bench/measure.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -12,18 +11,15 @@
 #include <utility>
 
 #include <bzlib.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/process.h"
 #include "bunzip/bunzip.h"
 #include "level2/containers/gzip_stream.h"
 #include "level2/containers/ldm_framer.h"
 #include "stormcellar/base/file_system.h"
-
-extern char** environ;
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -43,41 +39,6 @@ void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
         if (code == BZ_OK && stream.avail_in == 0 && stream.avail_out > 0) break;
     }
     BZ2_bzDecompressEnd(&stream);
-}
-
-enum class Stderr { shown, dropped };
-
-// From the program's start to its end. None where it failed.
-std::optional<ProgramRun> run_program(std::string program, std::vector<std::string> arguments,
-                                      Stderr errors) {
-    std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) return {};
-    std::vector<char*> argv = {program.data()};
-    for (std::string& argument : arguments)
-        argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-    posix_spawn_file_actions_addclose(&actions, ends[0]);
-    if (errors == Stderr::dropped)
-        posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-    int status = -1;
-    ProgramRun run;
-    run.seconds = seconds_of([&] {
-        pid_t child = 0;
-        if (::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ) == 0) {
-            ::waitpid(child, &status, 0);
-        }
-    });
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    run.said.resize(std::size_t{1} << 16);  // what a pipe holds
-    const ssize_t length = ::read(ends[0], run.said.data(), run.said.size());
-    ::close(ends[0]);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length < 0) return {};
-    run.said.resize(static_cast<std::size_t>(length));
-    return run;
 }
 
 }  // namespace
@@ -136,24 +97,76 @@ long high_water_kib() {
     return -1;
 }
 
+Result<level2::Volume> decode_ref(const Bytes& bytes, std::string_view name, int threads) {
+    level2::DecodeOptions options;
+    const std::string station(name.substr(0, 4));
+    if (find_station(station)) options.fallback_station = station;
+    options.threads = threads;
+    options.selection.moments = {level2::Moment::ref};
+    auto decoded = level2::decode(bytes, options);
+    if (!decoded) return pass_on(decoded);
+    return std::move(decoded->volume);
+}
+
+Result<level2::Volume> decode_ref(const std::filesystem::path& file, int threads) {
+    const auto bytes = read_file(file);
+    if (!bytes) return pass_on(bytes);
+    return decode_ref(*bytes, file.filename().native(), threads);
+}
+
+Result<grid::SitePosition> site_of(const level2::Volume& volume) {
+    if (const auto antenna = level2::antenna_position(volume)) {
+        return grid::SitePosition{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    }
+    if (const auto station = find_station(volume.station)) return position_of(*station);
+    return fail(ErrorCode::not_found, "no position");
+}
+
+grid::SitePosition position_of(const Station& station) {
+    return {std::string(station.icao), station.latitude_deg, station.longitude_deg,
+            station.antenna_altitude_m};
+}
+
+std::string built_program(const std::filesystem::path& program) {
+    std::error_code failed;
+    const auto own = std::filesystem::read_symlink("/proc/self/exe", failed);
+    return own.parent_path().parent_path() / program;
+}
+
+std::optional<ProgramRun> run_program(const std::string& program,
+                                      std::vector<std::string> arguments) {
+    const std::filesystem::path output =
+        std::filesystem::temp_directory_path() / fmt::format("stormcellar-bench-{}", ::getpid());
+    arguments.insert(arguments.begin(), program);
+    ProgramRun run;
+    bool good = false;
+    run.seconds = seconds_of([&] {
+        auto child = ChildProcess::start(std::move(arguments), output);
+        good = child && child->wait();
+    });
+    const std::string errors = output.native() + ".err";
+    if (good) {
+        run.said = text_in(output);
+    } else {
+        fmt::print(stderr, "{} failed: {}\n", program, text_in(errors));
+    }
+    std::error_code ignored;
+    std::filesystem::remove(output, ignored);
+    std::filesystem::remove(errors, ignored);
+    if (!good) return {};
+    return run;
+}
+
 std::optional<std::string> run_self(std::vector<std::string> arguments) {
-    auto run = run_program("/proc/self/exe", std::move(arguments), Stderr::shown);
+    auto run = run_program("/proc/self/exe", std::move(arguments));
     if (!run || run->said.empty()) return {};
     return std::move(run->said);
 }
 
-std::optional<double> peak_mib(std::vector<std::string> arguments) {
+double peak_mib(std::vector<std::string> arguments) {
     const auto said = run_self(std::move(arguments));
-    if (!said) return {};
-    return static_cast<double>(number_in(*said)) / 1024;
-}
-
-std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments) {
-    std::error_code failed;
-    const auto own = std::filesystem::read_symlink("/proc/self/exe", failed);
-    if (failed) return {};
-    return run_program(own.parent_path().parent_path() / "cli" / "stormcellar",
-                       std::move(arguments), Stderr::dropped);
+    return said ? static_cast<double>(number_in(*said)) / 1024 : std::nan("");
 }
 
 double quantile(std::vector<double> values, double share) {

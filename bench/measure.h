@@ -11,6 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/level2/volume.h"
+
 namespace stormcellar::bench {
 
 using Bytes = std::vector<std::byte>;
@@ -49,21 +54,31 @@ void decompress_all(std::span<const std::span<const std::byte>> records);
 // Does the same by bunzip's usual path, as level2 does.
 void bunzip_all(std::span<const std::span<const std::byte>> records);
 
-// Runs this program with these arguments in a process of its own. Returns what it prints, up to 64
-// KiB; none if it failed.
-[[nodiscard]] std::optional<std::string> run_self(std::vector<std::string> arguments);
-// Does the same if it prints high_water_kib().
-[[nodiscard]] std::optional<double> peak_mib(std::vector<std::string> arguments);
-// Returns the peak memory of this process in KiB, as the kernel counts it (proc(5)).
-[[nodiscard]] long high_water_kib();
+// Decodes reflectivity. `name` begins with the station for volumes that do not name theirs.
+[[nodiscard]] Result<level2::Volume> decode_ref(const Bytes& bytes, std::string_view name,
+                                                int threads);
+[[nodiscard]] Result<level2::Volume> decode_ref(const std::filesystem::path& file, int threads);
+// Returns the position in the volume; else (message 1 has none) that of the station table; else
+// not_found.
+[[nodiscard]] Result<grid::SitePosition> site_of(const level2::Volume& volume);
+[[nodiscard]] grid::SitePosition position_of(const Station& station);
 
-// The time of the program `stormcellar` built with the benchmarks, from its start to its end, and
-// what it printed on stdout, up to 64 KiB. None if it failed or does not exist.
+// A program that was built with this one: "cli/stormcellar".
+[[nodiscard]] std::string built_program(const std::filesystem::path& program);
+// A program's output, and the time from its start to its end.
 struct ProgramRun {
     double seconds = 0;
     std::string said;
 };
-[[nodiscard]] std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments);
+// Runs a program to its end; none if it failed, which is then said on stderr.
+[[nodiscard]] std::optional<ProgramRun> run_program(const std::string& program,
+                                                    std::vector<std::string> arguments);
+// Runs this program with these arguments in a process of its own. Returns what it prints.
+[[nodiscard]] std::optional<std::string> run_self(std::vector<std::string> arguments);
+// Does the same if it prints high_water_kib(); NaN if it failed.
+[[nodiscard]] double peak_mib(std::vector<std::string> arguments);
+// Returns the peak memory of this process in KiB, as the kernel counts it (proc(5)).
+[[nodiscard]] long high_water_kib();
 
 // Returns the quantile of a share, such as 0.95, by nearest rank, of values in any order; NaN if
 // there are none.

@@ -1,6 +1,8 @@
 #include "bench/mosaic_feed.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,12 +13,14 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
-#include "bench/feed_kinds.h"
 #include "bench/restamp.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/grid/grid_window.h"
 #include "stormcellar/grid/projection.h"
+#include "stormcellar/level2/decode.h"
 #include "stormcellar/level2/encode.h"
+#include "synth/observe.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -27,9 +31,40 @@ constexpr int side = 256;
 constexpr int levels = 128;
 constexpr double level_step_m = 125;
 
+constexpr std::string_view simulated = "simulated-";
+constexpr const char* storm_line = STORMCELLAR_SOURCE_DIRECTORY "/scenes/storm-line.toml";
+
+// The sites send these kinds, in turn.
+struct FeedKind {
+    std::vector<std::string> files;  // sent in turn; empty: the simulated storms
+    std::chrono::minutes interval{10};
+
+    [[nodiscard]] int volumes_an_hour() const {
+        return static_cast<int>(std::chrono::minutes{60} / interval);
+    }
+    // Returns the name of the volume that is sent as number `slot` of an hour.
+    [[nodiscard]] std::string volume_at(int slot) const {
+        if (files.empty()) return fmt::format("{}{}", simulated, slot);
+        return files[static_cast<std::size_t>(slot) % files.size()];
+    }
+};
+
 const FeedKind& kind_of(int site) {
-    const auto kinds = feed_kinds();
-    return kinds[static_cast<std::size_t>(site) % kinds.size()];
+    static const FeedKind migrating_birds{{"mosaic-northeast/KCCX20100911_013442_V03.gz"}};
+    static const FeedKind drizzle{{"mosaic-northeast/KOKX20100911_011047_V03.gz"}};
+    static const FeedKind coast{{"mosaic-northeast/KDIX20100911_011759_V03.gz"}};
+    static const FeedKind recombined{{"mosaic-northeast/KDOX20100911_012056_V04.gz"}};
+    static const FeedKind clear_air{{"volumes/KABR20050101_000745.gz"}};
+    static const FeedKind sequence{
+        {"sequence-kbgm/KBGM20050822_024414.gz", "sequence-kbgm/KBGM20050822_025001.gz",
+         "sequence-kbgm/KBGM20050822_025549.gz", "sequence-kbgm/KBGM20050822_030243.gz",
+         "sequence-kbgm/KBGM20050822_030830.gz"},
+        std::chrono::minutes{6}};
+    static const FeedKind storms{{}, std::chrono::minutes{5}};
+    static const std::array<const FeedKind*, 10> kinds = {
+        &migrating_birds, &storms, &recombined, &drizzle, &sequence,
+        &storms,          &coast,  &recombined, &storms,  &clear_air};
+    return *kinds[static_cast<std::size_t>(site) % kinds.size()];
 }
 
 // Sites start at different times and intervals.
@@ -78,6 +113,19 @@ Status write_stamped(const level2::Volume& volume, const Stamp& stamp) {
 }
 
 }  // namespace
+
+Result<level2::Volume> feed_volume(const std::string& name, const std::filesystem::path& data) {
+    if (name.starts_with(simulated)) {
+        int number = 0;
+        std::from_chars(name.data() + simulated.size(), name.data() + name.size(), number);
+        const auto scene = synth::read_scene(storm_line);
+        if (!scene) return pass_on(scene);
+        return synth::observe(*scene, number);
+    }
+    auto decoded = level2::decode_file(data / name);
+    if (!decoded) return pass_on(decoded);
+    return std::move(decoded->volume);
+}
 
 UtcTime feed_start() {
     return std::chrono::sys_days{std::chrono::year{2024} / 6 / 1} + std::chrono::hours{12};

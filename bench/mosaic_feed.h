@@ -18,6 +18,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "stormcellar/base/result.h"
@@ -40,6 +41,11 @@ struct FeedVolume {
     std::filesystem::path file;
     std::chrono::hours moved{0};  // relative to the times in the file
 };
+
+// Returns the real volume of that name below `data`, or a simulated one ("simulated-3"), before it
+// is re-stamped.
+[[nodiscard]] Result<level2::Volume> feed_volume(const std::string& name,
+                                                 const std::filesystem::path& data);
 
 [[nodiscard]] std::vector<Station> feed_sites(int count);
 // Returns the volumes of the first `hours`, ordered by start, then site. 1 to most_sites sites.

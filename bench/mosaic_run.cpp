@@ -26,7 +26,7 @@ using std::chrono::minutes;
 
 constexpr minutes frame_interval{5};
 constexpr minutes stretch{30};
-// From one start to the middle of the volume that comes next at this site: no longer than this.
+// Longest time from a volume's start to the middle of the site's next volume.
 constexpr minutes longest_wait{20};
 const std::string domain_name = "bench";
 
@@ -52,7 +52,7 @@ class Runner {
     [[nodiscard]] const MosaicRun& done() const { return done_; }
 
   private:
-    // Of one volume.
+    // The result for one volume.
     struct Made {
         std::optional<pipeline::MadePartial> partial;
         std::uint64_t compressed = 0, uncompressed = 0;
@@ -90,12 +90,10 @@ Result<Runner::Made> Runner::make_partial(const FeedVolume& volume) {
     auto decoded = level2::decode(*bytes, options);
     if (!decoded) return pass_on(decoded);
     move_times(decoded->volume, volume.moved);
-    const auto antenna = level2::antenna_position(decoded->volume);
-    if (!antenna) return fail(ErrorCode::not_found, "{}: no position", volume.file.string());
-    const grid::SitePosition site{decoded->volume.station, antenna->latitude_deg,
-                                  antenna->longitude_deg, antenna->altitude_m};
-    auto made = pipeline::make_partial(decoded->volume, site, domain_,
-                                       partial_options(domain_, site.icao), geometries_);
+    const auto site = site_of(decoded->volume);
+    if (!site) return pass_on(site);
+    auto made = pipeline::make_partial(decoded->volume, *site, domain_,
+                                       partial_options(domain_, site->icao), geometries_);
     if (!made) return pass_on(made);
     if (*made) (*made)->description.provenance.source_files = {volume.file.filename().string()};
     return Made{std::move(*made), bytes->size(), decoded->report.message_bytes};
@@ -138,7 +136,7 @@ UtcTime middle_of(const pipeline::MadePartial& partial) {
     return pipeline::PartialView{&partial.description, {}}.middle();
 }
 
-// What no frame from then on is made of: of each site all but the last one before it.
+// No frame from then on is made of these: of each site all but the last one before it.
 void Runner::drop_before(UtcTime time) {
     std::map<std::string, UtcTime> last;
     for (const pipeline::MadePartial& partial : partials_) {

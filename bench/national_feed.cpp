@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/parallel.h"
-#include "bench/stamped_records.h"
+#include "bench/restamp.h"
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_name.h"
 #include "synth/replay_pieces.h"
 
 namespace stormcellar::bench {
@@ -67,13 +67,12 @@ Status make_files(const StampedRecords& records, const std::vector<ToMake>& file
     return {};
 }
 
-Result<NationalFile> look_at(const fs::path& path) {
-    const auto bytes = read_file(path);
+Status look_at(NationalSite& site) {
+    const auto bytes = read_file(site.hours.front());
     if (!bytes) return pass_on(bytes);
-    NationalFile file{path, bytes->size(), {}};
-    for (const std::size_t end : synth::piece_ends(*bytes))
-        file.ends.push_back(end);
-    return file;
+    site.bytes = bytes->size();
+    site.chunks = synth::piece_ends(*bytes).size();
+    return {};
 }
 
 std::vector<NationalSite> first_sites(int count) {
@@ -114,7 +113,7 @@ Result<NationalFeed> NationalFeed::make(int sites, int hours, const fs::path& da
                 const fs::path path =
                     directory / fmt::format("{}-{}-{:02}.ar2v", site.station.icao, kind, hour);
                 if (!fs::exists(path, failed)) missing.push_back({site.station, hour, path});
-                site.hours.push_back({path, 0, {}});
+                site.hours.push_back(path);
             }
         }
         const auto records = StampedRecords::read(*joined);
@@ -126,12 +125,8 @@ Result<NationalFeed> NationalFeed::make(int sites, int hours, const fs::path& da
     feed.expansion_ = messages / bytes;
     double volume_bytes = 0;
     for (NationalSite& site : feed.sites_) {
-        for (NationalFile& file : site.hours) {
-            auto known = look_at(file.path);
-            if (!known) return pass_on(known);
-            file = std::move(*known);
-        }
-        volume_bytes += static_cast<double>(site.hours.front().bytes);
+        if (Status known = look_at(site); !known) return pass_on(known);
+        volume_bytes += static_cast<double>(site.bytes);
     }
     feed.period_s_ =
         volume_bytes * hour_s /
@@ -143,20 +138,18 @@ Result<NationalFeed> NationalFeed::make(int sites, int hours, const fs::path& da
     return feed;
 }
 
-std::uint64_t NationalFeed::bytes_on_disk() const {
-    std::uint64_t bytes = 0;
-    for (const NationalSite& site : sites_) {
-        for (const NationalFile& file : site.hours)
-            bytes += file.bytes;
-    }
-    return bytes;
-}
-
 double NationalFeed::chunks_a_second() const {
     double chunks = 0;
     for (const NationalSite& site : sites_)
-        chunks += static_cast<double>(site.hours.front().ends.size());
+        chunks += static_cast<double>(site.chunks);
     return chunks / period_s_;
+}
+
+double NationalFeed::bytes_a_second() const {
+    double bytes = 0;
+    for (const NationalSite& site : sites_)
+        bytes += static_cast<double>(site.bytes);
+    return bytes / period_s_;
 }
 
 UtcTime NationalFeed::start_of(const NationalSite& site, int volume) const {
@@ -164,10 +157,31 @@ UtcTime NationalFeed::start_of(const NationalSite& site, int volume) const {
     return national_start() + std::chrono::milliseconds{std::llround(1000 * seconds)};
 }
 
-const NationalFile& NationalFeed::file_of(const NationalSite& site, int volume) const {
-    const double seconds = site.first_start_s + volume * period_s_;
-    const auto hour = static_cast<std::size_t>(std::max(0.0, seconds) / hour_s);
-    return site.hours[std::min(hour, site.hours.size() - 1)];
+std::vector<NationalVolume> NationalFeed::volumes(double until_s) const {
+    std::vector<NationalVolume> volumes;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+        const NationalSite& site = sites_[i];
+        for (int number = 0; site.first_start_s + number * period_s_ < until_s; ++number) {
+            const UtcTime start = start_of(site, number);
+            const cache::GridName grid{std::string(site.station.icao), level2::Moment::ref, start};
+            volumes.push_back({i, number, start, cache::relative_path(grid).filename()});
+        }
+    }
+    std::ranges::sort(volumes, {}, &NationalVolume::start);
+    return volumes;
+}
+
+synth::ReplayItem NationalFeed::item_of(const NationalVolume& volume) const {
+    const NationalSite& site = sites_[volume.site];
+    const double begins_s = std::max(0.0, site.first_start_s + volume.number * period_s_);
+    const auto hour = std::min(static_cast<std::size_t>(begins_s / hour_s), site.hours.size() - 1);
+    const std::string icao(site.station.icao);
+    const std::string name = fmt::format("{}{}_V06", icao, format_compact(volume.start));
+    return {.source = site.hours[hour],
+            .name = fs::path(icao) / name,
+            .time = volume.start,
+            .station = icao,
+            .has_records = true};
 }
 
 }  // namespace stormcellar::bench

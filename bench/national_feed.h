@@ -7,10 +7,11 @@
 //           one KLOT 2026 in clear air (55 chunks, 3.1 MB). All take `period`, from which the rate
 //           follows, and the starts of the sites are spread evenly.
 // On disk   A file for each site and hour: the records of the real volume with the site's name,
-//           position and times, compressed again (bench/stamped_records.h). Within the hour,
+//           position and times, compressed again (bench/restamp.h). Within the hour,
 //           volumes of a site differ only in the time in their headers: the times of the radials
 //           are up to 40 minutes off, and gates are the same. This saves nothing in reading,
-//           decompressing, decoding, gridding or storing them.
+//           decompressing, decoding, gridding or storing them. A replay (synth/replay.h) plays
+//           them.
 // Threads   Plain data; make() starts its own threads.
 #pragma once
 
@@ -23,23 +24,28 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/utc_time.h"
+#include "synth/replay.h"
 
 namespace stormcellar::bench {
 
 inline constexpr int national_sites = 160;
 inline constexpr double heaviest_hour_bytes = 13.8e9;
 
-struct NationalFile {
-    std::filesystem::path path;
-    std::uint64_t bytes = 0;
-    std::vector<std::uint64_t> ends;  // of its chunks, ascending
-};
-
 struct NationalSite {
     Station station;
     int kind = 0;
-    double first_start_s = 0;         // of its volume 0 on the feed's clock, not after 0
-    std::vector<NationalFile> hours;  // what it sends in each hour
+    double first_start_s = 0;  // of its volume 0 on the feed's clock, not after 0
+    std::uint64_t bytes = 0;   // of a volume
+    std::size_t chunks = 0;
+    std::vector<std::filesystem::path> hours;  // what it sends in each hour
+};
+
+// A volume that a site sends.
+struct NationalVolume {
+    std::size_t site = 0;
+    int number = 0;  // of the site, from 0
+    UtcTime start;
+    std::string grid;  // the name of its grid's file
 };
 
 class NationalFeed {
@@ -52,13 +58,20 @@ class NationalFeed {
 
     [[nodiscard]] const std::vector<NationalSite>& sites() const { return sites_; }
     [[nodiscard]] double period_s() const { return period_s_; }
-    [[nodiscard]] std::uint64_t bytes_on_disk() const;
     [[nodiscard]] double message_bytes_per_byte() const { return expansion_; }
     [[nodiscard]] double chunks_a_second() const;
 
+    // Bytes of the feed in a second of its clock.
+    [[nodiscard]] double bytes_a_second() const;
+    // The feed's clock is at 0 so long after the first site began.
+    [[nodiscard]] double past_s() const { return -sites_.back().first_start_s; }
+
     // Returns the start of a site's volume, counted from 0.
     [[nodiscard]] UtcTime start_of(const NationalSite& site, int volume) const;
-    [[nodiscard]] const NationalFile& file_of(const NationalSite& site, int volume) const;
+    // Returns what begins before `until_s` on the feed's clock, in the order of a replay, and what
+    // to replay for it.
+    [[nodiscard]] std::vector<NationalVolume> volumes(double until_s) const;
+    [[nodiscard]] synth::ReplayItem item_of(const NationalVolume& volume) const;
 
   private:
     std::vector<NationalSite> sites_;

@@ -19,7 +19,7 @@ namespace stormcellar::bench {
 
 struct Program {
     std::string_view name;
-    std::string_view files;                     // the positional words, as "[FILE ...]"
+    std::string_view files;                     // "[FILE ...]" if it takes files
     std::string_view purpose;                   // one line
     std::vector<std::string_view> flags = {};   // the program's own flags
     std::vector<std::string_view> values = {};  // the program's own options with a value
@@ -59,8 +59,5 @@ using MeasureFile =
 // prints it. Returns the exit status of main(): 2 after bad usage, 3 if there are no files.
 [[nodiscard]] int run_over_files(const Program& program, std::span<char* const> arguments,
                                  const MeasureFile& measure);
-// The same for a request that has been read.
-[[nodiscard]] int measure_files(std::string_view program, const Request& request,
-                                const MeasureFile& measure);
 
 }  // namespace stormcellar::bench

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
-#include <optional>
+#include <sstream>
 #include <thread>
 #include <utility>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -35,13 +35,6 @@ bool answers(int port) {
                      sizeof address) == 0;
 }
 
-// A program that was built with this one: "cli/stormcellar".
-std::string built_program(const fs::path& program) {
-    std::error_code failed;
-    const auto own = fs::read_symlink("/proc/self/exe", failed);
-    return own.parent_path().parent_path() / program;
-}
-
 // Prints one line of figures at the end: requests and bytes, microseconds, latencies, failures.
 constexpr std::string_view report = R"(done = function(summary, latency, requests)
   local e = summary.errors
@@ -56,29 +49,15 @@ int processor_of_load() {
                                                    : processor_of_servers;
 }
 
-// `stormcellar serve` with these words behind it. Returns when it says that it listens.
-Result<WebServer> serve_with(const std::vector<std::string>& words, const fs::path& scratch,
-                             std::optional<int> processor) {
-    std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
-                                          "127.0.0.1:0"};
-    arguments.insert(arguments.end(), words.begin(), words.end());
-    // What a server before this one said does not count.
-    std::error_code ignored;
-    fs::remove(scratch / "serve", ignored);
-    auto process = ChildProcess::start(std::move(arguments), scratch / "serve", processor);
+// Waits until somebody listens on the port of a server that was started.
+Result<WebServer> listening(Result<ChildProcess> process, int port, const std::string& name,
+                            const fs::path& said) {
     if (!process) return pass_on(process);
-    constexpr std::string_view before = "listening on http://127.0.0.1:";
     for (int i = 0; i < most_steps && process->is_running(); ++i) {
-        const std::string said = process->output();
-        const std::size_t at = said.find(before);
-        if (at != std::string::npos && said.find('\n', at) != std::string::npos) {
-            const long port = number_in(std::string_view{said}.substr(at + before.size()));
-            return WebServer{std::move(*process), static_cast<int>(port)};
-        }
+        if (answers(port)) return WebServer{std::move(*process), port};
         std::this_thread::sleep_for(step);
     }
-    return fail(ErrorCode::not_found, "stormcellar serve did not start: see {}.err",
-                (scratch / "serve").native());
+    return fail(ErrorCode::not_found, "{} did not start: see {}.err", name, said.native());
 }
 
 }  // namespace
@@ -87,13 +66,14 @@ std::string WebServer::address() const {
     return fmt::format("http://127.0.0.1:{}", port);
 }
 
-Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path& scratch) {
-    return serve_with({files.begin(), files.end()}, scratch, processor_of_servers);
-}
-
-Result<WebServer> serve_archive(const fs::path& catalog, const fs::path& cache,
-                                const fs::path& scratch) {
-    return serve_with({"--catalog", catalog, "--cache", cache}, scratch, std::nullopt);
+Result<WebServer> serve(const std::vector<std::string>& words, const fs::path& scratch,
+                        std::optional<int> processor) {
+    const int port = free_port();
+    std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
+                                          fmt::format("127.0.0.1:{}", port)};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return listening(ChildProcess::start(std::move(arguments), scratch / "serve", processor), port,
+                     "stormcellar serve", scratch / "serve");
 }
 
 int free_port() {
@@ -110,15 +90,10 @@ int free_port() {
 
 Result<WebServer> serve_configured(const fs::path& configuration, int port,
                                    const fs::path& scratch) {
-    auto process = ChildProcess::start(
-        {built_program("web/stormcellar-web"), "--config", configuration}, scratch / "web");
-    if (!process) return pass_on(process);
-    for (int i = 0; i < most_steps && process->is_running(); ++i) {
-        if (answers(port)) return WebServer{std::move(*process), port};
-        std::this_thread::sleep_for(step);
-    }
-    return fail(ErrorCode::not_found, "stormcellar-web did not start: see {}.err",
-                (scratch / "web").native());
+    return listening(
+        ChildProcess::start({built_program("web/stormcellar-web"), "--config", configuration},
+                            scratch / "web"),
+        port, "stormcellar-web", scratch / "web");
 }
 
 Result<WebServer> serve_with_nginx(const fs::path& directory, const fs::path& scratch) {
@@ -132,38 +107,40 @@ Result<WebServer> serve_with_nginx(const fs::path& directory, const fs::path& sc
         "uwsgi_temp_path {0}/uwsgi; scgi_temp_path {0}/scgi;\n"
         "server {{ listen 127.0.0.1:{1}; root {2}; }} }}\n",
         scratch.native(), port, directory.native());
-    auto process = ChildProcess::start({"nginx", "-p", scratch, "-c", file}, scratch / "nginx",
-                                       processor_of_servers);
-    if (!process) return pass_on(process);
-    for (int i = 0; i < most_steps && process->is_running(); ++i) {
-        if (answers(port)) return WebServer{std::move(*process), port};
-        std::this_thread::sleep_for(step);
-    }
-    return fail(ErrorCode::not_found, "nginx did not start (package nginx-light): see {}.err",
-                (scratch / "nginx").native());
+    return listening(ChildProcess::start({"nginx", "-p", scratch, "-c", file}, scratch / "nginx",
+                                         processor_of_servers),
+                     port, "nginx (package nginx-light)", scratch / "nginx");
 }
 
-Result<Fetched> get(const std::string& address, const std::vector<std::string>& headers,
-                    const fs::path& scratch) {
-    const fs::path body = scratch / "body";
-    std::vector<std::string> arguments = {"curl", "--silent",    "--output",
-                                          body,   "--write-out", "%{http_code} %{time_total}\n"};
+Result<std::vector<Fetched>> get_all(const WebServer& server, const std::vector<std::string>& paths,
+                                     const std::vector<std::string>& headers,
+                                     const fs::path& scratch, std::string* body) {
+    const fs::path list = scratch / "urls", kept = body ? scratch / "body" : fs::path("/dev/null");
+    {
+        std::ofstream file(list);
+        for (const std::string& path : paths)
+            fmt::print(file, "url = \"{}{}\"\noutput = \"{}\"\n", server.address(), path,
+                       kept.native());
+    }
+    std::vector<std::string> arguments = {
+        "curl", "--silent", "--write-out", "%{http_code} %{time_total}\n", "--config", list};
     for (const std::string& header : headers) {
         arguments.emplace_back("--header");
         arguments.push_back(header);
     }
-    arguments.push_back(address);
     auto curl = ChildProcess::start(std::move(arguments), scratch / "curl", processor_of_load());
     if (!curl) return pass_on(curl);
-    if (!curl->wait()) return fail(ErrorCode::not_found, "curl could not get {}", address);
-    Fetched fetched;
-    double seconds = 0;
-    if (std::sscanf(curl->output().c_str(), "%d %lf", &fetched.status, &seconds) != 2)
-        return fail(ErrorCode::internal, "curl gave no figures of {}", address);
-    fetched.ms = 1e3 * seconds;
-    std::ifstream file(body, std::ios::binary);
-    fetched.body.assign(std::istreambuf_iterator<char>(file), {});
-    return fetched;
+    if (!curl->wait()) return fail(ErrorCode::not_found, "curl could not get {}", paths.front());
+    std::istringstream said(curl->output());
+    std::vector<Fetched> all;
+    for (Fetched one; said >> one.status >> one.ms; all.push_back(one)) {
+        one.ms *= 1000;
+        if (one.status != 200)
+            return fail(ErrorCode::internal, "{} answered {}", paths[all.size()], one.status);
+    }
+    if (all.size() != paths.size()) return fail(ErrorCode::internal, "curl gave no figures");
+    if (body) *body = text_in(kept);
+    return all;
 }
 
 Result<Load> load(const WebServer& server, const std::string& path,

@@ -8,12 +8,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "bench/child_process.h"
+#include "bench/process.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
@@ -33,13 +33,10 @@ struct WebServer {
     // "http://127.0.0.1:PORT" without a slash at the end.
     [[nodiscard]] std::string address() const;
 };
-// `stormcellar serve` of these files. Returns when it answers.
-[[nodiscard]] Result<WebServer> serve_files(const std::vector<std::filesystem::path>& files,
-                                            const std::filesystem::path& scratch);
-// `stormcellar serve` of a catalog and a cache. It runs on any processor.
-[[nodiscard]] Result<WebServer> serve_archive(const std::filesystem::path& catalog,
-                                              const std::filesystem::path& cache,
-                                              const std::filesystem::path& scratch);
+// `stormcellar serve` with these words behind it. Returns when it answers.
+[[nodiscard]] Result<WebServer> serve(const std::vector<std::string>& words,
+                                      const std::filesystem::path& scratch,
+                                      std::optional<int> processor = std::nullopt);
 // `stormcellar-web` with this configuration, whose [web] listen is 127.0.0.1:`port`. It runs on any
 // processor.
 [[nodiscard]] Result<WebServer> serve_configured(const std::filesystem::path& configuration,
@@ -50,15 +47,19 @@ struct WebServer {
 [[nodiscard]] Result<WebServer> serve_with_nginx(const std::filesystem::path& directory,
                                                  const std::filesystem::path& scratch);
 
-// What one GET without a load gave: curl is the client.
+// The answer to one GET without a load: curl is the client.
 struct Fetched {
     int status = 0;
-    std::string body;
     double ms = 0;  // from the request to the last byte
 };
-[[nodiscard]] Result<Fetched> get(const std::string& address,
-                                  const std::vector<std::string>& headers,
-                                  const std::filesystem::path& scratch);
+// Asks for one path after another by one connection, which is made again where the server closes
+// it. Drops the bodies, or keeps that of the last one. Errors, also: internal for any other status
+// than 200.
+[[nodiscard]] Result<std::vector<Fetched>> get_all(const WebServer& server,
+                                                   const std::vector<std::string>& paths,
+                                                   const std::vector<std::string>& headers,
+                                                   const std::filesystem::path& scratch,
+                                                   std::string* body = nullptr);
 
 struct Load {
     double requests_per_s = 0, mb_per_s = 0;

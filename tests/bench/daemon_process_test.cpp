@@ -1,6 +1,4 @@
 // Tests the daemon that a benchmark starts.
-#include "bench/daemon_process.h"
-
 #include <array>
 #include <csignal>
 #include <fstream>
@@ -10,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/process.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 

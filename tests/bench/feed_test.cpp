@@ -1,19 +1,18 @@
-// Tests the national feed of bench_feed: re-stamped records, what the player writes, the slope of
-// memory.
+// Tests the national feed of bench_feed: re-stamped records, what a replay of it writes, the slope
+// of memory.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <map>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/feed_player.h"
 #include "bench/feed_run.h"
-#include "bench/feed_soak.h"
 #include "bench/grid_watch.h"
+#include "bench/measure.h"
 #include "bench/national_feed.h"
 #include "bench/restamp.h"
-#include "bench/stamped_records.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/level2/chunk_directory.h"
 #include "stormcellar/level2/decode.h"
@@ -72,52 +71,70 @@ const NationalFeed& feed() {
     return made;
 }
 
-class PlayedFeed : public ::testing::TestWithParam<Delivery> {
+class PlayedFeed : public ::testing::TestWithParam<synth::Delivery> {
   protected:
     testing::TemporaryDirectory drop_;
 };
 
+// All that is due in the first 1.6 periods is written at once; then the replay is stopped.
 TEST_P(PlayedFeed, GivesEachVolumeAtItsTimeAsTheSiteWouldSendIt) {
     STORMCELLAR_NEED_DATA();
-    FeedPlayer player(feed(), drop_.path(), GetParam());
-    std::map<std::string, double> sent;  // the time of each, by grid
-    double at_s = 0;
-    while (player.next_s() <= 0.6 * feed().period_s()) {
-        at_s = player.next_s();
-        ASSERT_TRUE(player.write_next([&](const SentVolume& volume) { sent[volume.grid] = at_s; }));
-    }
-    ASSERT_EQ(sent.size(), 4U);  // sites that began more than 0.4 periods ago
-    for (std::size_t i = 0; i < feed().sites().size(); ++i) {
-        const NationalSite& site = feed().sites()[i];
-        if (player.volumes_sent()[i] == 0) continue;
-        const UtcTime start = feed().start_of(site, 0);
+    const auto volumes = feed().volumes(2 * feed().period_s());
+    std::vector<synth::ReplayItem> items;
+    for (const NationalVolume& volume : volumes)
+        items.push_back(feed().item_of(volume));
+    std::atomic<bool> stop = false;
+    std::set<std::size_t> ended;
+    synth::ReplayOptions options;
+    options.delivery = GetParam();
+    options.past_s = feed().past_s() + 0.6 * feed().period_s();
+    options.stop = &stop;
+    options.stamp = [](const synth::ReplayItem& item, std::span<std::byte> bytes) {
+        stamp_header_time(bytes, *item.time);
+    };
+    options.ended = [&](const synth::ReplayItem& item) {
+        ended.insert(static_cast<std::size_t>(&item - items.data()));
+    };
+    options.begun = [&] { stop = true; };
+    const auto report = synth::replay(items, drop_.path(), real_file_system(), options);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(ended.size(), report->files);
+    std::size_t whole = 0;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const NationalSite& site = feed().sites()[volumes[i].site];
+        const double start_s = site.first_start_s + volumes[i].number * feed().period_s();
+        const double last_s =
+            start_s + (GetParam() == synth::Delivery::whole
+                           ? 0
+                           : feed().period_s() * (1 - 1 / static_cast<double>(site.chunks)));
+        EXPECT_EQ(ended.contains(i), last_s < 0.6 * feed().period_s()) << items[i].name;
+        if (!ended.contains(i)) continue;
+        ++whole;
         const std::string icao(site.station.icao);
-        const fs::path path = GetParam() == Delivery::chunks
-                                  ? drop_ / icao / "0"
-                                  : drop_ / icao / (icao + format_compact(start) + "_V06");
+        // Volumes of a station have numbers from 1 on.
+        const fs::path path = GetParam() == synth::Delivery::chunks
+                                  ? drop_ / icao / std::to_string(volumes[i].number + 1)
+                                  : drop_ / items[i].name;
         const auto decoded = level2::decode_path(path);
         ASSERT_TRUE(decoded) << decoded.error().message;
         EXPECT_TRUE(decoded->report.complete);
         EXPECT_EQ(decoded->volume.station, icao);
-        EXPECT_EQ(decoded->volume.start_time(), start) << "believed, though radials say another";
-        std::string time = format_compact(start);
-        const auto grid = std::find_if(sent.begin(), sent.end(), [&](const auto& one) {
-            return one.first.starts_with(icao + "_REF_" + time);
-        });
-        ASSERT_NE(grid, sent.end());
-        EXPECT_NEAR(grid->second, site.first_start_s + feed().period_s(), 1e-6);
+        EXPECT_EQ(decoded->volume.start_time(), volumes[i].start)
+            << "believed, though radials say another";
+        EXPECT_TRUE(volumes[i].grid.starts_with(icao + "_REF_" + format_compact(volumes[i].start)));
     }
+    EXPECT_GE(whole, 4U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, PlayedFeed,
-                         ::testing::Values(Delivery::growing, Delivery::open, Delivery::whole,
-                                           Delivery::chunks));
+                         ::testing::Values(synth::Delivery::growing, synth::Delivery::open,
+                                           synth::Delivery::whole, synth::Delivery::chunks));
 
 TEST(NationalFeed, HasTheRateOfTheHeaviestHour) {
     STORMCELLAR_NEED_DATA();
     double bytes_a_second = 0;
     for (const NationalSite& site : feed().sites())
-        bytes_a_second += static_cast<double>(site.hours.front().bytes) / feed().period_s();
+        bytes_a_second += static_cast<double>(site.bytes) / feed().period_s();
     EXPECT_NEAR(bytes_a_second * national_sites / 8 * 3600 / heaviest_hour_bytes, 1, 1e-9);
     EXPECT_NEAR(feed().chunks_a_second() * national_sites / 8, 33, 1);
     EXPECT_NEAR(feed().message_bytes_per_byte(), 7.1, 0.1);
@@ -133,14 +150,14 @@ TEST(FeedSoak, SlopeIsThatOfALineBehindTheFirstTenth) {
     EXPECT_TRUE(std::isnan(memory_slope_mib_h({})));
 }
 
-TEST(Stretch, QuantilesAreByNearestRank) {
-    Stretch stretch;
-    EXPECT_TRUE(std::isnan(stretch.latency_s(0.5)));
-    for (int i = 1; i <= 40; ++i)
-        stretch.latencies_s.push_back(i);
-    EXPECT_EQ(stretch.latency_s(0.5), 20);
-    EXPECT_EQ(stretch.latency_s(0.95), 38);
-    EXPECT_EQ(stretch.latency_s(1), 40);
+TEST(Quantile, IsByNearestRank) {
+    EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+    std::vector<double> numbers;
+    for (int i = 40; i >= 1; --i)
+        numbers.push_back(i);
+    EXPECT_EQ(quantile(numbers, 0.5), 20);
+    EXPECT_EQ(quantile(numbers, 0.95), 38);
+    EXPECT_EQ(quantile(numbers, 1), 40);
 }
 
 TEST(GridWatch, HearsOfFilesThatAreRenamedIntoPlace) {

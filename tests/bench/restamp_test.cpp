@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/feed_kinds.h"
 #include "bench/mosaic_feed.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/level2/decode.h"

@@ -98,7 +98,7 @@ class Statuses(unittest.TestCase):
 class TheTable(unittest.TestCase):
     """The benchmarks know some of the numbers, too."""
     def test_is_that_of_bench_render(self):
-        text = (ROOT / 'bench/render_scene.h').read_text()
+        text = (ROOT / 'bench/bench_render.cpp').read_text()
         for column, volume in enumerate(VOLUMES):
             numbers = ', '.join(f'{TABLE_1[slices][column]:g}' for slices in TABLE_1)
             self.assertIn(f'"{volume}"', text)
