@@ -113,7 +113,8 @@ class WebBench {
         const auto fetched = get_all(ours_, {"/api/v1/grids"}, {}, scratch_, &body);
         if (!fetched) return pass_on(fetched);
         std::vector<std::string> paths;
-        for (const auto& grid : nlohmann::json::parse(body)["grids"]) {
+        const auto listed = nlohmann::json::parse(body);
+        for (const auto& grid : listed["grids"]) {
             paths.push_back(
                 fmt::format("/api/v1/grids/{}/{}/{}/packed", grid["domain"].get<std::string>(),
                             grid["moment"].get<std::string>(), grid["time"].get<std::string>()));

@@ -49,12 +49,14 @@ int processor_of_load() {
                                                    : processor_of_servers;
 }
 
-// Waits until somebody listens on the port of a server that was started.
+// Waits until somebody listens on the port of a server that was started and, if it has something to
+// do before it is ready, until it says so.
 Result<WebServer> listening(Result<ChildProcess> process, int port, const std::string& name,
-                            const fs::path& said) {
+                            const fs::path& said, std::string_view ready = {}) {
     if (!process) return pass_on(process);
     for (int i = 0; i < most_steps && process->is_running(); ++i) {
-        if (answers(port)) return WebServer{std::move(*process), port};
+        if (process->output().find(ready) != std::string::npos && answers(port))
+            return WebServer{std::move(*process), port};
         std::this_thread::sleep_for(step);
     }
     return fail(ErrorCode::not_found, "{} did not start: see {}.err", name, said.native());
@@ -72,8 +74,11 @@ Result<WebServer> serve(const std::vector<std::string>& words, const fs::path& s
     std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
                                           fmt::format("127.0.0.1:{}", port)};
     arguments.insert(arguments.end(), words.begin(), words.end());
+    // What a server before this one said does not count.
+    std::error_code ignored;
+    fs::remove(scratch / "serve", ignored);
     return listening(ChildProcess::start(std::move(arguments), scratch / "serve", processor), port,
-                     "stormcellar serve", scratch / "serve");
+                     "stormcellar serve", scratch / "serve", "listening on http");
 }
 
 int free_port() {
