@@ -62,17 +62,17 @@ TEST(FunctionLength, NoFunctionIsLongerThanSixtyLines) {
     for (const auto& room : fs::directory_iterator(root)) {
         const std::string name = room.path().filename().string();
         if (!room.is_directory() || name.starts_with('.') || skipped.contains(name)) continue;
-        for (const auto& entry : fs::recursive_directory_iterator(room.path())) {
-            const auto ending = entry.path().extension();
-            if (entry.path().parent_path() == root / "viewer" / "test") continue;
+        for (const fs::path& path : testing::files_below(room.path())) {
+            const auto ending = path.extension();
+            if (ending == ".ts" && testing::is_viewer_test(path)) continue;
             if (ending != ".h" && ending != ".cpp" && ending != ".ts") continue;
             ++sources;
-            const std::string text = testing::text_of(entry.path());
+            const std::string text = testing::text_of(path);
             for (const std::size_t indent : {0, 4}) {
                 for (const LongFunction& function : long_functions(text, indent, most_lines)) {
-                    ADD_FAILURE() << fs::relative(entry.path(), root).string() << ":"
-                                  << function.line << ": " << function.lines << " lines, not "
-                                  << most_lines << ": " << function.head;
+                    ADD_FAILURE() << fs::relative(path, root).string() << ":" << function.line
+                                  << ": " << function.lines << " lines, not " << most_lines << ": "
+                                  << function.head;
                 }
             }
         }
