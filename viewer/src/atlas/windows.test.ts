@@ -210,7 +210,10 @@ test('a window that failed is asked for again, and a frame waits for it', async 
                     headers: { 'Stormcellar-Status': '' },
                 }),
             ),
-        setTimeout: (act: () => void, ms: number) => (seconds.push(ms / 1000), queueMicrotask(act)),
+        setTimeout: (act: () => void, ms: number) => {
+            seconds.push(ms / 1000);
+            queueMicrotask(act);
+        },
     });
     const decoder = { ask: () => Promise.resolve({ grid }) } as unknown as Decoder;
     const failures: string[] = [];
@@ -229,7 +232,7 @@ test('a window that failed is asked for again, and a frame waits for it', async 
     seen(first);
     assert(windows.isWaiting);
     await next;
-    assert(!windows.isWaiting && seen(first)?.grid === grid);
+    assert.deepEqual([windows.isWaiting, seen(first)?.grid === grid], [false, true]);
     // 2026-11-29: a grid that is there as a whole was said to be as coarse as the one in parts before it.
     const coarse = { ...grid, halvings: 2 };
     windows.seen({ grid: coarse, stream: null } as unknown as LoadedGrid, 'layers', viewOf(1, 0, 0), false);
@@ -252,7 +255,7 @@ test('a window that failed is asked for again, and a frame waits for it', async 
 
     const gone = loadedNow();
     let error = '';
-    await windows.next(gone, () => seen(gone))!.catch((one) => (error = String(one)));
+    await windows.next(gone, () => seen(gone))!.catch((one: unknown) => (error = String(one)));
     seen(gone);
     assert.deepEqual([error, windows.isWaiting, statuses], ['Error: trouble', true, []]);
 });

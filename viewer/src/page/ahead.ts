@@ -37,7 +37,7 @@ export class Ahead {
             // The server makes frames in between on request: none is asked for that may not be shown.
             if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
-                if (!isLeft()) await this.take(time, true).catch((error) => app.leaveOut(time, error, isLeft));
+                if (!isLeft()) await this.take(time, true).catch((error: unknown) => app.leaveOut(time, error, isLeft));
             };
             before = isInParts ? before.then(load) : load();
         }

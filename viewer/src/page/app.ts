@@ -398,10 +398,11 @@ export class App {
     }
     // Shows the time of the timeline. If its grid is not there, a step goes on to the next time in the
     // direction of `by`; else shows the time nearest to the wanted one.
-    private async showTime(wanted = this.timeline.now, by = 0): Promise<void> {
+    private async showTime(nearest?: string, by = 0): Promise<void> {
         const time = this.timeline.now;
         this.tell('time');
         if (time === undefined) return this.say(texts.notFound);
+        const wanted = nearest ?? time;
         const [turn, isLeft] = [++this.turn, this.whetherLeft()];
         const isLate = () => turn !== this.turn || this.timeline.now !== time || isLeft();
         ++this.coming;
@@ -418,7 +419,7 @@ export class App {
             if (!this.leaveOut(time, error, isLeft)) return this.failed(error, !wasLate);
             const stays = !wasLate && !this.player.follows && !this.player.isPlaying;
             if (stays && by !== 0) this.player = at(this.player, by > 0 ? index : index - 1);
-            else if (stays) this.timeline.find(wanted!);
+            else if (stays) this.timeline.find(wanted);
             if (stays && by === 0 && this.missedTime === '')
                 this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
             if (this.timeline.now !== undefined) await this.showTime(stays ? wanted : undefined, by);
@@ -510,7 +511,7 @@ export class App {
             this.ahead
                 .take(waitsFor, false)
                 .catch(
-                    (error) =>
+                    (error: unknown) =>
                         this.leaveOut(waitsFor, error, isLeft) ||
                         this.failed(error, this.player.isPlaying && !isLeft()),
                 );
@@ -563,7 +564,7 @@ export class App {
         if (this.domains.length === 0) {
             if (!this.book) return this.begin();
             await this.findDomains();
-            if (this.domains.length > 0) await this.choose(this.state.domain, this.state.moment);
+            if (this.domain) await this.choose(this.state.domain, this.state.moment);
             return;
         }
         // A moment may come after the others of its station.

@@ -34,7 +34,10 @@ export class Keys {
     add(name: string, action: () => void): void {
         const known = this.actions.get(name);
         if (known && name !== 'Escape') throw new Error(`the key '${name}' is taken`);
-        this.actions.set(name, known ? () => (known(), action()) : action);
+        this.actions.set(name, () => {
+            known?.();
+            action();
+        });
     }
 
     // While no control has the keyboard, the picture has it: also before anything was clicked. Letters do nothing

@@ -29,7 +29,9 @@ function madeApp() {
         state: { layers: { ...usualLayers } },
         shown: { loaded: { grid } },
         changes: 0,
-        changed: () => void ++app.changes,
+        changed: () => {
+            ++app.changes;
+        },
     };
     return app;
 }
@@ -41,7 +43,14 @@ const isNear = (a: readonly number[], b: readonly number[]) => Math.hypot(a[0]! 
 test('a section goes from where it was pressed to where it was let go, and its ends can be moved', () => {
     const app = madeApp();
     let done = 0;
-    const tool = new SectionTool(app as unknown as Args[0], drawing, () => void ++done, nothing);
+    const tool = new SectionTool(
+        app as unknown as Args[0],
+        drawing,
+        () => {
+            ++done;
+        },
+        nothing,
+    );
     assert(tool.press(100, 100));
     tool.drag(300, 200);
     tool.release();

@@ -29,9 +29,9 @@ Object.assign(globalThis, {
         if (!server.isUp) return Promise.reject(new TypeError('no answer'));
         if (server.isHanging)
             return new Promise((_, failed) =>
-                options?.signal?.addEventListener('abort', () => failed(new TypeError('aborted'))),
+                options.signal?.addEventListener('abort', () => failed(new TypeError('aborted'))),
             );
-        if (!String(url).includes('events'))
+        if (!url.includes('events'))
             return Promise.resolve(
                 new Response('{"stations":[]}', { headers: { Date: new Date(Date.now() + 3600e3).toUTCString() } }),
             );

@@ -48,7 +48,7 @@ export class Live {
             timer = window.setTimeout(() => abort.abort(), mostQuietMs);
         };
         wait();
-        let hasPlace = true;
+        let hasPlace = true as boolean;
         this.places.take(() => {
             hasPlace = false;
             abort.abort();
@@ -123,7 +123,7 @@ export class Live {
     }
 
     private do(act: () => Promise<void>): void {
-        void this.begun.then(act).catch((error) => {
+        void this.begun.then(act).catch((error: unknown) => {
             this.isBehind = true;
             this.app.fail(error);
         });

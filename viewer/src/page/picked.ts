@@ -47,15 +47,16 @@ function solidsAt(
     y: number,
 ): Met[] {
     const { drawn } = drawing;
-    if (!drawn) return [];
     const { shown, shownTable: table, state } = app;
-    const plane = planeOf(shown!.loaded.grid);
+    if (!drawn || !shown || !table) return [];
+    const plane = planeOf(shown.loaded.grid);
     const isShown = ({ state: status, value }: SolidHit) =>
         status === CellState.rangeFolded ||
-        (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table!, value) !== null);
+        (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table, value) !== null);
     const met: Met[] = [];
-    const add = (layer: PickedLayer, hit: SolidHit | null) =>
-        void (hit && met.push({ layer, hit, isSolid: isShown(hit) }));
+    const add = (layer: PickedLayer, hit: SolidHit | null) => {
+        if (hit) met.push({ layer, hit, isSolid: isShown(hit) });
+    };
     if (drawn.plane) add('plane', levelHit(geometry, drawn.plane, drawn.plane.heightM, x, y, drawn.mixes));
     if (drawn.section) add('section', sectionHit(geometry, drawn.section, x, y, drawn.mixes));
     if (drawn.sweep) add('sweep', sweepHit(geometry, drawn.sweep, plane, x, y, isShown));
@@ -68,12 +69,14 @@ function solidsAt(
             firstVisible(own, geometry, croppedBox(whole, drawn.crop), x, y, (one) =>
                 isBelow ? one <= value : one >= value,
             );
-        const depth = seen && depthOf(geometry, seen.at, seen.heightM);
         // The moment that is shown colors it.
         const colored =
             seen &&
             (of && cells ? cellAt(cells, seen.at, seen.heightM) : { state: CellState.value, value: seen.value });
-        if (seen && colored) met.push({ layer: 'surface', hit: { ...seen, ...colored, depth: depth! }, isSolid: true });
+        if (seen && colored) {
+            const depth = depthOf(geometry, seen.at, seen.heightM);
+            met.push({ layer: 'surface', hit: { ...seen, ...colored, depth }, isSolid: true });
+        }
     }
     return met.sort((a, b) => a.hit.depth - b.hit.depth);
 }
@@ -117,7 +120,7 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const ground = geometry.ground(x, y);
     const points = [...(wayWithin(geometry, box, x, y) ?? []), ...(ground ? [ground] : [])];
     const isAlong = boundsAbout(points, grid) !== null; // it meets columns of the grid
-    const cells = isAlong && (asks || !stream) ? drawing.windows!.ray(shown.loaded, points) : null;
+    const cells = isAlong && (asks || !stream) ? drawing.windows.ray(shown.loaded, points) : null;
     const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;
     const picked = (
         layer: PickedLayer,
@@ -140,7 +143,7 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
         halvings:
             layer === 'sweep'
                 ? 0
-                : drawing.windows!.halvings(
+                : drawing.windows.halvings(
                       shown.loaded,
                       layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray',
                   ),
@@ -155,8 +158,8 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const perM = (value: number) =>
         value >= (state.least ?? -Infinity) ? extinctionPerM(table, value, state.opacity) : 0;
     const volume = state.layers.hasVolume && cells ? mostVisible(cells, geometry, box, x, y, untilDepth, perM) : null;
-    const isVolume = volume?.cell && (solid ? volume.share > volume.through : 1 - volume.through > leastSeen);
-    if (isVolume) return picked('volume', volume.cell!.at, volume.cell!.heightM, CellState.value, volume.cell!.value);
+    if (volume?.cell && (solid ? volume.share > volume.through : 1 - volume.through > leastSeen))
+        return picked('volume', volume.cell.at, volume.cell.heightM, CellState.value, volume.cell.value);
     const nearest = solid ?? met[0];
     if (nearest) {
         const { layer, hit } = nearest;
@@ -176,13 +179,13 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
         return picked('volume', ground, geometry.groundM, CellState.rangeFolded);
     }
     const column = cells && columnAt(cells.grid, ground[0] - cells.middle[0], ground[1] - cells.middle[1]);
-    const code = cells && column && codeAt(cells.grid, ...column, 0);
-    if (code === null) return picked('ground', ground, geometry.groundM, null);
+    if (!column) return picked('ground', ground, geometry.groundM, null);
+    const code = codeAt(cells.grid, ...column, 0);
     return picked(
         'ground',
         ground,
         geometry.groundM,
         Math.min(code, CellState.value),
-        code >= firstValueCode ? valueOf(cells!.grid, code) : 0,
+        code >= firstValueCode ? valueOf(cells.grid, code) : 0,
     );
 }

@@ -13,7 +13,7 @@ const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `
 // Tells how far from an instant the volumes are that show a site.
 function ofVolumes(middlesS: number[]): string {
     const away = (seconds: number) =>
-        `${Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`}`;
+        Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`;
     const told = middlesS.map((seconds) => (seconds < 0 ? `${away(seconds)} before` : `${away(seconds)} after`));
     if (middlesS.length > 1) return `from volumes ${told.join(' and ')}`;
     return Math.abs(middlesS[0] ?? 0) < 1 ? 'as it was' : `as it was ${told[0]}`;

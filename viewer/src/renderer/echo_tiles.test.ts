@@ -104,13 +104,12 @@ test('most of a picture with little echo has no tiles', () => {
 test('all of a small picture of the same view is in tiles if the whole picture is', () => {
     const full = readPackedGrid(packedGrid({ ...made, codeOf: () => 90 }));
     const view = viewOf(180, 0, 4, 0);
-    const small = {
-        ...view,
+    const small = Object.assign({}, view, {
         width: view.width / 5,
         height: view.height / 5,
         metersPerPixel: view.metersPerPixel * 5,
         isPerspective: false,
-    };
+    });
     const { columns, rows, points } = tilesOf(small, makeAtlas(full, 2048), blockEnds(full, view), 1);
     assert.equal(points.length / 4, columns * rows);
     assert.equal(columns, Math.ceil(411 / 5 / 16));

@@ -54,7 +54,7 @@ export interface DrawnLayers {
 }
 
 export const hasSolids = ({ plane, section, surface, sweep }: DrawnLayers): boolean =>
-    Boolean(plane || section || surface || sweep);
+    Boolean(plane ?? section ?? surface ?? sweep);
 
 // The direction of the sun, which stands beside the camera.
 function sunOf({ right }: ViewGeometry): Vec3 {
@@ -100,7 +100,7 @@ export class LayerPasses {
             const texels = new Float32Array(2 * field.values.length);
             for (let i = 0; i < field.values.length; ++i) {
                 texels[2 * i] = field.values[i]!;
-                texels[2 * i + 1] = inGrid && inGrid[i % field.width] === 0 ? beyondGrid : field.states[i]!;
+                texels[2 * i + 1] = inGrid?.[i % field.width] === 0 ? beyondGrid : field.states[i]!;
             }
             return this.graphics.texture2d(gl.RG32F, gl.RG, gl.FLOAT, field.width, field.height, texels);
         });
@@ -134,8 +134,8 @@ export class LayerPasses {
 
     // -- what is solid
 
-    // The target has the size of the picture; `surface` draws into it what needs the grid's own textures.
-    drawSolids(geometry: ViewGeometry, layers: DrawnLayers, surface: () => void): void {
+    // The target has the size of the picture; `drawSurface` draws into it what needs the grid's own textures.
+    drawSolids(geometry: ViewGeometry, layers: DrawnLayers, drawSurface: (surface: DrawnSurface) => void): void {
         const { gl } = this.graphics;
         const { width, height } = geometry;
         if (this.target?.width !== width || this.target.height !== height) {
@@ -146,7 +146,7 @@ export class LayerPasses {
         if (layers.plane) this.drawPlane(geometry, layers, layers.plane);
         if (layers.section) this.drawSection(geometry, layers, layers.section);
         if (layers.sweep) this.drawSweep(geometry, layers, layers.sweep);
-        if (layers.surface) surface();
+        if (layers.surface) drawSurface(layers.surface);
         this.target.end();
     }
 
@@ -284,12 +284,13 @@ export class LayerPasses {
 
     showSolids(geometry: ViewGeometry): void {
         const { gl } = this.graphics;
+        if (!this.target) return;
         const at = this.graphics.use(
             this.graphics.program('solids shown', fullScreenVertex, showSolidsFragment),
             geometry,
         );
-        this.graphics.bind(0, gl.TEXTURE_2D, this.target!.color, at('solidColor'));
-        this.graphics.bind(1, gl.TEXTURE_2D, this.target!.depth, at('solidDepth'));
+        this.graphics.bind(0, gl.TEXTURE_2D, this.target.color, at('solidColor'));
+        this.graphics.bind(1, gl.TEXTURE_2D, this.target.depth, at('solidDepth'));
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
@@ -299,7 +300,7 @@ export class LayerPasses {
     }
 
     bindSolidDepth(unit: number, at: (name: string) => WebGLUniformLocation | null, geometry: ViewGeometry): void {
-        this.graphics.bind(unit, this.graphics.gl.TEXTURE_2D, this.target!.depth, at('solidDepth'));
+        if (this.target) this.graphics.bind(unit, this.graphics.gl.TEXTURE_2D, this.target.depth, at('solidDepth'));
         this.graphics.gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
     }
 

@@ -207,10 +207,12 @@ export class Renderer {
             this.canvas.height = geometry.height;
         }
         const layers = frame.layers ?? null;
-        const isSolid = layers !== null && this.uploaded !== null && hasSolids(layers);
+        const { uploaded } = this;
+        const isSolid = layers !== null && uploaded !== null && hasSolids(layers);
         this.passes.begin(isSolid);
         if (!layers?.surface?.of) this.releaseOther();
-        if (isSolid) this.passes.drawSolids(geometry, layers, () => this.drawSurface(frame, layers, layers.surface!));
+        if (isSolid)
+            this.passes.drawSolids(geometry, layers, (surface) => this.drawSurface(frame, uploaded, layers, surface));
         gl.viewport(0, 0, geometry.width, geometry.height);
         gl.disable(gl.BLEND);
         gl.clearColor(
@@ -220,15 +222,15 @@ export class Renderer {
             1,
         );
         gl.clear(gl.COLOR_BUFFER_BIT);
-        if (!this.uploaded) return;
+        if (!uploaded) return;
         if (frame.hasGround) {
-            this.drawGround(geometry, frame.grain, layers?.hasHaze ?? false);
+            this.drawGround(uploaded, geometry, frame.grain, layers?.hasHaze ?? false);
         }
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (layers?.maximum) this.passes.drawMaximum(geometry, layers, layers.maximum);
         if (frame.hasGround) this.lines.draw(geometry, frame.grain);
-        if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, layers, layers.air);
+        if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, uploaded, layers, layers.air);
         if (isSolid) this.passes.showSolids(geometry);
         if (!frame.hasVolume) return;
         if (layers?.falls && !frame.keepsExposure) this.measureLight(frame);
@@ -260,7 +262,7 @@ export class Renderer {
         gl.viewport(0, 0, frame.geometry.width, frame.geometry.height);
     }
 
-    private drawGround(geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
+    private drawGround({ coverage, loaded }: Uploaded, geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
         const gl = this.gl;
         const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
         const at = this.graphics.use(
@@ -269,8 +271,8 @@ export class Renderer {
         );
         const color = (uniform: string, rgb: readonly number[]) =>
             gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
-        this.graphics.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
-        const { grid, stream } = this.uploaded!.loaded;
+        this.graphics.bind(0, gl.TEXTURE_2D, coverage, at('coverage'));
+        const { grid, stream } = loaded;
         gl.uniform2f(at('columns'), grid.nx, grid.ny);
         gl.uniform1f(at('columnsATexel'), 2 ** (stream?.level ?? 0));
         gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
@@ -298,16 +300,15 @@ export class Renderer {
         const gl = this.gl;
         const now = this.transfer;
         const key: TransferKey = [frame.table, grid.firstValue, grid.step, frame.opacity, frame.leastValue];
-        const isSame = now && now.key.every((part, i) => part === key[i]);
-        const stretch = isSame ? stepM / now.stepM : 0;
-        if (!isSame || stretch > mostStretch || stretch < 1 / mostStretch) {
+        const stretch = now?.key.every((part, i) => part === key[i]) ? stepM / now.stepM : 0;
+        if (!now || stretch > mostStretch || stretch < 1 / mostStretch) {
             const made = makeTransfer(frame.table, grid, { opacity: frame.opacity, least: frame.leastValue }, stepM);
             this.transfer = { made, stepM, key };
             gl.deleteTexture(this.transferTexture);
             this.transferTexture = this.graphics.texture2d(gl.RGBA32F, gl.RGBA, gl.FLOAT, 256, 256, made.entries);
             return { made, scale: 1 };
         }
-        return { made: now!.made, scale: stretch };
+        return { made: now.made, scale: stretch };
     }
 
     // Tells a program where the cells of a grid are, and how its rays step.
@@ -358,9 +359,10 @@ export class Renderer {
     private drawVolume(frame: Frame, wanted: WantedOfVolume, view: RayView = frame.geometry): void {
         const gl = this.gl;
         const { geometry, layers } = frame;
-        const { loaded, levels } = this.uploaded!;
+        const { uploaded } = this;
+        if (!uploaded || uploaded.loaded.atlas.brickCount === 0) return;
+        const { loaded, levels } = uploaded;
         const { grid } = loaded;
-        if (loaded.atlas.brickCount === 0) return;
         const variant: VolumeVariant = {
             isPerspective: geometry.isPerspective,
             hasUnevenLevels: levels !== null,
@@ -374,7 +376,7 @@ export class Renderer {
         const [nearM, farM] = slicedDepths(loaded, geometry);
         const { made, scale } = this.transferFor(frame, grid, (farM - nearM) / frame.slices);
         if (made.leastVisibleCode === Infinity) return;
-        this.bindGrid(this.uploaded!, frame, at);
+        this.bindGrid(uploaded, frame, at);
         this.graphics.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
         const { codeScale, codeOffset } = loaded.atlas;
         gl.uniform2f(at('binLine'), made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
@@ -382,18 +384,18 @@ export class Renderer {
         gl.uniform1ui(at('leastShown'), leastShown);
         gl.uniform1f(at('depthScale'), scale);
         if (variant.endsAtSolids) this.passes.bindSolidDepth(4, at, geometry);
-        if (variant.isLit) {
-            this.passes.bindLight(5, layers!.falls!, geometry, cellSizeM(grid), levelSpacingM(grid), at);
+        if (variant.isLit && layers?.falls) {
+            this.passes.bindLight(5, layers.falls, geometry, cellSizeM(grid), levelSpacingM(grid), at);
             gl.uniform1f(at('exposure'), this.exposure.value);
         }
         this.tiles.draw(view, tilesOf(view, loaded.atlas, blockEnds(grid, geometry), leastShown), at);
     }
 
-    private drawAir(frame: Frame, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
+    private drawAir(frame: Frame, uploaded: Uploaded, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
         const { geometry } = frame;
         const variant: AirVariant = {
             isPerspective: geometry.isPerspective,
-            hasUnevenLevels: this.uploaded!.levels !== null,
+            hasUnevenLevels: uploaded.levels !== null,
             hasHaze: layers.hasHaze,
             hasFolded: layers.hasFolded,
         };
@@ -401,7 +403,7 @@ export class Renderer {
             this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)),
             geometry,
         );
-        this.bindGrid(this.uploaded!, frame, at);
+        this.bindGrid(uploaded, frame, at);
         // The density of a veil depends on the whole depth of the grid.
         this.gl.uniform1f(at('near'), geometry.nearM);
         this.gl.uniform1f(at('stepM'), (geometry.farM - geometry.nearM) / frame.slices);
@@ -409,15 +411,19 @@ export class Renderer {
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
     }
 
-    private drawSurface(frame: Frame, layers: DrawnLayers, { value, isBelow, of }: DrawnSurface): void {
+    private drawSurface(
+        frame: Frame,
+        shown: Uploaded,
+        layers: DrawnLayers,
+        { value, isBelow, of }: DrawnSurface,
+    ): void {
         const gl = this.gl;
         const { geometry } = frame;
-        const shown = this.uploaded!;
         if (of && this.other?.loaded !== of) {
             this.release(this.other);
             this.other = this.upload(of);
         }
-        const surface = of ? this.other! : shown;
+        const surface = (of && this.other) ?? shown;
         if (surface.loaded.atlas.brickCount === 0) return;
         const variant: SurfaceVariant = {
             isPerspective: geometry.isPerspective,

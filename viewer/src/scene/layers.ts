@@ -80,7 +80,8 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.hasMaximum) parts.push(['maximum', '1']);
     if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
     if (layers.sweepDeg !== null && layers.sweepNumber !== null) parts.push(['sweep', String(layers.sweepNumber)]);
-    if (layers.crop) parts.push(['crop-km', cropSides.map((side) => kilometers(layers.crop![side])).join(',')]);
+    const { crop } = layers;
+    if (crop) parts.push(['crop-km', cropSides.map((side) => kilometers(crop[side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
     if (layers.hasHaze) parts.push(['haze', '1']);
     if (layers.hasFolded !== null) parts.push(['folded', layers.hasFolded ? '1' : '0']);

@@ -169,7 +169,7 @@ class PalReader {
             unit = known ? known[1] : this.unit;
             if (known) moment = momentsOfUnits[unit] ?? '';
         }
-        return { moment, unit, perOurs: this.numbers.SCALE ?? (known && known[1] === unit ? known[0] : 1) };
+        return { moment, unit, perOurs: this.numbers.SCALE ?? (known?.[1] === unit ? known[0] : 1) };
     }
 
     private stops(perOurs: number): ColorStop[] {

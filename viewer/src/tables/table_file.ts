@@ -33,8 +33,9 @@ export interface TableFile {
 
 // Returns the end of the color bar of a table that does not say it: its last class is as long as the one before.
 export function endOf(table: ColorTable): number {
-    const [before, last] = table.stops.slice(-2).map((stop) => stop.from);
-    return last === undefined ? before! + 1 : last + (last - before!);
+    const { stops } = table;
+    const [before, last] = [stops[stops.length - 2]?.from, stops[stops.length - 1]!.from];
+    return last + (before === undefined ? 1 : last - before);
 }
 
 export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
@@ -54,9 +55,8 @@ export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
         extinction: [],
     };
     table.end = file.end ?? endOf(table);
-    if (points.every((point) => point.perKm !== null))
-        table.extinction = points.map(({ value, perKm }) => ({ value, per_km: perKm! }));
-    else table.extinction = usualExtinctionOf(table, usual);
+    table.extinction = points.flatMap(({ value, perKm }) => (perKm === null ? [] : [{ value, per_km: perKm }]));
+    if (table.extinction.length === 0) table.extinction = usualExtinctionOf(table, usual);
     return table;
 }
 

@@ -102,15 +102,19 @@ class TomlColors {
         const list = this.find(this.root, 'point');
         const items = list instanceof TomlArray ? list.items : [];
         const least = isStepped ? 1 : 2;
-        if (items.length < least || items.length > mostStops || !items.every((item) => item instanceof TomlTable)) {
+        if (
+            items.length < least ||
+            items.length > mostStops ||
+            !items.every((item): item is TomlTable => item instanceof TomlTable)
+        ) {
             this.complain(this.root, 'point', `must be there ${least} to ${mostStops} times, as [[point]]`);
             return [];
         }
         const points: FilePoint[] = [];
-        for (const item of items as TomlTable[]) this.point(item, points, isStepped);
+        for (const item of items) this.point(item, points, isStepped);
         const withOpacity = points.filter((point) => point.perKm !== null).length;
         if (withOpacity !== 0 && withOpacity !== points.length) {
-            this.complain(items[0] as TomlTable, 'opacity_per_km', 'must be given for all points or for none');
+            this.complain(items[0]!, 'opacity_per_km', 'must be given for all points or for none');
         }
         return points;
     }

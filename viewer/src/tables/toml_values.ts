@@ -178,9 +178,9 @@ class TomlReader {
         if (flag) return flag === 'true';
         const word = this.match(number);
         if (word === null)
-            this.refuse(`'${shownWord(/^[^\s,\]}]*/.exec(this.text.slice(this.at, this.at + 70))![0])}' is no value`);
+            this.refuse(`'${shownWord(this.text.slice(this.at, this.at + 70).split(/[\s,\]}]/)[0]!)}' is no value`);
         const plain = word.replace(/_/g, '');
-        if (/inf$/.test(plain)) return plain.startsWith('-') ? -Infinity : Infinity;
+        if (plain.endsWith('inf')) return plain.startsWith('-') ? -Infinity : Infinity;
         return Number(plain);
     }
 

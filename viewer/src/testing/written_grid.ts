@@ -95,7 +95,7 @@ export function packedGrid(made: Made): Uint8Array {
     f64(sitesAt, 35.3331);
     f64(sitesAt + 8, -97.2777);
     f64(sitesAt + 16, 389);
-    [...'KTLX'].forEach((letter, i) => view.setUint8(sitesAt + 24 + i, letter.charCodeAt(0)));
+    Array.from('KTLX').forEach((letter, i) => view.setUint8(sitesAt + 24 + i, letter.charCodeAt(0)));
     bricks.forEach((brick, i) => {
         const at = tableAt + 12 * i;
         view.setUint8(at, brick.kind);

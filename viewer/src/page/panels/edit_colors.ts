@@ -19,7 +19,7 @@ export function addEditor(app: App, drawing: Drawing, editing: TableEditing, key
     };
     const use = (act: (editor: Editor) => void): void => {
         loaded ??= load();
-        loaded.then(act).catch((error) => {
+        loaded.then(act).catch((error: unknown) => {
             loaded = null;
             app.fail(error);
         });

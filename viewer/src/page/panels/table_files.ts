@@ -5,7 +5,7 @@ import { readPal, writePal } from '../../tables/pal_file';
 import { TableError, mostFileBytes, tableOfFile } from '../../tables/table_file';
 import { readToml } from '../../tables/toml_file';
 import { App } from '../app';
-import { ExportedFile } from '../table_editing';
+import { ExportedFile, TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
 // The draft of a file, and what is to be said of it. Errors: a TableError.
@@ -32,7 +32,8 @@ export function draftFrom({ state, book }: App, text: string, fileName: string):
 }
 
 // The table as it is shown, as far as a .pal can say it; what is hidden is not in it.
-export function palOf({ state, book }: App, draft: Draft): ExportedFile {
-    const { table, isWhole } = tableForPal(draft, book!.usual, state.least);
+export function palOf({ state, book }: App, { draft }: TableEditing): ExportedFile | undefined {
+    if (!draft || !book) return undefined;
+    const { table, isWhole } = tableForPal(draft, book.usual, state.least);
     return { name: `${draft.name}.pal`, text: writePal(table), isWhole };
 }

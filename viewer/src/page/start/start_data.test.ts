@@ -26,7 +26,7 @@ Object.assign(globalThis, {
             return (server.tiles.push(`${pathname} ${options.cache}`), Promise.resolve(new Response('png')));
         if (pathname.endsWith('/stations'))
             return Promise.resolve(new Response(JSON.stringify({ stations: server.stations })));
-        const [, domain] = pathname.match(/grids\/(\w+)\//)!;
+        const [, domain] = /grids\/(\w+)\//.exec(pathname)!;
         const isStation = domain!.startsWith('K');
         const cells = isStation ? 460 : 800;
         const provenance = { stations: server.stationsOf[domain!] ?? [domain] };
