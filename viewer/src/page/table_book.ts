@@ -11,7 +11,7 @@ import { texts } from './texts';
 // (render/color/built_in_tables.h).
 const safePrefix = 'safe-';
 const clearAir = 'smooth-clear-air';
-export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.editor.safe(name) : name);
+export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.safeTable(name) : name);
 
 export class TableBook {
     readonly usual: UsualOpacity;

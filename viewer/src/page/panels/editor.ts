@@ -21,11 +21,11 @@ import { Keys } from '../keys';
 import { ColorTable } from '../../wire/color_tables';
 import { ExportedFile, TableEditing } from '../table_editing';
 import { tableTitle } from '../table_book';
-import { texts } from '../texts';
+import { editorTexts } from '../texts';
 import { EditorPlot, Selection } from './editor_plot';
 import { draftFrom, palOf } from './table_files';
 
-const words = texts.editor;
+const words = editorTexts;
 const otherPanels = [
     { id: 'settings', opener: 'open' },
     { id: 'layers', opener: 'layers-open' },

@@ -8,7 +8,7 @@ import { Draft, OpacityPoint } from '../../tables/draft';
 import { ShownUnit } from '../../tables/units';
 import { stepOf } from '../color_bar';
 import { fontOf, textScale } from '../dom';
-import { texts } from '../texts';
+import { editorTexts, texts } from '../texts';
 
 export type Kind = 'color' | 'opacity' | 'least';
 export interface Selection {
@@ -55,8 +55,8 @@ export class EditorPlot {
         this.canvas.addEventListener('pointerup', (event) => this.addAt(event));
         this.groups = {
             least: this.group(texts.threshold),
-            opacity: this.group(texts.editor.opacities),
-            color: this.group(texts.editor.colors),
+            opacity: this.group(editorTexts.opacities),
+            color: this.group(editorTexts.colors),
         };
         this.box.append(this.canvas, ...Object.values(this.groups));
     }
@@ -138,7 +138,7 @@ export class EditorPlot {
             pen.fillStyle = shades.quietText;
             pen.fillText(String(perKm).replace(/^0/, ''), left - 4, y);
         }
-        pen.fillText(texts.editor.perKm, left - 4, 7);
+        pen.fillText(editorTexts.perKm, left - 4, 7);
         const [low, high] = this.range().map((value) => value * unit.perStored) as [number, number];
         const step = stepOf(high - low);
         pen.textAlign = 'center';
@@ -232,9 +232,9 @@ export class EditorPlot {
         handle.setAttribute('aria-valuenow', String(value));
         handle.setAttribute(
             'aria-valuetext',
-            perKm !== null ? texts.editor.opacityIs(shown, perKm) : color ? texts.editor.colorIs(shown, color) : shown,
+            perKm !== null ? editorTexts.opacityIs(shown, perKm) : color ? editorTexts.colorIs(shown, color) : shown,
         );
-        handle.setAttribute('aria-label', kind === 'least' ? texts.threshold : texts.editor.point(kind, i + 1));
+        handle.setAttribute('aria-label', kind === 'least' ? texts.threshold : editorTexts.point(kind, i + 1));
     }
 
     focus({ kind, at }: Selection): void {
