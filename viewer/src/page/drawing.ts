@@ -88,7 +88,7 @@ export class Drawing {
         picture.addEventListener('webglcontextlost', () => app.takeGraphics(false));
         picture.addEventListener('webglcontextrestored', () => {
             app.takeGraphics(true);
-            app.restore();
+            app.showing.restore();
         });
         window.addEventListener('resize', () => this.draw());
     }

@@ -23,10 +23,10 @@ export class Keys {
         for (const name of ['+', '=']) this.add(name, () => this.zoom(1.25));
         this.add('-', () => this.zoom(0.8));
         this.add('p', () => this.togglePerspective());
-        this.add('l', () => app.follow());
-        this.add(' ', () => app.play());
-        this.add(',', () => app.step(-1));
-        this.add('.', () => app.step(1));
+        this.add('l', () => app.playback.follow());
+        this.add(' ', () => app.playback.play());
+        this.add(',', () => app.playback.step(-1));
+        this.add('.', () => app.playback.step(1));
     }
 
     // Letters are small; others are named as KeyboardEvent.key has them. The first action of a name stays,

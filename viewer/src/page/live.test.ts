@@ -56,7 +56,9 @@ async function open(): Promise<{ server: ServerState; asked: () => number }> {
         server: state,
         hasLists: false,
         fail: () => undefined,
-        catchUp: () => (++asked, server.isUp ? Promise.resolve() : Promise.reject(new TypeError('no answer'))),
+        news: {
+            catchUp: () => (++asked, server.isUp ? Promise.resolve() : Promise.reject(new TypeError('no answer'))),
+        },
     };
     void new Live(app as unknown as App, Promise.resolve()).hear();
     return { server: state, asked: () => asked };

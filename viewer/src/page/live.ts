@@ -103,7 +103,7 @@ export class Live {
         await Promise.race([this.askSilences(), pause(mostQuietMs).then(noAnswer)]);
         if (this.isCatchingUp) return;
         this.isCatchingUp = true;
-        this.do(() => this.app.catchUp().finally(() => (this.isCatchingUp = false)));
+        this.do(() => this.app.news.catchUp().finally(() => (this.isCatchingUp = false)));
     }
 
     private async hasDoneWithout(): Promise<boolean> {
@@ -132,7 +132,7 @@ export class Live {
         if (!this.isBehind && !this.app.server.isBehind) return;
         this.isBehind = this.app.server.isBehind = false;
         this.do(async () => {
-            await this.app.catchUp();
+            await this.app.news.catchUp();
             await this.askSilences();
         });
     }
@@ -143,6 +143,6 @@ export class Live {
         if (kind === 'reset') this.isBehind = true;
         else if (kind === 'station_silent') this.app.server.takeSilence(station ?? '', silent_s ?? 0);
         else if (kind === 'station_spoke') this.app.server.takeSilence(station ?? '', null);
-        else if (kind !== 'volume_begun') this.do(() => this.app.takeNews(domain, moment, grid, oldest ?? ''));
+        else if (kind !== 'volume_begun') this.do(() => this.app.news.takeNews(domain, moment, grid, oldest ?? ''));
     }
 }
