@@ -1,6 +1,7 @@
 // Holds what the passes of a picture share of WebGL: programs by name, textures, and the camera.
 
 import type { RayView } from './echo_tiles';
+import { ShaderProgram, shaderText } from './shader_programs';
 
 // No program reads from this unit, so that an upload changes nothing that is bound.
 const unitOfUploads = 15;
@@ -40,21 +41,22 @@ export class Graphics {
     }
 
     // Begins to compile, which is waited for when the program is first used.
-    begin(name: string, vertex: string, fragment: string): WebGLProgram {
+    begin({ name, defines, vertex, fragment }: ShaderProgram): WebGLProgram {
         const gl = this.gl;
         const program = gl.createProgram()!;
-        gl.attachShader(program, this.compile(gl.VERTEX_SHADER, vertex));
-        gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, fragment));
+        gl.attachShader(program, this.compile(gl.VERTEX_SHADER, shaderText(vertex, defines)));
+        gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, shaderText(fragment, defines)));
         gl.linkProgram(program);
         this.begun.set(name, program);
         return program;
     }
 
-    program(name: string, vertex: string, fragment: string): WebGLProgram {
+    program(wanted: ShaderProgram): WebGLProgram {
+        const { name } = wanted;
         const known = this.programs.get(name);
         if (known) return known;
         const gl = this.gl;
-        const program = this.begun.get(name) ?? this.begin(name, vertex, fragment);
+        const program = this.begun.get(name) ?? this.begin(wanted);
         if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
             const logs = gl.getAttachedShaders(program)!.map((shader) => gl.getShaderInfoLog(shader));
             throw new Error(`${name}: ${gl.getProgramInfoLog(program)} ${logs.join(' ')}`);

@@ -13,8 +13,14 @@ import { Crop, sunAsideDeg, sunElevationDeg } from '../scene/layers';
 import { Looks, lookColumns, lookCount } from '../tables/looks';
 import { PackedSweep } from '../wire/packed_sweep';
 import { Graphics, TextureShelf } from './graphics';
-import { drapeFragment, fieldFragment, showSolidsFragment, solidVertex, sweepFragment } from './layer_shaders';
-import { fullScreenVertex } from './shaders';
+import {
+    ShaderProgram,
+    fieldProgram,
+    maximumProgram,
+    radialsAcross,
+    solidsShownProgram,
+    sweepProgram,
+} from './shader_programs';
 import { shades } from './shades';
 import { SolidTarget } from './solid_target';
 
@@ -64,7 +70,6 @@ function sunOf({ right }: ViewGeometry): Vec3 {
 }
 
 const beyondGrid = 4; // the state of a field's place outside of the grid
-const radialsAcross = 1800;
 
 interface Mesh {
     array: WebGLVertexArrayObject;
@@ -151,17 +156,12 @@ export class LayerPasses {
     }
 
     private beginSolid(
-        name: string,
-        fragment: string,
+        program: ShaderProgram,
         geometry: ViewGeometry,
         layers: DrawnLayers,
     ): (name: string) => WebGLUniformLocation | null {
         const { gl } = this.graphics;
-        const whole = `${name}, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(
-            this.graphics.program(whole, solidVertex(geometry.isPerspective), fragment),
-            geometry,
-        );
+        const at = this.graphics.use(this.graphics.program(program), geometry);
         gl.uniform1f(at('exaggeration'), geometry.exaggeration);
         gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
         this.bindLooks(0, layers, at);
@@ -208,7 +208,7 @@ export class LayerPasses {
         layers: DrawnLayers,
         { field, heightM, extent }: PlacedField & { heightM: number },
     ): void {
-        const at = this.beginSolid('field', fieldFragment(geometry.isPerspective), geometry, layers);
+        const at = this.beginSolid(fieldProgram(geometry.isPerspective), geometry, layers);
         this.bindField(at, this.fieldTexture('plane', field, null), layers);
         // Cells of a halved grid may reach beyond the grid.
         const { halfXM, halfYM } = geometry.box;
@@ -229,7 +229,7 @@ export class LayerPasses {
     }
 
     private drawSection(geometry: ViewGeometry, layers: DrawnLayers, section: Section): void {
-        const at = this.beginSolid('field', fieldFragment(geometry.isPerspective), geometry, layers);
+        const at = this.beginSolid(fieldProgram(geometry.isPerspective), geometry, layers);
         this.bindField(at, this.fieldTexture('section', section.field, section.inGrid), layers);
         const corners = section.ends.flatMap(([x, y], i) => [
             x,
@@ -248,7 +248,7 @@ export class LayerPasses {
 
     private drawSweep(geometry: ViewGeometry, layers: DrawnLayers, { gates, radials, cone }: DrawnSweep): void {
         const { gl } = this.graphics;
-        const at = this.beginSolid('sweep', sweepFragment(geometry.isPerspective), geometry, layers);
+        const at = this.beginSolid(sweepProgram(geometry.isPerspective), geometry, layers);
         const isShort = gates.codes instanceof Uint16Array;
         const codes = this.shelf.take('gates', gates, () =>
             this.graphics.texture2d(
@@ -284,10 +284,7 @@ export class LayerPasses {
 
     showSolids(geometry: ViewGeometry): void {
         const { gl } = this.graphics;
-        const at = this.graphics.use(
-            this.graphics.program('solids shown', fullScreenVertex, showSolidsFragment),
-            geometry,
-        );
+        const at = this.graphics.use(this.graphics.program(solidsShownProgram), geometry);
         this.graphics.bind(0, gl.TEXTURE_2D, this.target!.color, at('solidColor'));
         this.graphics.bind(1, gl.TEXTURE_2D, this.target!.depth, at('solidDepth'));
         gl.drawArrays(gl.TRIANGLES, 0, 3);
@@ -305,11 +302,7 @@ export class LayerPasses {
 
     drawMaximum(geometry: ViewGeometry, layers: DrawnLayers, { field, extent }: PlacedField): void {
         const { gl } = this.graphics;
-        const name = `maximum, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(
-            this.graphics.program(name, fullScreenVertex, drapeFragment(geometry.isPerspective)),
-            geometry,
-        );
+        const at = this.graphics.use(this.graphics.program(maximumProgram(geometry.isPerspective)), geometry);
         this.bindLooks(0, layers, at);
         this.bindField(at, this.fieldTexture('maximum', field, null), layers);
         this.color(at('seenColor'), shades.seen);

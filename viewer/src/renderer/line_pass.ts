@@ -3,7 +3,7 @@
 import { MapLines } from '../scene/ground_lines';
 import { ViewGeometry } from '../camera/geometry';
 import { Graphics } from './graphics';
-import { lineFragment, lineVertex } from './shaders';
+import { lineProgram } from './shader_programs';
 import { shades } from './shades';
 
 interface UploadedLines {
@@ -48,7 +48,7 @@ export class LinePass {
     constructor(private graphics: Graphics) {}
 
     prepare(): void {
-        this.graphics.begin('lines', lineVertex, lineFragment);
+        this.graphics.begin(lineProgram);
     }
     // Call after the context came back.
     forget(): void {
@@ -82,7 +82,7 @@ export class LinePass {
     draw(geometry: ViewGeometry, grain: number): void {
         const { gl } = this.graphics;
         if (this.uploaded.length === 0) return;
-        const at = this.graphics.use(this.graphics.program('lines', lineVertex, lineFragment), geometry);
+        const at = this.graphics.use(this.graphics.program(lineProgram), geometry);
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
         gl.uniform1i(at('isPerspective'), geometry.isPerspective ? 1 : 0);
         for (const { lines, array, count } of this.uploaded) {

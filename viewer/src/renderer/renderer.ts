@@ -13,10 +13,9 @@ import { PackedGrid } from '../wire/packed_grid';
 import { RayView, TilePass, blockEnds, tilesOf } from './echo_tiles';
 import { Exposure } from './exposure';
 import { Graphics } from './graphics';
-import { AirVariant, SurfaceVariant, airFragment, airName, surfaceFragment, surfaceName } from './layer_shaders';
 import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
 import { LinePass } from './line_pass';
-import { VolumeVariant, fullScreenVertex, groundFragment, tileVertex, variantName, volumeFragment } from './shaders';
+import { VolumeVariant, airProgram, groundProgram, surfaceProgram, volumeProgram } from './shader_programs';
 import { shades } from './shades';
 import { WaterMask, WaterTexture } from './water_texture';
 
@@ -262,11 +261,7 @@ export class Renderer {
 
     private drawGround(geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
         const gl = this.gl;
-        const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(
-            this.graphics.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)),
-            geometry,
-        );
+        const at = this.graphics.use(this.graphics.program(groundProgram(geometry.isPerspective)), geometry);
         const color = (uniform: string, rgb: readonly number[]) =>
             gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
         this.graphics.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
@@ -367,10 +362,7 @@ export class Renderer {
             hasHalved: loaded.stream !== null,
             ...wanted,
         };
-        const at = this.graphics.use(
-            this.graphics.program(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant)),
-            view,
-        );
+        const at = this.graphics.use(this.graphics.program(volumeProgram(variant)), view);
         const [nearM, farM] = slicedDepths(loaded, geometry);
         const { made, scale } = this.transferFor(frame, grid, (farM - nearM) / frame.slices);
         if (made.leastVisibleCode === Infinity) return;
@@ -391,16 +383,13 @@ export class Renderer {
 
     private drawAir(frame: Frame, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
         const { geometry } = frame;
-        const variant: AirVariant = {
+        const program = airProgram({
             isPerspective: geometry.isPerspective,
             hasUnevenLevels: this.uploaded!.levels !== null,
             hasHaze: layers.hasHaze,
             hasFolded: layers.hasFolded,
-        };
-        const at = this.graphics.use(
-            this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)),
-            geometry,
-        );
+        });
+        const at = this.graphics.use(this.graphics.program(program), geometry);
         this.bindGrid(this.uploaded!, frame, at);
         // The density of a veil depends on the whole depth of the grid.
         this.gl.uniform1f(at('near'), geometry.nearM);
@@ -419,17 +408,14 @@ export class Renderer {
         }
         const surface = of ? this.other! : shown;
         if (surface.loaded.atlas.brickCount === 0) return;
-        const variant: SurfaceVariant = {
+        const program = surfaceProgram({
             isPerspective: geometry.isPerspective,
             hasUnevenLevels: surface.levels !== null,
             hasHalved: surface.loaded.stream !== null,
             isBelow,
             hasOther: of !== null,
-        };
-        const at = this.graphics.use(
-            this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)),
-            geometry,
-        );
+        });
+        const at = this.graphics.use(this.graphics.program(program), geometry);
         this.bindGrid(surface, frame, at);
         const { grid, atlas } = surface.loaded;
         const chosen = (3 + (value - grid.firstValue) / grid.step - atlas.codeOffset) / atlas.codeScale;
@@ -465,9 +451,8 @@ export class Renderer {
 
     // Begins to compile what the first picture needs, while its data are still on their way.
     prepare(): void {
-        const variant: VolumeVariant = { isPerspective: true, hasUnevenLevels: false };
-        this.graphics.begin(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant));
-        this.graphics.begin('ground, perspective', fullScreenVertex, groundFragment(true));
+        this.graphics.begin(volumeProgram({ isPerspective: true, hasUnevenLevels: false }));
+        this.graphics.begin(groundProgram(true));
         this.lines.prepare();
     }
 }
