@@ -17,7 +17,8 @@ import { History } from '../src/tables/history';
 import { readPal, writePal } from '../src/tables/pal_file';
 import { cornersToKeep } from '../src/tables/simplify';
 import { tableOfFile } from '../src/tables/table_file';
-import { readToml, writeToml } from '../src/tables/toml_file';
+import { readToml } from '../src/tables/toml_file';
+import { writeToml } from '../src/tables/toml_writer';
 import { smooth, usual } from './made_tables';
 
 const draft = draftOf(smooth, 'REF', usual);

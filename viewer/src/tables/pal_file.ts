@@ -4,8 +4,16 @@
 // Errors: a TableError, "FILE:LINE: why".
 
 import { ColorStop, ColorTable, Rgba } from '../wire/color_tables';
-import { TableError, endOf, greatestValue, mostStops, shownWord, usualExtinctionOf, usualFolded } from './table_file';
-import { knownMoments } from './toml_file';
+import {
+    TableError,
+    endOf,
+    greatestValue,
+    knownMoments,
+    mostStops,
+    shownWord,
+    usualExtinctionOf,
+    usualFolded,
+} from './table_file';
 import { UsualOpacity } from './usual_opacity';
 
 interface Entry {

@@ -3,6 +3,7 @@
 //
 // Errors: a TableError that names the file, the line where there is one, and the reason.
 
+import { moments } from '../facts';
 import { ColorTable, Rgba } from '../wire/color_tables';
 import { UsualOpacity, fadedByAlpha, rising } from './usual_opacity';
 
@@ -12,6 +13,11 @@ export const mostFileBytes = 2 ** 20;
 export const mostStops = 4096;
 export const greatestValue = 1e6;
 export const usualFolded: Rgba = [0x77, 0x00, 0x7d, 255];
+
+// Moments by name, with the unit that a file of colors writes: none for a number.
+export const knownMoments: Record<string, string> = Object.fromEntries(
+    Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]),
+);
 
 export interface FilePoint {
     value: number;
