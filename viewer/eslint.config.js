@@ -5,7 +5,7 @@ export default tseslint.config(
     ...tseslint.configs.stylisticTypeChecked,
     {
         files: ['src/**/*.ts'],
-        languageOptions: { parserOptions: { project: './tsconfig.json', tsconfigRootDir: import.meta.dirname } },
+        languageOptions: { parserOptions: { project: './tsconfig.json' } },
         linterOptions: { reportUnusedDisableDirectives: 'error' },
         rules: {
             // A "!" may follow an index or a call, if the code around it knows that the answer is there: loops over

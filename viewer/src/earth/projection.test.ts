@@ -1,12 +1,12 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { cellSizeM, destination, geodesic, planeOf } from './projection';
+import { cellSizeM, destination, geodesic, planeOf, projectionNamed } from './projection';
 import { projections } from '../facts';
 
 const radians = Math.PI / 180;
 const grid = {
-    projection: projections.azimuthal_equidistant as number,
+    projection: projections.azimuthal_equidistant.number as number,
     centerDeg: [35.3331, -97.2777] as [number, number],
     parallelsDeg: [30, 45] as [number, number],
     offsetCells: [0, 0] as [number, number],
@@ -71,7 +71,7 @@ test('an offset moves the center out of the middle', () => {
 test('a conic is true to scale along its parallels', () => {
     const plane = planeOf({
         ...grid,
-        projection: projections.lambert_conformal,
+        projection: projections.lambert_conformal.number,
         centerDeg: [38, -97],
         parallelsDeg: [30, 45],
     });
@@ -88,10 +88,18 @@ test('a conic is true to scale along its parallels', () => {
 test('cells of degrees have the meters of the center', () => {
     const [east, north] = cellSizeM({
         ...grid,
-        projection: projections.latitude_longitude,
+        projection: projections.latitude_longitude.number,
         centerDeg: [0, 0],
         spacing: 0.01,
     });
     assert(Math.abs(east - 6378137 * 0.01 * radians) < 1e-6);
     assert(Math.abs(north - 6378137 * (1 - 0.00669437999014) * 0.01 * radians) < 1e-5);
+});
+
+test('a projection that the page does not know is an error', () => {
+    assert.throws(() => cellSizeM({ ...grid, projection: 9 }), /9: no such projection/);
+    assert.throws(() => planeOf({ ...grid, projection: 9 }), /9: no such projection/);
+    for (const name of ['mercator', 'constructor'])
+        assert.throws(() => projectionNamed(name), new RegExp(`${name}: no such projection`));
+    assert.equal(projectionNamed('lambert_conformal'), projections.lambert_conformal.number);
 });

@@ -48,29 +48,33 @@ Object.assign(globalThis, {
 });
 
 const pause = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
-async function open(): Promise<{ server: ServerState; asked: () => number }> {
+async function open(): Promise<{ server: ServerState; asked: () => number; failed: string[] }> {
     const { Live } = await import('./live');
     let asked = 0;
+    const failed: string[] = [];
     const state = new ServerState(() => undefined);
     const app = {
         server: state,
         hasLists: false,
-        fail: () => undefined,
+        fail: (error: Error) => failed.push(error.message),
         news: {
             catchUp: () => (++asked, server.isUp ? Promise.resolve() : Promise.reject(new TypeError('no answer'))),
         },
     };
     void new Live(app as unknown as App, Promise.resolve()).hear();
-    return { server: state, asked: () => asked };
+    return { server: state, asked: () => asked, failed };
 }
 
 // 2026-11-28: six pages kept all six connections of a browser, and all stood still without a word.
 test('three pages of a browser listen, and the others ask for lists', async () => {
     const first = await open();
     await pause(1200);
+    const unknown = new TextEncoder().encode('event: moon_rose\nid: 1-1\ndata: {}\n\n');
+    for (const stream of server.streams) stream.enqueue(unknown);
     const pages = [first, ...(await Promise.all([open(), open(), open(), open()]))]; // as a browser opens those of a folder
     await pause(1500);
     assert.equal(server.streams.size, 3);
+    assert.deepEqual(first.failed, ['moon_rose: no such event']);
     const withPlace = pages.filter((page) => page.asked() === 0);
     assert.equal(withPlace.length, 3);
     assert.equal(withPlace.includes(first), true);

@@ -14,6 +14,7 @@ interface News {
     oldest?: string | null; // time of a grid that is left
 }
 
+const kindsOfGrids = ['sweep_gridded', 'volume_complete', 'mosaic', 'grid_evicted'];
 const againAfterMs = 3000;
 const refusedAgainAfterMs = 30_000;
 const mostQuietMs = 40_000; // the server sends a heartbeat every 15 s
@@ -143,6 +144,7 @@ export class Live {
         if (kind === 'reset') this.isBehind = true;
         else if (kind === 'station_silent') this.app.server.takeSilence(station ?? '', silent_s ?? 0);
         else if (kind === 'station_spoke') this.app.server.takeSilence(station ?? '', null);
-        else if (kind !== 'volume_begun') this.do(() => this.app.news.takeNews(domain, moment, grid, oldest ?? ''));
+        else if (kindsOfGrids.includes(kind)) this.do(() => this.app.news.takeNews(domain, moment, grid, oldest ?? ''));
+        else if (kind !== 'volume_begun') this.app.fail(new Error(`${kind}: no such event`));
     }
 }

@@ -2,7 +2,7 @@
 
 import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
-import { writeToml } from '../tables/toml_file';
+import { writeToml } from '../tables/toml_writer';
 import { App } from './app';
 
 interface Colors {

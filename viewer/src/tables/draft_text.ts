@@ -3,8 +3,7 @@
 
 import { Rgba } from '../wire/color_tables';
 import { ColorPoint, Draft, OpacityPoint, mostPoints, roundedPerKm, roundedValue } from './draft';
-import { colorOfHex, hexOf } from './table_file';
-import { knownMoments } from './toml_file';
+import { colorOfHex, hexOf, knownMoments } from './table_file';
 
 const mostLetters = 8000;
 

@@ -17,7 +17,8 @@ import { History } from './history';
 import { readPal, writePal } from './pal_file';
 import { cornersToKeep } from './simplify';
 import { tableOfFile } from './table_file';
-import { readToml, writeToml } from './toml_file';
+import { readToml } from './toml_file';
+import { writeToml } from './toml_writer';
 import { smooth, usual } from '../testing/made_tables';
 
 const draft = draftOf(smooth, 'REF', usual);

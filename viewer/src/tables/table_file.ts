@@ -3,15 +3,18 @@
 //
 // Errors: a TableError that names the file, the line where there is one, and the reason.
 
+import { colorFiles, moments } from '../facts';
 import { ColorTable, Rgba } from '../wire/color_tables';
 import { UsualOpacity, fadedByAlpha, rising } from './usual_opacity';
 
 export class TableError extends Error {}
 
-export const mostFileBytes = 2 ** 20;
-export const mostStops = 4096;
-export const greatestValue = 1e6;
-export const usualFolded: Rgba = [0x77, 0x00, 0x7d, 255];
+export const { mostBytes: mostFileBytes, mostStops, greatestValue } = colorFiles;
+
+// Moments by name, with the unit that a file of colors writes: none for a number.
+export const knownMoments: Record<string, string> = Object.fromEntries(
+    Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]),
+);
 
 export interface FilePoint {
     value: number;
@@ -51,7 +54,7 @@ export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
         })),
         end: 0,
         bar_begin: points[0]!.value,
-        range_folded: file.rangeFolded ?? usualFolded,
+        range_folded: file.rangeFolded ?? [...colorFiles.rangeFolded],
         extinction: [],
     };
     table.end = file.end ?? endOf(table);

@@ -5,7 +5,8 @@ import { colorOf, extinctionPerM } from './color_table';
 import { ColorTable } from '../wire/color_tables';
 import { readPal, writePal } from './pal_file';
 import { TableError, tableOfFile } from './table_file';
-import { readToml, writeToml } from './toml_file';
+import { readToml } from './toml_file';
+import { writeToml } from './toml_writer';
 import { smooth, usual } from '../testing/made_tables';
 
 const pal = (text: string): ColorTable => readPal(text, 't.pal', usual);
@@ -149,16 +150,32 @@ test('errors of TOML name the line', () => {
         [`end = 2\n${two}`, 't.toml:1: end must be above'],
         ['[[point]]\nvalue = 1\ncolor = "#000000"\n', 't.toml:1: point must be there 2 to 4096'],
         ['point = 7\n', 't.toml:1: point must be'],
-        ['name = "x\n', 't.toml:1: a text has no end'],
-        ['name = x\n', "t.toml:1: 'x' is no value"],
-        ['name = 1979-05-27\n', "t.toml:1: '1979-05-27' is no value"],
-        ['a = 1\na = 2\n', "t.toml:2: 'a' is there already"],
-        ['a = "\\q"\n', "t.toml:1: '\\q' has no meaning"],
-        ['[[point]\n', "t.toml:1: ']]' is missing"],
-        [`a = ${'['.repeat(100000)}`, 't.toml:1: the values are too deep'],
-        ['<html>', 't.toml:1: a key is missing'],
+        ['name = "x', `t.toml:1: unfinished string, in 'name = "x'`],
+        ['name = "x\n', `t.toml:1: control characters are not allowed in strings, in 'name = "x'`],
+        ['name = x\n', "t.toml:1: invalid value, in 'name = x'"],
+        ['name = 1979-05-27\n', 't.toml:1: name must be a text'],
+        ['a = 1\na = 2\n', "t.toml:2: trying to redefine an already defined table or value, in 'a = 2'"],
+        ['a = "\\q"\n', 't.toml:1: unrecognised escape sequence'],
+        ['[[point]\n', "t.toml:1: expected end of table array declaration, in '[[point]'"],
+        [`a = ${'['.repeat(100000)}`, 't.toml:1: document contains excessively nested structures'],
+        ['<html>', "t.toml:1: illegal character in key, in '<html>'"],
     ] as const)
         assert(message(toml, text).startsWith(wanted), `${message(toml, text)} for ${text.slice(0, 60)}`);
+});
+
+test('lines are found behind texts of several lines, and in arrays of inline tables', () => {
+    for (const [text, wanted] of [
+        [`name = """a \\"""\n[b]"""\nq = 1\n${two}`, 't.toml:3: q is an unknown key'],
+        [`"#" = [ # ]\n'''\n]''',\n]\n${two}`, 't.toml:1: # is an unknown key'],
+        [`a.b = 1\n[a.c]\nd = 1\n${two}`, 't.toml:1: a is an unknown key'],
+        [`end = 3\n${two}\n[point.x]\n`, 't.toml:9: x is an unknown key'],
+        [
+            'point = [\n  { value = 1, color = "#000000" },\n  { value = 2,\n    colr = 3 },\n]',
+            't.toml:3: color is missing',
+        ],
+        ['point = [{ value = 1, color = [1,\n2, 3] },\n{ value = 0, color = "#000000" }]', 't.toml:3: value must incr'],
+    ] as const)
+        assert(message(toml, text).startsWith(wanted), `${message(toml, text)} for ${text}`);
 });
 
 test('a key named after a part of the language is unknown like any other', () => {

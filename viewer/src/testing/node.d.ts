@@ -15,4 +15,23 @@ declare module 'node:assert/strict' {
 }
 declare module 'node:child_process' {
     export function execFileSync(program: string, words: string[], options: { encoding: 'utf8' }): string;
+    export function spawnSync(
+        program: string,
+        words: string[],
+        options?: { encoding: 'utf8' },
+    ): { status: number | null; stdout: string; error?: Error };
+}
+declare module 'node:fs' {
+    export function mkdtempSync(prefix: string): string;
+    export function rmSync(path: string, options: { recursive: boolean }): void;
+    export function writeFileSync(path: string, text: string): void;
+}
+declare module 'node:os' {
+    export function tmpdir(): string;
+}
+declare module 'node:path' {
+    export function join(...parts: string[]): string;
+}
+declare module 'node:process' {
+    export function exit(status: number): never;
 }

@@ -75,6 +75,13 @@ test('a table that names a block that is not there is refused', () => {
     assert.throws(() => readPackedGrid(bytes), PackedError);
 });
 
+test('a brick of an unknown kind is refused', () => {
+    const bytes = packedGrid(mixed);
+    const view = new DataView(bytes.buffer);
+    view.setUint8(Number(view.getBigUint64(224, true)), 3);
+    assert.throws(() => readPackedGrid(bytes), /unknown kind/);
+});
+
 test('a count of rows that does not fit the bricks is refused', () => {
     const bytes = packedGrid(mixed);
     new DataView(bytes.buffer).setUint32(204, 7, true);
