@@ -21,7 +21,6 @@ using level2::Moment;
 constexpr float least_velocity = -64;
 constexpr float least_zdr = -13;
 constexpr float least_height = -10;
-constexpr Rgba8 folded_color = {0x77, 0x00, 0x7D, 255};
 
 struct ColorClass {
     float from;
@@ -41,7 +40,7 @@ ColorTable stepped(std::string_view name, Moment moment, std::string unit,
     table.moment = moment;
     table.unit = std::move(unit);
     table.end = end;
-    table.range_folded = folded_color;
+    table.range_folded = usual_range_folded;
     for (const ColorClass& one : classes) {
         const Rgba8 color = rgba_of(one.rgb);
         table.stops.push_back({one.from, color, color});

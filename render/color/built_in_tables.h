@@ -16,7 +16,8 @@
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
 //   smooth-...          one table without classes for each moment (render/color/smooth_tables.h)
-// Range folded is 77007d in all tables. Extinction is that of the moment: default_extinction().
+// Range folded is usual_range_folded in all tables. Extinction is that of the moment:
+// default_extinction().
 //
 // In a safe table, neighboring classes differ by at least least_safe_step (CIEDE2000) for normal
 // vision and for protanopia, deuteranopia and tritanopia as simulated by Machado, Oliveira,
@@ -41,6 +42,8 @@ namespace stormcellar::render {
 
 inline constexpr double least_safe_step = 6;
 inline constexpr double least_safe_sides = 15;
+// The color of range folded air in all tables here, and in files that do not say theirs.
+inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 
 // Returns the tables in the order above.
 [[nodiscard]] const std::vector<ColorTable>& built_in_tables();

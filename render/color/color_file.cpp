@@ -10,8 +10,6 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 20U;
-
 std::string lower_ending(const std::filesystem::path& file) {
     std::string ending = file.extension().native();
     std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -27,7 +25,7 @@ Result<ColorTable> read_color_file(const std::filesystem::path& file) {
         return fail(ErrorCode::bad_argument,
                     "{}: the file of a color table must end in .pal or .toml", file.native());
     }
-    const auto bytes = read_file(file, most_bytes);
+    const auto bytes = read_file(file, most_color_file_bytes);
     if (!bytes) return pass_on(bytes);
     std::string text(bytes->size(), '\0');
     if (!text.empty()) std::memcpy(text.data(), bytes->data(), text.size());

@@ -29,9 +29,10 @@
 //           Specification").
 // Threads   Pure functions.
 // Errors    not_found, io and others for the file; bad_argument, as "FILE:LINE: why", for its
-//           content, and for more than 1 MiB or most_stops entries.
+//           content, and for more than most_color_file_bytes or most_stops entries.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -40,6 +41,10 @@
 #include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
+
+inline constexpr std::uint64_t most_color_file_bytes = std::uint64_t{1} << 20U;
+// Numbers of a file, with either sign, are no greater.
+inline constexpr double greatest_color_value = 1e6;
 
 // `name` stands for the file in messages.
 [[nodiscard]] Result<ColorTable> parse_pal(std::string_view text, const std::string& name);

@@ -10,13 +10,13 @@
 #include "base/printable.h"
 #include "render/color/built_in_tables.h"
 #include "render/color/color_file.h"
+#include "render/color/pal_words.h"
 
 namespace stormcellar::render {
 namespace {
 
 using level2::Moment;
 
-constexpr double largest_value = 1e6;
 constexpr std::size_t longest_word = 64;
 
 struct Entry {
@@ -24,33 +24,6 @@ struct Entry {
     Rgba8 color{};
     std::optional<Rgba8> until;
     bool solid = false;
-};
-
-// The moment or unit of the values that the name of a product stands for.
-struct Meaning {
-    std::string_view word;
-    std::optional<Moment> moment;
-    std::string_view unit;
-};
-constexpr Meaning products[] = {
-    {"BR", Moment::ref, {}},  {"CR", Moment::ref, {}}, {"BV", Moment::vel, {}},
-    {"SRV", Moment::vel, {}}, {"CC", Moment::rho, {}}, {"ET", {}, "km"},
-    {"EET", {}, "km"},        {"VIL", {}, "kg/m2"},    {"DVL", {}, "kg/m2"},
-};
-
-// A unit of files, and how many of it make one of ours.
-struct FileUnit {
-    std::string_view word;
-    double per_ours;
-    std::string_view ours;
-};
-constexpr FileUnit units[] = {
-    {"KT", 1.943844, "m/s"},  {"KTS", 1.943844, "m/s"}, {"KNOTS", 1.943844, "m/s"},
-    {"MPH", 2.236936, "m/s"}, {"KMH", 3.6, "m/s"},      {"KM/H", 3.6, "m/s"},
-    {"M/S", 1, "m/s"},        {"MPS", 1, "m/s"},        {"KFT", 3.280840, "km"},
-    {"FT", 3280.840, "km"},   {"KM", 1, "km"},          {"M", 1000, "km"},
-    {"DBZ", 1, "dBZ"},        {"DB", 1, "dB"},          {"KG/M2", 1, "kg/m2"},
-    {"%", 100, ""},
 };
 
 std::string upper(std::string_view text) {
@@ -91,7 +64,7 @@ std::optional<double> number_of(std::string_view word) {
     double number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-    if (!std::isfinite(number) || std::abs(number) > largest_value) return std::nullopt;
+    if (!std::isfinite(number) || std::abs(number) > greatest_color_value) return std::nullopt;
     return number;
 }
 
@@ -131,7 +104,7 @@ class PalReader {
         if (length <= 0) length = table.stops.size() > 1 ? last - table.stops.rbegin()[1].from : 1;
         table.end = last + length;
         if (!(table.end > last)) table.end = std::nextafter(last, 2e9F);
-        table.range_folded = folded_.value_or(Rgba8{0x77, 0x00, 0x7D, 255});
+        table.range_folded = folded_.value_or(usual_range_folded);
         table.extinction = extinction_of_colors(table, moment_known_);
         if (auto valid = validate(table); !valid) {
             return fail(ErrorCode::bad_argument, "{}:{}: the table {} (lowest {})", name_, line_,
@@ -243,7 +216,7 @@ class PalReader {
         if (const auto moment = level2::moment_from_name(product)) {
             note_moment(*moment, table);
         }
-        for (const Meaning& known : products) {
+        for (const PalProduct& known : pal_products) {
             if (known.word != product) continue;
             if (known.moment) {
                 note_moment(*known.moment, table);
@@ -255,7 +228,7 @@ class PalReader {
         const std::string word = upper(unit_);
         const bool has_meaning = moment_known_ || !table.unit.empty();
         bool unit_known = false;
-        for (const FileUnit& unit : units) {
+        for (const PalUnit& unit : pal_units) {
             if (unit.word != word) continue;
             unit_known = true;
             if (!has_meaning) {

@@ -55,7 +55,7 @@ ColorTable smooth_table(std::string_view name, Moment moment, std::span<const An
     table.moment = moment;
     table.unit = unit_of(moment);
     table.end = end;
-    table.range_folded = {0x77, 0x00, 0x7D, 255};
+    table.range_folded = usual_range_folded;
     for (std::size_t i = 0; i + 1 < anchors.size(); ++i) {
         const Anchor &from = anchors[i], &to = anchors[i + 1];
         for (int piece = 0; piece < pieces_between_anchors; ++piece) {

@@ -10,8 +10,8 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr TomlRange values{-1e6, 1e6};
-constexpr TomlRange opacities_per_km{0, 1e6};
+constexpr TomlRange values{-greatest_color_value, greatest_color_value};
+constexpr TomlRange opacities_per_km{0, greatest_color_value};
 
 // Parses "#rrggbb" or "#rrggbbaa".
 std::optional<Rgba8> color_of_text(std::string_view text) {
@@ -119,7 +119,7 @@ Result<ColorTable> parse_toml_colors(std::string_view text, const std::string& n
     ColorTable table;
     const bool of_moment = read_meaning(root, table);
     const bool is_stepped = root.flag("stepped").value_or(false);
-    table.range_folded = read_color(root, "range_folded").value_or(Rgba8{0x77, 0x00, 0x7D, 255});
+    table.range_folded = read_color(root, "range_folded").value_or(usual_range_folded);
     const auto end = root.number("end", values);
     auto points = root.tables("point");
     const std::size_t least = is_stepped ? 1 : 2;

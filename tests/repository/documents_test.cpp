@@ -178,10 +178,8 @@ std::vector<fs::path> sources() {
             found.push_back(top.path());
             continue;
         }
-        for (const auto& entry : fs::recursive_directory_iterator(top.path()))
-            if (entry.is_regular_file() && (kinds.contains(entry.path().extension()) ||
-                                            *fs::relative(entry.path(), root).begin() == "scripts"))
-                found.push_back(entry.path());
+        for (const fs::path& path : testing::files_below(top.path()))
+            if (kinds.contains(path.extension()) || name == "scripts") found.push_back(path);
     }
     return found;
 }

@@ -3,7 +3,7 @@
 // level of a namespace goes from a line without indent to a line that is "}", and one in a class
 // from a line with an indent of four to a line that is "    }". A block of a function that has this
 // indent is measured too, and can be no longer than its function. In TypeScript a function may also
-// be a constant of arrow form, which ends with "};".
+// be a constant of arrow form, which ends with "};". Shaders have the layout of C++.
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -62,17 +62,19 @@ TEST(FunctionLength, NoFunctionIsLongerThanSixtyLines) {
     for (const auto& room : fs::directory_iterator(root)) {
         const std::string name = room.path().filename().string();
         if (!room.is_directory() || name.starts_with('.') || skipped.contains(name)) continue;
-        for (const auto& entry : fs::recursive_directory_iterator(room.path())) {
-            const auto ending = entry.path().extension();
-            if (entry.path().parent_path() == root / "viewer" / "test") continue;
-            if (ending != ".h" && ending != ".cpp" && ending != ".ts") continue;
+        for (const fs::path& path : testing::files_below(room.path())) {
+            const auto ending = path.extension();
+            if (ending == ".ts" && testing::is_viewer_test(path)) continue;
+            if (path.string().starts_with((root / "viewer" / "third_party").string())) continue;
+            if (ending != ".h" && ending != ".cpp" && ending != ".ts" && ending != ".glsl")
+                continue;
             ++sources;
-            const std::string text = testing::text_of(entry.path());
+            const std::string text = testing::text_of(path);
             for (const std::size_t indent : {0, 4}) {
                 for (const LongFunction& function : long_functions(text, indent, most_lines)) {
-                    ADD_FAILURE() << fs::relative(entry.path(), root).string() << ":"
-                                  << function.line << ": " << function.lines << " lines, not "
-                                  << most_lines << ": " << function.head;
+                    ADD_FAILURE() << fs::relative(path, root).string() << ":" << function.line
+                                  << ": " << function.lines << " lines, not " << most_lines << ": "
+                                  << function.head;
                 }
             }
         }

@@ -1,6 +1,6 @@
-// viewer/src/facts.ts has what the page must know as C++ knows it: moments, units, projections and
-// the colors of the ground. It is made here, from the tables. After a change of a table write it
-// with
+// viewer/src/facts.ts has what the page must know as C++ knows it: moments, units, projections, the
+// usual grid, ranges of options, color files and the colors of the ground. It is made here, from
+// the tables. After a change of a table write it with
 //   STORMCELLAR_WRITE_FACTS=1 repository_test --gtest_filter='ViewerFacts.*'
 #include <cstdlib>
 #include <filesystem>
@@ -12,9 +12,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "render/color/built_in_tables.h"
+#include "render/color/color_file.h"
+#include "render/color/pal_words.h"
 #include "render/image/shades.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/level2/moment.h"
+#include "stormcellar/render/color_table.h"
+#include "stormcellar/render/scene.h"
 #include "stormcellar/render/units.h"
 #include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
@@ -37,8 +42,8 @@ std::string_view mixing_of(level2::Circle circle) {
 std::string moments() {
     std::string text = "export const moments = {\n";
     for (const level2::MomentFacts& facts : level2::moment_facts) {
-        text += fmt::format("    {}: {{ unit: '{}', mixing: '{}' }},\n", facts.name, facts.units,
-                            mixing_of(facts.circle));
+        text += fmt::format("    {}: {{ unit: '{}', mixing: '{}', isDoppler: {} }},\n", facts.name,
+                            facts.units, mixing_of(facts.circle), facts.is_doppler);
     }
     return text + "} as const;\n";
 }
@@ -56,8 +61,52 @@ std::string units_of(std::string_view quantity, bool render::UnitFacts::*is_of) 
 std::string projections() {
     std::string text = "export const projections = {\n";
     for (const grid::ProjectionFacts& facts : grid::projection_facts)
-        text += fmt::format("    {}: {},\n", facts.name, static_cast<int>(facts.projection));
+        text += fmt::format("    {}: {{ number: {}, isInDegrees: {} }},\n", facts.name,
+                            static_cast<int>(facts.projection), facts.in_degrees);
     return text + "} as const;\n";
+}
+
+std::string usual_grid() {
+    const grid::GridSpec spec = grid::default_spec(0, 0);
+    return fmt::format(
+        "export const usualGrid = {{ nx: {}, ny: {}, spacingM: {}, levels: {}, betweenLevelsM: {} "
+        "}} as const;\n",
+        spec.nx, spec.ny, spec.spacing_m, spec.nz(), spec.levels_m.front());
+}
+
+std::string ranges() {
+    namespace limits = render::limits;
+    std::string text = "export const ranges = {\n";
+    for (const auto& [name, range] :
+         {std::pair{"sidePx", limits::side_px}, std::pair{"tiltDeg", limits::tilt_deg},
+          std::pair{"zoom", limits::zoom}, std::pair{"fieldOfViewDeg", limits::field_of_view_deg},
+          std::pair{"sectionKm", limits::section_km}, std::pair{"planeM", limits::cappi_height_m},
+          std::pair{"exaggeration", limits::exaggeration}, std::pair{"opacity", limits::opacity}})
+        text += fmt::format("    {}: {{ least: {}, most: {} }},\n", name, range.least, range.most);
+    return text + "} as const;\n";
+}
+
+std::string quoted_if_needed(std::string_view key) {
+    const bool is_plain = key.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == key.npos;
+    return is_plain ? std::string(key) : fmt::format("'{}'", key);
+}
+
+std::string pal_words() {
+    std::string text =
+        "export const palProducts: Record<string, { moment?: string; unit: string }> = {\n";
+    for (const render::PalProduct& product : render::pal_products) {
+        const std::string moment =
+            product.moment ? fmt::format("moment: '{}', ", level2::moment_name(*product.moment))
+                           : "";
+        text += fmt::format(
+            "    {}: {{ {}unit: '{}' }},\n", product.word, moment,
+            product.moment ? render::unit_of(*product.moment) : std::string(product.unit));
+    }
+    text += "};\nexport const palUnits: Record<string, [number, string]> = {\n";
+    for (const render::PalUnit& unit : render::pal_units)
+        text += fmt::format("    {}: [{}, '{}'],\n", quoted_if_needed(unit.word), unit.per_ours,
+                            unit.ours);
+    return text + "};\n";
 }
 
 std::string color(render::Rgba8 color) {
@@ -67,16 +116,17 @@ std::string color_with_alpha(render::Rgba8 color) {
     return fmt::format("[{}, {}, {}, {}]", color[0], color[1], color[2], color[3]);
 }
 
-std::string ground(const render::GroundShades& shades) {
-    return fmt::format("seen: {}, seenAloft: {}, notSeen: {}, beyond: {}", color(shades.seen),
-                       color(shades.seen_aloft), color(shades.not_seen), color(shades.beyond));
+std::string ground(const render::GroundShades& shades, std::string_view between) {
+    return fmt::format("seen: {}{between}seenAloft: {}{between}notSeen: {}{between}beyond: {}",
+                       color(shades.seen), color(shades.seen_aloft), color(shades.not_seen),
+                       color(shades.beyond), fmt::arg("between", between));
 }
 
 std::string colors() {
     const render::Shades& dark = render::shades::dark;
     std::string text = "export const dark = {\n";
     text += fmt::format("    page: {},\n    {},\n    water: {{ {} }},\n", color(dark.page),
-                        ground(dark.land), ground(dark.water));
+                        ground(dark.land, ",\n    "), ground(dark.water, ", "));
     text += fmt::format("    hatch: {},\n    haze: {},\n", color(dark.hatch), color(dark.haze));
     for (const auto& [name, line] :
          {std::pair{"ring", dark.ring}, std::pair{"county", dark.county},
@@ -86,6 +136,14 @@ std::string colors() {
     text += fmt::format("    text: {},\n    quietText: {},\n    halo: {},\n", color(dark.text),
                         color(dark.quiet_text), color_with_alpha(dark.halo));
     return text + "} as const;\n";
+}
+
+std::string color_files() {
+    return fmt::format(
+        "export const colorFiles = {{\n    mostBytes: {},\n    mostStops: {},\n"
+        "    greatestValue: {},\n    rangeFolded: {},\n    clearAir: '{}',\n}} as const;\n",
+        render::most_color_file_bytes, render::most_stops, render::greatest_color_value,
+        color_with_alpha(render::usual_range_folded), render::clear_air_colors().name);
 }
 
 std::string facts() {
@@ -98,9 +156,21 @@ std::string facts() {
            units_of("speed", &render::UnitFacts::of_speed) +
            units_of("distance", &render::UnitFacts::of_distance) +
            units_of("height", &render::UnitFacts::of_height) +
-           "} as const;\n\n// Projections by their names in JSON, and their numbers in packed "
-           "grids.\n" +
-           projections() +
+           "} as const;\n\n// Projections by their names in JSON, with their numbers in packed "
+           "grids. "
+           "Cells are regular in degrees or meters.\n" +
+           projections() + "\n// The grid that `stormcellar frame` makes of a raw file.\n" +
+           usual_grid() +
+           "\n// Ranges of numbers that pictures take. A field of view may be 0, too.\n" +
+           ranges() +
+           "\n// Limits of files of color tables, the color of range folded air where a file has "
+           "none, and "
+           "the table of clear air.\n" +
+           color_files() +
+           "\n// Products of .pal files with moment and unit of their values; their units, as how "
+           "many make "
+           "one of ours.\n" +
+           pal_words() +
            "\n// Colors behind the echo, of the dark theme: red, green, blue and, for lines and "
            "the halo, "
            "alpha to 255.\n" +

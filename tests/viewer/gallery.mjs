@@ -1,11 +1,10 @@
 // Makes the pairs of pictures in docs/gallery.md: what the page shows, and what the command that it copies draws.
 // usage: node tests/viewer/gallery.mjs PROGRAM ADDRESS DIRECTORY OF VOLUMES, PICTURES
 import { execFileSync } from 'node:child_process';
-import { readdirSync, writeFileSync } from 'node:fs';
+import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { CheckedPage } from './checked_page.mjs';
-import { Browser } from './devtools.mjs';
+import { openPage, withBrowser } from './viewer_page.mjs';
 
 const [program, address, volumes, pictures] = process.argv.slice(2);
 const [width, height] = [796, 532];
@@ -19,23 +18,19 @@ const scenes = [
   ['winter', 'KOKX', 'azimuth=180&tilt=45&zoom=1.6&field-of-view=40&exaggeration=6&opacity=2&light=gradient'],
 ];
 
-const browser = await Browser.start();
-try {
-  const page = await browser.page(width, height);
-  await browser.send('Browser.grantPermissions', { permissions: ['clipboardReadWrite', 'clipboardSanitizedWrite'] });
-  const viewer = new CheckedPage(page, address);
+await withBrowser(async (browser) => {
+  const viewer = await openPage(browser, address, width, height);
+  await viewer.page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await viewer.open(`domain=${scenes[0][1]}&moment=REF&zoom=0.9`);
   for (const [name, station, more] of scenes) {
     const volume = readdirSync(volumes).find((file) => file.startsWith(`${station}${{ KTLX: 1999, KDMX: 2022, KLBB: 2016 }[station] ?? ''}`));
     await viewer.show(`domain=${station}&moment=REF&${more}`);
-    writeFileSync(join(pictures, `viewer-${name}.png`), await page.screenshot());
-    await page.evaluate("document.getElementById('command').click()");
-    const words = (await page.evaluate('navigator.clipboard.readText()')).split(' ').slice(1);
+    await viewer.page.screenshot({ path: join(pictures, `viewer-${name}.png`) });
+    await viewer.press('command');
+    const words = (await viewer.page.evaluate(() => navigator.clipboard.readText())).split(' ').slice(1);
     words[1] = join(volumes, volume);
     words[words.indexOf('-o') + 1] = join(pictures, `slicer-${name}.png`);
     console.log(name, words.join(' '));
     execFileSync(program, words, { stdio: 'inherit' });
   }
-} finally {
-  await browser.end();
-}
+});

@@ -2,10 +2,9 @@
 // the difference from the slicer with many slices, for each rung and scene. It prints a table, and with --write puts
 // the figures into the viewer's own table.
 import { readFileSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
 
-import { CheckedPage, Slicer, gridsOf, viewOf } from './checked_page.mjs';
-import { Browser } from './devtools.mjs';
+import { Slicer, viewOf } from './slicer.mjs';
+import { gridsOf, openPage, withBrowser } from './viewer_page.mjs';
 
 const [address, stationsText, difference, directory, framesText, size, tablePath, write] = process.argv.slice(2);
 // Each rung is a line of the table.
@@ -25,16 +24,20 @@ const scenes = [
 // Bricks are halved of a grid that is fetched in parts, as one of these is with so little memory (MiB).
 const memoryOf = (rung) => (rung === 'halved bricks' ? 24 : 256);
 
-const browser = await Browser.start();
-const viewers = new Map();
-for (const memory of new Set(rungs.map(memoryOf))) {
-  const viewer = new CheckedPage(await browser.page(width, height), address);
-  // Without a domain the page may open the map of the stations.
-  await viewer.open(`domain=${stationsText.split(',')[0]}&memory=${memory}`);
-  viewers.set(memory, viewer);
-}
 const stations = stationsText.split(',');
-const slicer = new Slicer(address, await gridsOf(address, stations), difference, directory);
+const slicer = new Slicer({ address, difference, directory, pictures: '' });
+
+// Opens a page for each memory.
+async function openPages(browser) {
+  const viewers = new Map();
+  for (const memory of new Set(rungs.map(memoryOf))) {
+    const viewer = await openPage(browser, address, width, height);
+    // Without a domain the page may open the map of the stations.
+    await viewer.open(`domain=${stations[0]}&memory=${memory}`);
+    viewers.set(memory, viewer);
+  }
+  return viewers;
+}
 
 const median = (list) => list.sort((a, b) => a - b)[Math.floor(list.length / 2)];
 
@@ -43,38 +46,37 @@ async function frameMs(viewer, scene, quality) {
   const times = [];
   for (let i = 0; i <= frames; ++i) {
     await viewer.show(`${viewOf({ ...scene, azimuth: scene.azimuth + 0.01 * (i + 1) })}&${quality}`);
-    if (i > 0) times.push(Number(await viewer.frameMs()));
+    if (i > 0) times.push(Number(await viewer.data('frameMs')));
   }
   return median(times);
 }
 
-async function measure(rung, scene, file) {
-  const viewer = viewers.get(memoryOf(rung));
+async function measure(viewer, rung, scene) {
   // A page that is behind another one is not drawn.
-  await viewer.page.send('Page.bringToFront');
+  await viewer.page.bringToFront();
   const quality = `memory=${memoryOf(rung)}&quality=${encodeURIComponent(rung)}`;
   const ms = await frameMs(viewer, scene, quality);
   await viewer.show(`${viewOf(scene)}&${quality}`);
-  await viewer.page.until('document.documentElement.dataset.missing === "0"');
-  const picture = join(directory, 'ladder.ppm');
-  writeFileSync(picture, await viewer.pixels(width, height));
-  const { p99, mean } = slicer.compare(file, picture, scene, ['--slices', referenceSlices]);
+  await viewer.until(() => document.documentElement.dataset.missing === '0');
+  const pixels = await viewer.pixels(width, height);
+  const { p99, mean } = await slicer.compare(scene, pixels, { name: 'ladder', behind: ['--slices', referenceSlices] });
   await viewer.show(`${viewOf(scene)}&${quality}&count-fetches=1`);
-  const fetches = Number(await viewer.page.evaluate('document.documentElement.dataset.fetches'));
-  return { scene: scene.name, ms, dE: p99, mean, fetches };
+  return { scene: scene.name, ms, dE: p99, mean, fetches: Number(await viewer.data('fetches')) };
 }
 
 const rows = rungs.map((rung) => ({ rung, results: [] }));
-for (const scene of scenes) {
-  const file = stations.includes(scene.station) && (await slicer.fileOf(scene.station, scene.moment));
-  if (!file) continue;
-  for (const { rung, results } of rows) {
-    const result = await measure(rung, scene, file);
-    results.push(result);
-    console.error(`${scene.name}, ${rung}: ${result.ms} ms, dE ${result.dE} (mean ${result.mean}), ${result.fetches.toFixed(1)} texels a pixel`);
+await gridsOf(address, stations);
+await withBrowser(async (browser) => {
+  const viewers = await openPages(browser);
+  for (const scene of scenes) {
+    if (!stations.includes(scene.station) || !(await slicer.fileOf(scene.station, scene.moment))) continue;
+    for (const { rung, results } of rows) {
+      const result = await measure(viewers.get(memoryOf(rung)), rung, scene);
+      results.push(result);
+      console.error(`${scene.name}, ${rung}: ${result.ms} ms, dE ${result.dE} (mean ${result.mean}), ${result.fetches.toFixed(1)} texels a pixel`);
+    }
   }
-}
-await browser.end();
+});
 
 // The figures that the page gives for a rung: its cost over all scenes, and the largest difference of any.
 const total = (results) => results.reduce((sum, { ms }) => sum + ms, 0);

@@ -5,8 +5,7 @@
 import { appendFileSync, mkdirSync, readFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 
-import { CheckedPage } from './checked_page.mjs';
-import { Browser } from './devtools.mjs';
+import { openPage, withBrowser } from './viewer_page.mjs';
 
 const [address, station, volume, target] = process.argv.slice(2);
 const [width, height] = [796, 532];
@@ -33,11 +32,15 @@ async function hasGrid() {
   return grids.length > 0;
 }
 
-// When the page is done with a picture, in ms since 1970, and how long its frame took.
-const watch = `window.drawn_ = []; new MutationObserver(() => {
+// Notes when the page is done with a picture, in ms since 1970, and how long its frame took.
+function watch() {
+  window.drawn_ = [];
+  const note = () => {
     const { drawn, frameMs } = document.documentElement.dataset;
-    if (drawn) drawn_.push([performance.timeOrigin + performance.now(), Number(frameMs)]);
-  }).observe(document.documentElement, { attributes: true, attributeFilter: ['data-drawn'] }); undefined`;
+    if (drawn) window.drawn_.push([performance.timeOrigin + performance.now(), Number(frameMs)]);
+  };
+  new MutationObserver(note).observe(document.documentElement, { attributes: true, attributeFilter: ['data-drawn'] });
+}
 
 const pieces = piecesOf(readFileSync(volume));
 mkdirSync(dirname(target), { recursive: true });
@@ -52,17 +55,15 @@ while (sent < pieces.length && !(await hasGrid())) {
   send();
   await wait(500);
 }
-const browser = await Browser.start();
-try {
-  const page = await browser.page(width, height);
-  const viewer = new CheckedPage(page, address);
+await withBrowser(async (browser) => {
+  const viewer = await openPage(browser, address, width, height);
   await viewer.open(`domain=${station}&moment=REF`);
-  await page.evaluate(watch);
+  await viewer.page.evaluate(watch);
   const found = [];
   while (sent < pieces.length) {
-    await page.evaluate('drawn_.length = 0; undefined');
+    await viewer.page.evaluate(() => void (window.drawn_.length = 0));
     const closed = send();
-    const first = await page.until('drawn_[0]', longestMs / 1000).catch(() => null);
+    const first = await viewer.until(() => window.drawn_[0], null, longestMs).catch(() => null);
     if (!first) continue;
     // A picture that follows at once belongs to the same sweep.
     await wait(longestMs / 5);
@@ -71,6 +72,4 @@ try {
   if (found.length === 0) throw new Error('the page has drawn no sweep');
   row('from the close of a sweep to its picture', found.map(({ all }) => all));
   row('without its frame; decompression is in it', found.map(({ all, frame }) => all - frame));
-} finally {
-  await browser.end();
-}
+});

@@ -3,13 +3,13 @@
 
 // Moments with their stored units ('1' for a number without one), and how cells are mixed between their centers.
 export const moments = {
-    REF: { unit: 'dBZ', mixing: 'mean' },
-    VEL: { unit: 'm/s', mixing: 'heaviest' },
-    SW: { unit: 'm/s', mixing: 'mean' },
-    ZDR: { unit: 'dB', mixing: 'mean' },
-    PHI: { unit: 'degree', mixing: 'circle' },
-    RHO: { unit: '1', mixing: 'mean' },
-    CFP: { unit: 'dB', mixing: 'mean' },
+    REF: { unit: 'dBZ', mixing: 'mean', isDoppler: false },
+    VEL: { unit: 'm/s', mixing: 'heaviest', isDoppler: true },
+    SW: { unit: 'm/s', mixing: 'mean', isDoppler: true },
+    ZDR: { unit: 'dB', mixing: 'mean', isDoppler: false },
+    PHI: { unit: 'degree', mixing: 'circle', isDoppler: false },
+    RHO: { unit: '1', mixing: 'mean', isDoppler: false },
+    CFP: { unit: 'dB', mixing: 'mean', isDoppler: false },
 } as const;
 
 // Units by quantity, the usual one first.
@@ -32,12 +32,67 @@ export const units = {
     ],
 } as const;
 
-// Projections by their names in JSON, and their numbers in packed grids.
+// Projections by their names in JSON, with their numbers in packed grids. Cells are regular in degrees or meters.
 export const projections = {
-    azimuthal_equidistant: 0,
-    latitude_longitude: 1,
-    lambert_conformal: 2,
+    azimuthal_equidistant: { number: 0, isInDegrees: false },
+    latitude_longitude: { number: 1, isInDegrees: true },
+    lambert_conformal: { number: 2, isInDegrees: false },
 } as const;
+
+// The grid that `stormcellar frame` makes of a raw file.
+export const usualGrid = { nx: 460, ny: 460, spacingM: 1000, levels: 32, betweenLevelsM: 500 } as const;
+
+// Ranges of numbers that pictures take. A field of view may be 0, too.
+export const ranges = {
+    sidePx: { least: 16, most: 8192 },
+    tiltDeg: { least: 0, most: 90 },
+    zoom: { least: 0.01, most: 1000 },
+    fieldOfViewDeg: { least: 1, most: 150 },
+    sectionKm: { least: 1, most: 5000 },
+    planeM: { least: -1000, most: 60000 },
+    exaggeration: { least: 0.1, most: 100 },
+    opacity: { least: 0.001, most: 1000 },
+} as const;
+
+// Limits of files of color tables, the color of range folded air where a file has none, and the table of clear air.
+export const colorFiles = {
+    mostBytes: 1048576,
+    mostStops: 4096,
+    greatestValue: 1000000,
+    rangeFolded: [119, 0, 125, 255],
+    clearAir: 'smooth-clear-air',
+} as const;
+
+// Products of .pal files with moment and unit of their values; their units, as how many make one of ours.
+export const palProducts: Record<string, { moment?: string; unit: string }> = {
+    BR: { moment: 'REF', unit: 'dBZ' },
+    CR: { moment: 'REF', unit: 'dBZ' },
+    BV: { moment: 'VEL', unit: 'm/s' },
+    SRV: { moment: 'VEL', unit: 'm/s' },
+    CC: { moment: 'RHO', unit: '' },
+    ET: { unit: 'km' },
+    EET: { unit: 'km' },
+    VIL: { unit: 'kg/m2' },
+    DVL: { unit: 'kg/m2' },
+};
+export const palUnits: Record<string, [number, string]> = {
+    KT: [1.943844, 'm/s'],
+    KTS: [1.943844, 'm/s'],
+    KNOTS: [1.943844, 'm/s'],
+    MPH: [2.236936, 'm/s'],
+    KMH: [3.6, 'm/s'],
+    'KM/H': [3.6, 'm/s'],
+    'M/S': [1, 'm/s'],
+    MPS: [1, 'm/s'],
+    KFT: [3.28084, 'km'],
+    FT: [3280.84, 'km'],
+    KM: [1, 'km'],
+    M: [1000, 'km'],
+    DBZ: [1, 'dBZ'],
+    DB: [1, 'dB'],
+    'KG/M2': [1, 'kg/m2'],
+    '%': [100, ''],
+};
 
 // Colors behind the echo, of the dark theme: red, green, blue and, for lines and the halo, alpha to 255.
 export const dark = {

@@ -7,6 +7,7 @@ import { Drawing } from './page/drawing';
 import { FactsOfShown } from './page/facts_of_shown';
 import { Keys } from './page/keys';
 import { Live } from './page/live';
+import { Renderer } from './renderer/renderer';
 import { stateOf } from './scene/view_state';
 import { Budget, Loader } from './page/loader';
 import { addChoices } from './page/panels/choices';
@@ -25,11 +26,12 @@ import { StartMap } from './page/start/start_map';
 import { TableEditing } from './page/table_editing';
 import { texts } from './page/texts';
 
-async function begin(): Promise<void> {
-    const drawing = new Drawing();
-    const { mostTexels } = drawing.renderer;
+function begin(): void {
+    const picture = element<HTMLCanvasElement>('picture');
+    const renderer = new Renderer(picture);
+    const { mostTexels } = renderer;
     const app = new App(new Loader(new Budget(stateOf(location.hash).memoryMib * 2 ** 20, mostTexels), mostTexels));
-    drawing.begin(app);
+    const drawing = new Drawing(app, renderer, picture);
     const keys = new Keys(app, drawing);
     const facts = new FactsOfShown(app);
     const hover = new Hover(app, drawing, facts);
@@ -62,13 +64,15 @@ async function begin(): Promise<void> {
     // The stream is there before the lists, so that nothing is lost between them.
     void new Live(
         app,
-        app.begin().catch((error) => app.fail(error)),
+        app.begin().catch((error: unknown) => app.fail(error)),
     ).hear();
 }
 
-begin().catch((error) => {
+try {
+    begin();
+} catch (error) {
     const isWithout = error instanceof Error && error.message === 'webgl2';
     element('state').textContent = isWithout
         ? texts.noWebgl
         : texts.failed(error instanceof Error ? error.message : String(error));
-});
+}

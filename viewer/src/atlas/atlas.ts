@@ -190,7 +190,7 @@ function runsAlong(b: number, edge: number, cells: number): Run[] {
         const cell = Math.min(cells - 1, Math.max(0, b * edge + i - 1));
         const brick = Math.floor(cell / edge);
         const last = runs[runs.length - 1];
-        if (last && last.brick === brick && last.from + last.count === cell - brick * edge) ++last.count;
+        if (last?.brick === brick && last.from + last.count === cell - brick * edge) ++last.count;
         else runs.push({ brick, from: cell - brick * edge, to: i, count: 1 });
     }
     return runs;

@@ -1,9 +1,9 @@
 // The worker, asked as by a function that answers later.
 
-import { Numbered, WorkerAnswer, WorkerRequest } from './worker';
+import { Answers, Numbered, WorkerAnswer, WorkerRequest } from './worker';
 
 interface Waiting {
-    done(answer: WorkerAnswer): void;
+    done(answer: unknown): void;
     failed(error: Error): void;
 }
 
@@ -23,10 +23,10 @@ export class Decoder {
     }
 
     // The bytes of a request are given away.
-    ask(request: WorkerRequest): Promise<WorkerAnswer> {
+    ask<Kind extends WorkerRequest['kind']>(request: WorkerRequest & { kind: Kind }): Promise<Answers[Kind]> {
         const number = ++this.count;
-        return new Promise((done, failed) => {
-            this.waiting.set(number, { done, failed });
+        return new Promise<Answers[Kind]>((done, failed) => {
+            this.waiting.set(number, { done: done as (answer: unknown) => void, failed });
             this.worker.postMessage({ number, ...request }, 'bytes' in request ? [request.bytes] : []);
         });
     }

@@ -13,32 +13,53 @@ interface Column {
 }
 
 // 'grid': a grid, or the table of one that is too large, of which `key` then names the store; 'level': a
-// halved grid of it or the table of one; 'bricks': some of a level's; 'make': columns of texels; 'drop':
+// halved grid of it; 'table': the table of one; 'bricks': some of a level's; 'make': columns of texels; 'drop':
 // columns whose codes are not needed; 'forget': the whole store; 'cells': a grid of which no atlas is wanted.
 export type WorkerRequest =
     | { kind: 'grid'; key: string; bytes: ArrayBuffer; mostTexels: number }
     | { kind: 'level'; key: string; bytes: ArrayBuffer }
+    | { kind: 'table'; key: string; bytes: ArrayBuffer }
     | { kind: 'bricks'; key: string; bytes: ArrayBuffer }
     | { kind: 'make'; key: string; columns: Column[] }
     | { kind: 'drop'; key: string; columns: Column[] }
     | { kind: 'forget'; key: string }
     | { kind: 'cells'; bytes: ArrayBuffer };
 
-export interface WorkerAnswer {
-    grid?: PackedGrid;
-    atlas?: Atlas; // of a whole grid
-    coverage?: Uint8Array; // of a whole grid
-    pyramid?: Pyramid; // of a table
-    shown?: ShownCodes; // of a table
-    columns?: MadeColumn[];
-    histogram?: Uint32Array; // of a whole level
-    isClear?: boolean; // a whole level shows clear air, if it is of reflectivity
+export interface WholeGrid {
+    grid: PackedGrid;
+    atlas: Atlas;
+    coverage: Uint8Array;
 }
+export interface GridTable {
+    grid: PackedGrid;
+    pyramid: Pyramid;
+    shown: ShownCodes;
+}
+export interface WholeLevel {
+    columns: MadeColumn[];
+    coverage: Uint8Array;
+    histogram: Uint32Array;
+    isClear: boolean; // it shows clear air, if it is of reflectivity
+}
+type Nothing = Record<string, never>;
+
+// Answers by the kind of their request.
+export interface Answers {
+    grid: WholeGrid | GridTable;
+    level: WholeLevel;
+    table: Nothing;
+    bricks: Nothing;
+    make: { columns: MadeColumn[] };
+    drop: Nothing;
+    forget: Nothing;
+    cells: { grid: PackedGrid };
+}
+export type WorkerAnswer = Answers[keyof Answers];
 export type Numbered<T> = T & { number: number };
 
 const stores = new Map<string, BrickStore>();
 
-function takeGrid(key: string, bytes: ArrayBuffer, mostTexels: number): WorkerAnswer {
+function takeGrid(key: string, bytes: ArrayBuffer, mostTexels: number): WholeGrid | GridTable {
     const { grid, isWhole } = readGridOrTable(new Uint8Array(bytes));
     if (isWhole) return { grid, atlas: makeAtlas(grid, mostTexels), coverage: coverageOf(grid) };
     const [least, greatest] = rangeOfCodes(grid);
@@ -49,11 +70,10 @@ function takeGrid(key: string, bytes: ArrayBuffer, mostTexels: number): WorkerAn
     return { grid, pyramid: pyramidOf(grid), shown };
 }
 
-// All columns of a level that came as a whole.
-function takeLevel(store: BrickStore, bytes: ArrayBuffer): WorkerAnswer {
-    const { grid, isWhole } = readGridOrTable(new Uint8Array(bytes));
+// All columns of a level.
+function takeLevel(store: BrickStore, bytes: ArrayBuffer): WholeLevel {
+    const grid = readPackedGrid(new Uint8Array(bytes));
     store.addLevel(grid);
-    if (!isWhole) return {};
     const columns: MadeColumn[] = [];
     for (let x = 0; x < grid.bricks[0]; ++x) {
         for (let y = 0; y < grid.bricks[1]; ++y) {
@@ -77,6 +97,9 @@ function answerTo(request: WorkerRequest): WorkerAnswer {
     switch (request.kind) {
         case 'level':
             return takeLevel(store, request.bytes);
+        case 'table':
+            store.addLevel(readGridOrTable(new Uint8Array(request.bytes)).grid);
+            return {};
         case 'bricks':
             store.addBricks(readPackedBricks(new Uint8Array(request.bytes)));
             return {};
@@ -93,10 +116,10 @@ function answerTo(request: WorkerRequest): WorkerAnswer {
 
 // Returns the buffers that go to the page without a copy. Codes and states may share one.
 function buffersOf(answer: WorkerAnswer): ArrayBufferLike[] {
-    const arrays: Uint8Array[] = (answer.columns ?? []).map((column) => column.texels);
-    if (answer.atlas) arrays.push(answer.atlas.texels);
-    if (answer.grid) arrays.push(answer.grid.states, answer.grid.codes as Uint8Array);
-    if (answer.coverage) arrays.push(answer.coverage);
+    const arrays: Uint8Array[] = 'columns' in answer ? answer.columns.map((column) => column.texels) : [];
+    if ('atlas' in answer) arrays.push(answer.atlas.texels);
+    if ('grid' in answer) arrays.push(answer.grid.states, answer.grid.codes as Uint8Array);
+    if ('coverage' in answer) arrays.push(answer.coverage);
     return [...new Set(arrays.map((array) => array.buffer))];
 }
 

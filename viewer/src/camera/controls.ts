@@ -1,5 +1,6 @@
 // Applies mouse, keys and fingers to a camera: pure functions from a camera to the next one.
 
+import { ranges } from '../facts';
 import { Camera, Vec3, ViewGeometry, plus } from './geometry';
 
 const degreesAPixel = 0.35;
@@ -16,7 +17,7 @@ export function orbited(camera: Camera, dx: number, dy: number): Camera {
     return {
         ...camera,
         azimuthDeg: ((azimuth % 360) + 360) % 360,
-        tiltDeg: bounded(camera.tiltDeg - dy * degreesAPixel, 0, 90),
+        tiltDeg: bounded(camera.tiltDeg - dy * degreesAPixel, ranges.tiltDeg.least, ranges.tiltDeg.most),
     };
 }
 

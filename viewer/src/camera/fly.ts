@@ -1,6 +1,7 @@
 // Flying: the eye moves, and turns where it is. The camera has no eye of its own, so we move the point that
 // it looks at until the eye is in its place.
 
+import { ranges } from '../facts';
 import { Box, Camera, Vec3, ViewGeometry, minus, plus } from './geometry';
 
 export interface Window {
@@ -40,7 +41,7 @@ export function turned(camera: Camera, window: Window, rightDeg: number, upDeg: 
     const next: Camera = {
         ...camera,
         azimuthDeg: ((azimuth % 360) + 360) % 360,
-        tiltDeg: Math.min(90, Math.max(0, camera.tiltDeg + upDeg)),
+        tiltDeg: Math.min(ranges.tiltDeg.most, Math.max(ranges.tiltDeg.least, camera.tiltDeg + upDeg)),
     };
     return withEye(next, window, eye);
 }

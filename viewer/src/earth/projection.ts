@@ -172,9 +172,22 @@ function lambert(center: Place, parallelsDeg: [number, number]): GridPlane {
     };
 }
 
+// Returns the number that packed grids have for a projection. Throws an Error for any other name.
+export function projectionNamed(name: string): number {
+    const found = Object.entries(projections).find(([own]) => own === name);
+    if (!found) throw new Error(`${name}: no such projection`);
+    return found[1].number;
+}
+
+function isInDegrees(projection: number): boolean {
+    const found = Object.values(projections).find(({ number }) => number === projection);
+    if (!found) throw new Error(`${projection}: no such projection`);
+    return found.isInDegrees;
+}
+
 // Widths of a cell to the east and to the north, in drawn meters.
 export function cellSizeM(grid: GridPlace): [number, number] {
-    if (grid.projection !== projections.latitude_longitude) return [grid.spacing, grid.spacing];
+    if (!isInDegrees(grid.projection)) return [grid.spacing, grid.spacing];
     const [east, north] = metersOfADegree(grid.centerDeg[0]);
     return [grid.spacing * east, grid.spacing * north];
 }
@@ -187,11 +200,11 @@ export function halfWidthsM(grid: GridPlace): [number, number] {
 
 function projected({ projection, parallelsDeg }: GridPlace, center: Place): GridPlane {
     switch (projection) {
-        case projections.azimuthal_equidistant:
+        case projections.azimuthal_equidistant.number:
             return azimuthalEquidistant(center);
-        case projections.latitude_longitude:
+        case projections.latitude_longitude.number:
             return latitudeLongitude(center);
-        case projections.lambert_conformal:
+        case projections.lambert_conformal.number:
             return lambert(center, parallelsDeg);
         default:
             throw new Error(`${projection}: no such projection`);

@@ -32,7 +32,7 @@ export function isClearAir(grid: PackedGrid): boolean {
             const code = grid.codes[from + i]!;
             if (code < leastCodes[0]!) continue;
             const at = (y0 + (Math.floor(i / edge) % edge)) * grid.nx + x0 + Math.floor(i / edge ** 2);
-            while (reached[at]! < limits.length && code >= leastCodes[reached[at]!]!) km2[reached[at]++]! += cellKm2;
+            while (reached[at]! < limits.length && code >= leastCodes[reached[at]!]!) km2[reached[at]!++]! += cellKm2;
         }
         if (limits.some((limit, i) => km2[i]! >= limit.km2)) return false;
     }

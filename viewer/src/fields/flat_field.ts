@@ -20,8 +20,7 @@ export function emptyField(width: number, height: number): FlatField {
     return { width, height, states: new Uint8Array(width * height), values: new Float32Array(width * height) };
 }
 
-export const stateOfCode = (code: number): CellState =>
-    code >= firstValueCode ? CellState.value : (code as CellState);
+export const stateOfCode = (code: number): CellState => (code >= firstValueCode ? CellState.value : code);
 
 export interface LevelPair {
     lower: number;

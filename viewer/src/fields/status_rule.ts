@@ -5,15 +5,12 @@
 // outweighs the values; else it is the mean of the values alone. The phase is averaged on its circle. For
 // velocities the value that weighs most counts, because a grid does not tell their circle.
 
-import { moments } from '../facts';
+import { MomentFacts, momentFacts } from '../wire/moments';
 import { CellState } from '../wire/packed_grid';
 
-export type Mixing = 'mean' | 'heaviest' | 'circle';
+export type Mixing = MomentFacts['mixing'];
 
-export function mixingOf(moment: string): Mixing {
-    if (!(moment in moments)) throw new Error(`${moment}: no such moment`);
-    return moments[moment as keyof typeof moments].mixing;
-}
+export const mixingOf = (moment: string): Mixing => momentFacts(moment).mixing;
 
 const circle = 360;
 const mostParts = 8;

@@ -1,16 +1,10 @@
 // The border of a grid on the earth.
 
-import { projections } from '../facts';
-import { Place, Plane, cellSizeM, destination, planeOf } from '../earth/projection';
+import { Place, Plane, cellSizeM, destination, planeOf, projectionNamed } from '../earth/projection';
 import { GridFacts } from '../wire/api';
 
 const pointsOfASide = 16;
 const pointsOfACircle = 72;
-
-function projectionNamed(name: string): number {
-    if (!(name in projections)) throw new Error(`${name}: no such projection`);
-    return projections[name as keyof typeof projections];
-}
 
 function geometryOf(facts: GridFacts): Parameters<typeof planeOf>[0] {
     return {

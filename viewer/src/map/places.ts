@@ -14,18 +14,22 @@ export interface StationPlace extends Place {
 
 // A station without a known place is in the list of domains alone.
 export function stationPlaces(stations: Station[]): StationPlace[] {
-    return stations
-        .filter((one) => one.latitude_deg !== undefined && one.longitude_deg !== undefined)
-        .map((one) => ({
-            icao: one.station,
-            name: [one.name, one.state].filter(Boolean).join(', '),
-            latitudeDeg: one.latitude_deg!,
-            longitudeDeg: one.longitude_deg!,
-            ageS: (one.newest_grid ?? one.newest_volume)?.age_s ?? null,
-            hasGrids: one.moments.length > 0,
-            moments: one.moments,
-            newestGrid: one.newest_grid?.time ?? null,
-        }));
+    return stations.flatMap((one) => {
+        const { latitude_deg: latitudeDeg, longitude_deg: longitudeDeg } = one;
+        if (latitudeDeg === undefined || longitudeDeg === undefined) return [];
+        return [
+            {
+                icao: one.station,
+                name: [one.name, one.state].filter(Boolean).join(', '),
+                latitudeDeg,
+                longitudeDeg,
+                ageS: (one.newest_grid ?? one.newest_volume)?.age_s ?? null,
+                hasGrids: one.moments.length > 0,
+                moments: one.moments,
+                newestGrid: one.newest_grid?.time ?? null,
+            },
+        ];
+    });
 }
 
 export type Pixel = [number, number];

@@ -13,19 +13,19 @@ export class Ahead {
     has(time: string): boolean {
         const { app } = this;
         const loaded = app.loader.find(Loader.key(app.state.domain, app.state.moment, time));
-        return loaded !== undefined && app.alongside(app.shownOf(time, loaded), true) === null;
+        return loaded !== undefined && app.alongside(app.showing.shownOf(time, loaded), true) === null;
     }
     async take(time: string, isAhead: boolean): Promise<void> {
         const { app } = this;
-        const isLeft = app.whetherLeft();
-        const loaded = await app.load(time);
-        if (!isLeft()) await app.alongside(app.shownOf(time, loaded), isAhead);
+        const isLeft = app.showing.whetherLeft();
+        const loaded = await app.showing.load(time);
+        if (!isLeft()) await app.alongside(app.showing.shownOf(time, loaded), isAhead);
     }
     // The neighbors in time, so that a step shows at once; of a loop more.
     load(): void {
         const { app } = this;
         const { times, at, isPlaying } = app.player;
-        const isLeft = app.whetherLeft();
+        const isLeft = app.showing.whetherLeft();
         const next = isPlaying
             ? Array.from({ length: loadedAhead }, (_, i) => nextOf(app.player, i + 1))
             : [at + 1, at - 1];
@@ -37,7 +37,8 @@ export class Ahead {
             // The server makes frames in between on request: none is asked for that may not be shown.
             if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
-                if (!isLeft()) await this.take(time, true).catch((error) => app.leaveOut(time, error, isLeft));
+                if (!isLeft())
+                    await this.take(time, true).catch((error: unknown) => app.showing.leaveOut(time, error, isLeft));
             };
             before = isInParts ? before.then(load) : load();
         }

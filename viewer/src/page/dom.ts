@@ -1,5 +1,6 @@
 // Short words for what the panels do with the document.
 
+// eslint-disable-next-line @typescript-eslint/no-unnecessary-type-parameters -- callers name the kind of their element
 export function element<T extends HTMLElement>(id: string): T {
     return document.getElementById(id) as T;
 }

@@ -8,7 +8,7 @@ import { DrawnLayers } from '../renderer/layers';
 import { Frame, Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
-import { App } from './app';
+import { App, Shown } from './app';
 import { ColorBar } from './color_bar';
 import { element, textScale } from './dom';
 import { Ground } from './ground';
@@ -30,20 +30,28 @@ const longestWishMs = 30_000;
 export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) => void;
 
 export class Drawing {
-    readonly picture = element<HTMLCanvasElement>('picture');
     readonly labels = element<HTMLCanvasElement>('labels');
-    readonly renderer = new Renderer(this.picture);
     // Where a processor draws, a browser paints text and lines faster without WebGL's detour.
     private pen = this.labels.getContext('2d', { willReadFrequently: this.renderer.isSoftware })!;
     private bar = new ColorBar(element<HTMLCanvasElement>('bar'));
     private overlays: Overlay[] = [];
-    layers: LayerMaker | null = null;
-    windows: Windows | null = null;
     drawn: DrawnLayers | null = null; // what stands beside the volume in the picture
     readonly pictureChanged: (() => void)[] = []; // called when another one was drawn
-    private ground: Ground | null = null;
-    private app: App | null = null;
-    private streaming: Streaming | null = null;
+    private ground = new Ground(this.app, this.renderer, () => this.draw());
+    private streaming = new Streaming(
+        this.renderer,
+        this.app.loader.decoder,
+        this.app.loader.budget.mostCells,
+        () => this.drawLater(),
+        (error) => this.app.fail(error),
+    );
+    readonly windows = new Windows(
+        this.app.loader.decoder,
+        this.app.loader.budget.bytes,
+        () => this.app.cellsCame(),
+        (error) => this.app.fail(error),
+    );
+    readonly layers = new LayerMaker(this.app, this.windows, () => this.app.cellsCame());
     private lookedAt = ''; // the view whose bricks were asked for
     private governor = new Governor(usualRungs, movingFrameMs, mostMovingDE);
     private movedAt = 0;
@@ -55,52 +63,43 @@ export class Drawing {
     private isFinal = false;
     private wish: { act: () => void } | null = null; // what waits for a fine picture
 
-    begin(app: App): void {
-        this.app = app;
-        this.renderer.prepare();
-        this.ground = new Ground(app, this.renderer, () => this.draw());
-        app.loader.onPlace = (domain, place) => this.ground!.expect(domain, place);
-        this.streaming = new Streaming(
-            this.renderer,
-            app.loader.decoder,
-            app.loader.budget.mostCells,
-            () => this.drawLater(),
-            (error) => app.fail(error),
-        );
-        const { loader } = app;
-        this.windows = new Windows(
-            loader.decoder,
-            loader.budget.bytes,
-            () => app.cellsCame(),
-            (error) => app.fail(error),
-        );
-        loader.besides = () => this.windows!.bytes;
-        this.layers = new LayerMaker(app, this.windows, () => app.cellsCame());
-        app.alongside = (next, isAhead) => this.layers!.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
-        app.isShownWhole = () => !this.layers!.isWaiting;
+    constructor(
+        private app: App,
+        readonly renderer: Renderer,
+        readonly picture: HTMLCanvasElement,
+    ) {
+        renderer.prepare();
+        app.loader.onPlace = (domain, place) => this.ground.expect(domain, place);
+        app.loader.besides = () => this.windows.bytes;
+        app.alongside = (next, isAhead) => this.layers.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
+        app.isShownWhole = () => !this.layers.isWaiting;
         app.on('cells', () => this.draw());
-        app.on('shown', () => {
-            this.renderer.show(app.shown!.loaded);
-            this.streaming!.show(app.shown!.loaded);
-            this.lookedAt = '';
-            void this.ground!.show(app.shown!);
-        });
+        app.on('shown', () => this.show());
         app.on('units', () => {
-            if (app.shown) void this.ground!.show(app.shown);
+            if (app.shown) void this.ground.show(app.shown);
         });
         app.on('view', () => this.draw());
         app.on('time', () => this.drawAtRest());
         app.on('camera', () => this.move());
         app.on('restored', () => {
-            this.renderer.forget();
-            this.ground!.forget();
+            renderer.forget();
+            this.ground.forget();
         });
-        this.picture.addEventListener('webglcontextlost', () => app.takeGraphics(false));
-        this.picture.addEventListener('webglcontextrestored', () => {
+        picture.addEventListener('webglcontextlost', () => app.takeGraphics(false));
+        picture.addEventListener('webglcontextrestored', () => {
             app.takeGraphics(true);
-            app.restore();
+            app.showing.restore();
         });
         window.addEventListener('resize', () => this.draw());
+    }
+
+    private show(): void {
+        const { shown } = this.app;
+        if (!shown) return;
+        this.renderer.show(shown.loaded);
+        this.streaming.show(shown.loaded);
+        this.lookedAt = '';
+        void this.ground.show(shown);
     }
 
     addOverlay(overlay: Overlay): void {
@@ -109,14 +108,14 @@ export class Drawing {
 
     // `grain`: how many pixels of the page a pixel of the picture is wide.
     geometry(grain = 1): ViewGeometry | null {
-        const shown = this.app?.shown;
+        const shown = this.app.shown;
         return shown ? this.geometryOf(shown.loaded, grain) : null;
     }
     private geometryOf({ grid }: LoadedGrid, grain: number): ViewGeometry {
         const ratio = window.devicePixelRatio || 1;
         const width = Math.max(16, Math.round((this.picture.clientWidth * ratio) / grain));
         const height = Math.max(16, Math.round((this.picture.clientHeight * ratio) / grain));
-        const { camera, exaggeration } = this.app!.state;
+        const { camera, exaggeration } = this.app.state;
         return new ViewGeometry(boxOf(grid), camera, exaggeration, width, height);
     }
 
@@ -136,7 +135,7 @@ export class Drawing {
 
     // Draws a fine picture when playback stops, which draws fast ones.
     private drawAtRest(): void {
-        const { isPlaying } = this.app!.player;
+        const { isPlaying } = this.app.player;
         if (this.wasPlaying && !isPlaying) this.draw();
         this.wasPlaying = isPlaying;
     }
@@ -159,16 +158,16 @@ export class Drawing {
         );
     }
 
-    private rung(isMoving: boolean): Rung {
-        const allowed = this.app!.shown!.loaded.stream ? rungs : usualRungs;
-        return allowed.find(({ name }) => name === this.app!.state.quality) ?? this.governor.next(isMoving);
+    private rung({ stream }: LoadedGrid, isMoving: boolean): Rung {
+        const allowed = stream ? rungs : usualRungs;
+        return allowed.find(({ name }) => name === this.app.state.quality) ?? this.governor.next(isMoving);
     }
 
     // Bricks are asked for once for each view.
     private stream(geometry: ViewGeometry, { halvings }: Rung): void {
-        const { camera, exaggeration } = this.app!.state;
+        const { camera, exaggeration } = this.app.state;
         const view = JSON.stringify([camera, exaggeration, geometry.width, geometry.height, halvings]);
-        if (view !== this.lookedAt) this.streaming!.look(geometry, halvings);
+        if (view !== this.lookedAt) this.streaming.look(geometry, halvings);
         this.lookedAt = view;
     }
 
@@ -185,10 +184,10 @@ export class Drawing {
 
     // Returns true if the picture has all that the view asks for, but for the detail of a grid in parts.
     private get isComplete(): boolean {
-        const { shown, state } = this.app!;
+        const { shown, state } = this.app;
         return (
-            !this.layers!.isWaiting &&
-            !this.ground!.isWaiting &&
+            !this.layers.isWaiting &&
+            !this.ground.isWaiting &&
             shown?.moment === state.moment &&
             shown.domain === state.domain &&
             !this.renderer.isLost
@@ -197,22 +196,22 @@ export class Drawing {
 
     private drawNow(): void {
         this.isDrawing = false;
-        const app = this.app!;
-        const geometry = this.geometry();
+        const { app } = this;
         const { shownTable: table, shown, state } = app;
-        if (!geometry || !table || !shown) return;
+        if (!table || !shown) return;
+        const geometry = this.geometryOf(shown.loaded, 1);
         const isMoving = !this.wish && performance.now() - this.movedAt < this.stillAfterMs;
-        const rung = this.rung(isMoving || (app.player.isPlaying && !this.wish));
+        const rung = this.rung(shown.loaded, isMoving || (app.player.isPlaying && !this.wish));
         this.stream(geometry, rung);
         const frame: Frame = {
-            geometry: rung.grain > 1 ? this.geometry(rung.grain)! : geometry,
+            geometry: rung.grain > 1 ? this.geometryOf(shown.loaded, rung.grain) : geometry,
             ...rung,
             opacity: state.opacity,
             table,
             leastValue: state.least ?? -1e9,
             hasVolume: state.layers.hasVolume,
             hasGround: state.hasGround,
-            layers: (this.drawn = this.layers!.make(geometry, isMoving)),
+            layers: (this.drawn = this.layers.make(geometry, isMoving)),
             keepsExposure: isMoving,
         };
         const fetches = state.countsFetches && !isMoving ? this.renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;
@@ -227,15 +226,15 @@ export class Drawing {
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
         for (const act of this.pictureChanged) act();
         if (isMoving) window.setTimeout(() => this.draw(), this.stillAfterMs);
-        else if (!this.isFinal && this.isComplete) this.end(rung, ms, fetches);
+        else if (!this.isFinal && this.isComplete) this.end(shown, rung, ms, fetches);
     }
 
     // The picture is as it stays, until something changes.
-    private end(rung: Rung, ms: number, fetches: number | null): void {
-        const app = this.app!;
+    private end(shown: Shown, rung: Rung, ms: number, fetches: number | null): void {
+        const { app } = this;
         this.isFinal = true;
-        const detail = this.streaming!.detail;
-        const ofLayers = this.windows!.coarsest(app.shown!.loaded);
+        const { detail } = this.streaming;
+        const ofLayers = this.windows.coarsest(shown.loaded);
         const said = [
             texts.drawn(ms, rung, fetches),
             detail && texts.detail(detail),
@@ -245,7 +244,7 @@ export class Drawing {
         const held = texts.held(app.loader.bytes, app.loader.budget.bytes);
         element('held').textContent = held;
         this.tell({ fetches, missing: detail?.missing ?? 0, held });
-        document.documentElement.dataset['drawn'] = app.shown!.key;
+        document.documentElement.dataset['drawn'] = shown.key;
         document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
         if (!this.wish || (detail?.missing ?? 0) > 0) return;
         const { act } = this.wish;
@@ -277,11 +276,11 @@ export class Drawing {
         const { pen } = this;
         const ratio = window.devicePixelRatio || 1;
         clearLabels(pen, ratio);
-        if (this.app!.state.hasGround) {
+        if (this.app.state.hasGround) {
             pen.save();
             pen.scale(scale, scale);
-            const scaleOfHeights = drawHeightScale(pen, geometry, this.app!.state.units, taken, ratio * scale);
-            drawLabels(pen, geometry, this.ground!.marks, [...taken, ...scaleOfHeights], ratio * scale);
+            const scaleOfHeights = drawHeightScale(pen, geometry, this.app.state.units, taken, ratio * scale);
+            drawLabels(pen, geometry, this.ground.marks, [...taken, ...scaleOfHeights], ratio * scale);
             pen.restore();
         }
         for (const overlay of this.overlays) {

@@ -34,7 +34,7 @@ export class FactsOfShown {
             (found) => {
                 if (this.sitesOf === of) this.regionSites = found;
             },
-            (error) => {
+            (error: unknown) => {
                 if (this.sitesOf === of) this.sitesOf = null;
                 throw error;
             },

@@ -29,8 +29,8 @@ export class FlyTool implements Tool {
     private last: [number, number] = [0, 0];
     private before = 0; // ms, of the last move
     private isFast = false;
-    private readonly down = (event: KeyboardEvent) => void this.key(event, true);
-    private readonly up = (event: KeyboardEvent) => void this.key(event, false);
+    private readonly down = (event: KeyboardEvent) => this.key(event, true);
+    private readonly up = (event: KeyboardEvent) => this.key(event, false);
     private readonly lost = () => this.held.clear();
 
     constructor(

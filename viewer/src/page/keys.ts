@@ -23,10 +23,10 @@ export class Keys {
         for (const name of ['+', '=']) this.add(name, () => this.zoom(1.25));
         this.add('-', () => this.zoom(0.8));
         this.add('p', () => this.togglePerspective());
-        this.add('l', () => app.follow());
-        this.add(' ', () => app.play());
-        this.add(',', () => app.step(-1));
-        this.add('.', () => app.step(1));
+        this.add('l', () => app.playback.follow());
+        this.add(' ', () => app.playback.play());
+        this.add(',', () => app.playback.step(-1));
+        this.add('.', () => app.playback.step(1));
     }
 
     // Letters are small; others are named as KeyboardEvent.key has them. The first action of a name stays,
@@ -34,7 +34,10 @@ export class Keys {
     add(name: string, action: () => void): void {
         const known = this.actions.get(name);
         if (known && name !== 'Escape') throw new Error(`the key '${name}' is taken`);
-        this.actions.set(name, known ? () => (known(), action()) : action);
+        this.actions.set(name, () => {
+            known?.();
+            action();
+        });
     }
 
     // While no control has the keyboard, the picture has it: also before anything was clicked. Letters do nothing

@@ -53,8 +53,7 @@ class Kept {
 
     take<T>(name: string, of: readonly unknown[], make: () => T): T {
         const known = this.held.get(name);
-        if (known && known.of.length === of.length && known.of.every((part, i) => part === of[i]))
-            return known.value as T;
+        if (known?.of.length === of.length && known.of.every((part, i) => part === of[i])) return known.value as T;
         const value = make();
         this.held.set(name, { of, value });
         return value;
@@ -129,6 +128,7 @@ export class LayerMaker {
         isMoving: boolean,
     ): { seen: Cells | null; lit: Cells | null; crossed: Cells | null } {
         const { layers } = this.app.state;
+        const { section } = layers;
         const isFlat =
             layers.planeM !== null ||
             layers.hasMaximum ||
@@ -137,7 +137,7 @@ export class LayerMaker {
         return {
             seen: this.needed('layers', isFlat, () => this.windows.seen(loaded, 'layers', geometry, isMoving)),
             lit: this.needed('light', layers.isLit, () => this.windows.seen(loaded, 'light', geometry, isMoving)),
-            crossed: this.needed('section', layers.section !== null, () => this.windows.along(loaded, layers.section!)),
+            crossed: this.needed('section', section !== null, () => section && this.windows.along(loaded, section)),
         };
     }
 
@@ -156,7 +156,7 @@ export class LayerMaker {
         const { seen, lit, crossed } = this.cellsOf(loaded, geometry, isMoving);
         return {
             plane: seen && this.planeOf(seen, shown.moment, layers.planeM),
-            section: crossed && this.sectionOf(crossed, shown.moment, layers.section!),
+            section: crossed && layers.section && this.sectionOf(crossed, shown.moment, layers.section),
             surface: this.surfaceOf(shown, layers),
             maximum: seen && layers.hasMaximum ? this.maximumOf(seen) : null,
             sweep: this.sweepOf(shown)?.drawn ?? null,
@@ -374,7 +374,7 @@ export class LayerMaker {
         const station = this.stationOf(shown);
         const fetch = async (): Promise<PlacedSweep> => {
             const { time, rows } = await this.rowsOf(shown, station);
-            const row = cutOf(rows, moment, sweepDeg!, sweepNumber);
+            const row = sweepDeg !== null && cutOf(rows, moment, sweepDeg, sweepNumber);
             if (!row) throw new ApiError(404, texts.layers.noSweep(station));
             const read = readPackedSweep(new Uint8Array(await gates(station, time, row.sweep, moment)));
             return {

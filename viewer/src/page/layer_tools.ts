@@ -91,10 +91,10 @@ export class CropTool implements Tool {
     }
     drag(x: number, y: number): void {
         const at = this.drawing.geometry()?.ground(x, y);
-        if (!at || !this.corner || !this.app.shown) return;
+        const before = this.app.state.layers.crop ?? wholeBox(this.app);
+        if (!at || !this.corner || !before) return;
         const [a, b] = [this.corner, at];
         if (a[0] === b[0] || a[1] === b[1]) return;
-        const before = this.app.state.layers.crop ?? wholeBox(this.app)!;
         const crop: Crop = {
             ...before,
             westM: Math.min(a[0], b[0]),

@@ -14,6 +14,7 @@ interface News {
     oldest?: string | null; // time of a grid that is left
 }
 
+const kindsOfGrids = ['sweep_gridded', 'volume_complete', 'mosaic', 'grid_evicted'];
 const againAfterMs = 3000;
 const refusedAgainAfterMs = 30_000;
 const mostQuietMs = 40_000; // the server sends a heartbeat every 15 s
@@ -48,7 +49,7 @@ export class Live {
             timer = window.setTimeout(() => abort.abort(), mostQuietMs);
         };
         wait();
-        let hasPlace = true;
+        let hasPlace = true as boolean;
         this.places.take(() => {
             hasPlace = false;
             abort.abort();
@@ -103,7 +104,7 @@ export class Live {
         await Promise.race([this.askSilences(), pause(mostQuietMs).then(noAnswer)]);
         if (this.isCatchingUp) return;
         this.isCatchingUp = true;
-        this.do(() => this.app.catchUp().finally(() => (this.isCatchingUp = false)));
+        this.do(() => this.app.news.catchUp().finally(() => (this.isCatchingUp = false)));
     }
 
     private async hasDoneWithout(): Promise<boolean> {
@@ -123,7 +124,7 @@ export class Live {
     }
 
     private do(act: () => Promise<void>): void {
-        void this.begun.then(act).catch((error) => {
+        void this.begun.then(act).catch((error: unknown) => {
             this.isBehind = true;
             this.app.fail(error);
         });
@@ -132,7 +133,7 @@ export class Live {
         if (!this.isBehind && !this.app.server.isBehind) return;
         this.isBehind = this.app.server.isBehind = false;
         this.do(async () => {
-            await this.app.catchUp();
+            await this.app.news.catchUp();
             await this.askSilences();
         });
     }
@@ -143,6 +144,7 @@ export class Live {
         if (kind === 'reset') this.isBehind = true;
         else if (kind === 'station_silent') this.app.server.takeSilence(station ?? '', silent_s ?? 0);
         else if (kind === 'station_spoke') this.app.server.takeSilence(station ?? '', null);
-        else if (kind !== 'volume_begun') this.do(() => this.app.takeNews(domain, moment, grid, oldest ?? ''));
+        else if (kindsOfGrids.includes(kind)) this.do(() => this.app.news.takeNews(domain, moment, grid, oldest ?? ''));
+        else if (kind !== 'volume_begun') this.app.fail(new Error(`${kind}: no such event`));
     }
 }

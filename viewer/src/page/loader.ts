@@ -6,10 +6,10 @@
 import { Atlas, paddedEdge } from '../atlas/atlas';
 import { brickTexelBytes } from '../atlas/brick_store';
 import { Decoder } from '../atlas/decoder';
-import { Pyramid, levelWithin } from '../atlas/pyramid';
-import { WorkerAnswer } from '../atlas/worker';
+import { levelWithin } from '../atlas/pyramid';
+import { GridTable } from '../atlas/worker';
 import { LoadedGrid } from '../atlas/loaded_grid';
-import { GridPlace, PackedGrid, readPlace } from '../wire/packed_grid';
+import { GridPlace, readPlace } from '../wire/packed_grid';
 import { isRegion, packed, packedBetween } from '../wire/api';
 
 // Divides a budget of bytes.
@@ -50,8 +50,8 @@ function bytesOf({ grid, atlas, coverage, stream }: LoadedGrid): number {
 }
 
 // The pool of slots that a grid in parts is drawn from.
-function poolAtlas(grid: PackedGrid, pyramid: Pyramid, table: WorkerAnswer, side: number): Atlas {
-    const { scale, offset } = table.shown!;
+function poolAtlas({ grid, pyramid, shown }: GridTable, side: number): Atlas {
+    const { scale, offset } = shown;
     let [least, greatest] = [65535, 0];
     grid.greatestCode.forEach((code, i) => {
         if (grid.valueCount[i] === 0) return;
@@ -130,7 +130,7 @@ export class Loader {
             });
             loading = mine;
             this.loading.set(key, mine);
-            const end = () => void (isNewest() && this.loading.delete(key));
+            const end = () => isNewest() && this.loading.delete(key);
             mine.then(end, end);
         }
         return loading;
@@ -145,16 +145,13 @@ export class Loader {
         const decoded = this.decoder.ask({ kind: 'grid', key, bytes, mostTexels: this.mostTexels });
         this.onPlace?.(domain, place);
         const answer = await decoded;
-        const { grid, atlas, coverage } = answer;
-        return atlas
-            ? { grid: grid!, atlas, coverage: coverage!, stream: null }
-            : this.fetchFirst(domain, moment, time, answer);
+        return 'atlas' in answer ? { ...answer, stream: null } : this.fetchFirst(domain, moment, time, answer);
     }
 
     // Fetches the halved grid that is shown until there is more.
-    private async fetchFirst(domain: string, moment: string, time: string, table: WorkerAnswer): Promise<LoadedGrid> {
+    private async fetchFirst(domain: string, moment: string, time: string, table: GridTable): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
-        const [grid, pyramid] = [table.grid!, table.pyramid!];
+        const { grid, pyramid, shown } = table;
         const level = Math.max(1, levelWithin(pyramid, this.budget.mostFirst));
         const bytes = await packed(domain, moment, time, {
             half: String(level),
@@ -163,19 +160,19 @@ export class Loader {
             codes: 'values',
         });
         const { columns, coverage, histogram, isClear } = await this.decoder.ask({ kind: 'level', key, bytes });
-        const atlas = { ...poolAtlas(grid, pyramid, table, this.budget.poolSide), histogram: histogram! };
+        const atlas = { ...poolAtlas(table, this.budget.poolSide), histogram };
         const stream = {
             key,
             domain,
             moment,
             time,
             pyramid,
-            shownOf: table.shown!.table,
+            shownOf: shown.table,
             level,
-            first: columns!,
-            isClear: isClear!,
+            first: columns,
+            isClear,
         };
-        return { grid, atlas, coverage: coverage!, stream };
+        return { grid, atlas, coverage, stream };
     }
 
     // Bytes that are held, with the texture, the codes and the windows of grids in parts.

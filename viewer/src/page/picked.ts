@@ -4,13 +4,15 @@ import { boundsAbout } from '../atlas/window_choice';
 import { ViewGeometry } from '../camera/geometry';
 import { croppedBox, Crop } from '../scene/layers';
 import { firstVisible, mostVisible, wayWithin } from '../scene/first_visible';
-import { Cells, boxOf } from '../scene/grid_box';
+import { Cells } from '../scene/grid_box';
 import { Place, Plane, planeOf } from '../earth/projection';
 import { GateHit, SolidHit, levelHit, sectionHit, sweepHit } from '../scene/solid_hits';
 import { colorOf, extinctionPerM } from '../tables/color_table';
-import { CellState, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
+import { ColorTable } from '../wire/color_tables';
+import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 import { App } from './app';
 import { Drawing } from './drawing';
+import { wholeBox } from './layer_tools';
 import { columnAt } from './reading';
 
 export type PickedLayer = 'volume' | 'plane' | 'section' | 'surface' | 'maximum' | 'sweep' | 'ground' | 'outside';
@@ -36,29 +38,31 @@ interface Met {
     isSolid: boolean; // hides what is behind
 }
 
+// The ray through a pixel, and what it may meet.
+interface Ray {
+    x: number;
+    y: number;
+    geometry: ViewGeometry;
+    grid: PackedGrid; // that is shown
+    table: ColorTable;
+    cells: Cells | null; // along it; null: they are not here
+    whole: Crop; // the box of the grid
+    ground: Plane | null; // where it meets the ground
+}
+
 // Returns the hits of layers along the ray, the nearest first; those that are solid hide what is behind.
-function solidsAt(
-    app: App,
-    drawing: Drawing,
-    geometry: ViewGeometry,
-    cells: Cells | null,
-    whole: Crop,
-    x: number,
-    y: number,
-): Met[] {
-    const { drawn } = drawing;
+function solidsOn({ x, y, geometry, grid, table, cells, whole }: Ray, { state }: App, { drawn }: Drawing): Met[] {
     if (!drawn) return [];
-    const { shown, shownTable: table, state } = app;
-    const plane = planeOf(shown!.loaded.grid);
     const isShown = ({ state: status, value }: SolidHit) =>
         status === CellState.rangeFolded ||
-        (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table!, value) !== null);
+        (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table, value) !== null);
     const met: Met[] = [];
-    const add = (layer: PickedLayer, hit: SolidHit | null) =>
-        void (hit && met.push({ layer, hit, isSolid: isShown(hit) }));
+    const add = (layer: PickedLayer, hit: SolidHit | null) => {
+        if (hit) met.push({ layer, hit, isSolid: isShown(hit) });
+    };
     if (drawn.plane) add('plane', levelHit(geometry, drawn.plane, drawn.plane.heightM, x, y, drawn.mixes));
     if (drawn.section) add('section', sectionHit(geometry, drawn.section, x, y, drawn.mixes));
-    if (drawn.sweep) add('sweep', sweepHit(geometry, drawn.sweep, plane, x, y, isShown));
+    if (drawn.sweep) add('sweep', sweepHit(geometry, drawn.sweep, planeOf(grid), x, y, isShown));
     if (drawn.maximum) add('maximum', levelHit(geometry, drawn.maximum, geometry.groundM, x, y, drawn.mixes));
     if (drawn.surface) {
         const { value, isBelow, of } = drawn.surface;
@@ -68,12 +72,14 @@ function solidsAt(
             firstVisible(own, geometry, croppedBox(whole, drawn.crop), x, y, (one) =>
                 isBelow ? one <= value : one >= value,
             );
-        const depth = seen && depthOf(geometry, seen.at, seen.heightM);
         // The moment that is shown colors it.
         const colored =
             seen &&
             (of && cells ? cellAt(cells, seen.at, seen.heightM) : { state: CellState.value, value: seen.value });
-        if (seen && colored) met.push({ layer: 'surface', hit: { ...seen, ...colored, depth: depth! }, isSolid: true });
+        if (seen && colored) {
+            const depth = depthOf(geometry, seen.at, seen.heightM);
+            met.push({ layer: 'surface', hit: { ...seen, ...colored, depth }, isSolid: true });
+        }
     }
     return met.sort((a, b) => a.hit.depth - b.hit.depth);
 }
@@ -102,87 +108,85 @@ function heightOfMaximum({ grid, middle }: Cells, [x, y]: Plane): number | null 
     return code >= firstValueCode ? grid.levelsM[best]! : null;
 }
 
-// Returns what a pixel shows; null if that is the sky. Asks for the cells of a grid in parts along the ray if
-// `asks`; until they have come, leaves out the volume and the surface.
-export function pick(app: App, drawing: Drawing, left: number, top: number, asks: boolean): Picked | null {
-    const [x, y] = [left + 0.5, top + 0.5]; // the middle of the pixel, as it is drawn
-    const geometry = drawing.geometry();
-    const { shown, shownTable: table, state } = app;
-    if (!geometry || !shown || !table) return null;
-    const { grid, stream } = shown.loaded;
-    const plane = planeOf(grid);
-    const { halfXM, halfYM, bottomM, topM } = boxOf(grid);
-    const whole: Crop = { westM: -halfXM, eastM: halfXM, southM: -halfYM, northM: halfYM, bottomM, topM };
-    const box = croppedBox(whole, state.layers.crop);
-    const ground = geometry.ground(x, y);
-    const points = [...(wayWithin(geometry, box, x, y) ?? []), ...(ground ? [ground] : [])];
-    const isAlong = boundsAbout(points, grid) !== null; // it meets columns of the grid
-    const cells = isAlong && (asks || !stream) ? drawing.windows!.ray(shown.loaded, points) : null;
-    const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;
-    const picked = (
-        layer: PickedLayer,
-        at: Plane,
-        heightM: number,
-        status: CellState | null,
-        value = 0,
-        gate: GateHit | null = null,
-    ): Picked => ({
-        layer,
-        at,
-        place: plane.toPlace(at),
-        heightM,
-        state: status,
-        value,
-        gate,
-        lacksCells:
-            !cells && isAlong && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
-        // Some layers are read as they are drawn, the others along the ray.
-        halvings:
-            layer === 'sweep'
-                ? 0
-                : drawing.windows!.halvings(
-                      shown.loaded,
-                      layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray',
-                  ),
-    });
-    const met = solidsAt(app, drawing, geometry, cells, whole, x, y);
+type Found = Pick<Picked, 'layer' | 'at' | 'heightM' | 'state' | 'value' | 'gate'>;
+
+const found = (
+    layer: PickedLayer,
+    at: Plane,
+    heightM: number,
+    state: CellState | null,
+    value = 0,
+    gate: GateHit | null = null,
+): Found => ({ layer, at, heightM, state, value, gate });
+
+// Returns what is seen most along the ray: the volume, a layer, or the ground; null if that is the sky.
+function foundOn(ray: Ray, app: App, drawing: Drawing): Found | null {
+    const { x, y, geometry, table, cells, whole, ground } = ray;
+    const { opacity, least, layers } = app.state;
+    const met = solidsOn(ray, app, drawing);
     const solid = met.find((one) => one.isSolid) ?? null;
     // The volume, until something solid or the ground hides it.
     const untilDepth = Math.min(
         solid?.hit.depth ?? Infinity,
         ground ? depthOf(geometry, ground, geometry.groundM) : Infinity,
     );
-    const perM = (value: number) =>
-        value >= (state.least ?? -Infinity) ? extinctionPerM(table, value, state.opacity) : 0;
-    const volume = state.layers.hasVolume && cells ? mostVisible(cells, geometry, box, x, y, untilDepth, perM) : null;
-    const isVolume = volume?.cell && (solid ? volume.share > volume.through : 1 - volume.through > leastSeen);
-    if (isVolume) return picked('volume', volume.cell!.at, volume.cell!.heightM, CellState.value, volume.cell!.value);
+    const perM = (value: number) => (value >= (least ?? -Infinity) ? extinctionPerM(table, value, opacity) : 0);
+    const volume =
+        layers.hasVolume && cells
+            ? mostVisible(cells, geometry, croppedBox(whole, layers.crop), x, y, untilDepth, perM)
+            : null;
+    if (volume?.cell && (solid ? volume.share > volume.through : 1 - volume.through > leastSeen))
+        return found('volume', volume.cell.at, volume.cell.heightM, CellState.value, volume.cell.value);
     const nearest = solid ?? met[0];
     if (nearest) {
         const { layer, hit } = nearest;
-        const heightM = layer === 'maximum' && cells ? heightOfMaximum(cells, hit.at) : hit.heightM;
-        return picked(
-            layer,
-            hit.at,
-            heightM ?? hit.heightM,
-            hit.state,
-            hit.value,
-            layer === 'sweep' ? (hit as GateHit) : null,
-        );
+        const heightM = layer === 'maximum' && cells ? heightOfMaximum(cells, hit.at) : null;
+        const gate = layer === 'sweep' ? (hit as GateHit) : null;
+        return found(layer, hit.at, heightM ?? hit.heightM, hit.state, hit.value, gate);
     }
-    if (!ground) return null;
-    if (!columnAt(grid, ...ground)) return picked('outside', ground, geometry.groundM, null);
-    if (volume && drawing.drawn?.hasFolded && volume.foldedM > leastVeil * (topM - bottomM) * geometry.exaggeration) {
-        return picked('volume', ground, geometry.groundM, CellState.rangeFolded);
-    }
-    const column = cells && columnAt(cells.grid, ground[0] - cells.middle[0], ground[1] - cells.middle[1]);
-    const code = cells && column && codeAt(cells.grid, ...column, 0);
-    if (code === null) return picked('ground', ground, geometry.groundM, null);
-    return picked(
-        'ground',
-        ground,
-        geometry.groundM,
-        Math.min(code, CellState.value),
-        code >= firstValueCode ? valueOf(cells!.grid, code) : 0,
-    );
+    return ground && groundOn(ray, ground, drawing.drawn?.hasFolded ? (volume?.foldedM ?? 0) : 0);
+}
+
+// Returns what the ground shows, behind air that is range folded along `foldedM` of the ray.
+function groundOn({ geometry, grid, cells, whole }: Ray, ground: Plane, foldedM: number): Found {
+    const { groundM, exaggeration } = geometry;
+    if (!columnAt(grid, ...ground)) return found('outside', ground, groundM, null);
+    if (foldedM > leastVeil * (whole.topM - whole.bottomM) * exaggeration)
+        return found('volume', ground, groundM, CellState.rangeFolded);
+    const lowest = cells && cellAt(cells, ground, -Infinity);
+    return found('ground', ground, groundM, lowest?.state ?? null, lowest?.value);
+}
+
+// Returns what a pixel shows; null if that is the sky. Asks for the cells of a grid in parts along the ray if
+// `asks`; until they have come, leaves out the volume and the surface.
+export function pick(app: App, drawing: Drawing, left: number, top: number, asks: boolean): Picked | null {
+    const [x, y] = [left + 0.5, top + 0.5]; // the middle of the pixel, as it is drawn
+    const geometry = drawing.geometry();
+    const { shown, shownTable: table, state } = app;
+    const whole = wholeBox(app);
+    if (!geometry || !shown || !table || !whole) return null;
+    const { grid, stream } = shown.loaded;
+    const ground = geometry.ground(x, y);
+    const way = wayWithin(geometry, croppedBox(whole, state.layers.crop), x, y) ?? [];
+    const points = [...way, ...(ground ? [ground] : [])];
+    const isAlong = boundsAbout(points, grid) !== null; // it meets columns of the grid
+    const cells = isAlong && (asks || !stream) ? drawing.windows.ray(shown.loaded, points) : null;
+    const seen = foundOn({ x, y, geometry, grid, table, cells, whole, ground }, app, drawing);
+    if (!seen) return null;
+    const { layer } = seen;
+    const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;
+    return {
+        ...seen,
+        place: planeOf(grid).toPlace(seen.at),
+        lacksCells:
+            !cells && isAlong && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
+        // Some layers are read as they are drawn, the others along the ray.
+        halvings:
+            layer === 'sweep'
+                ? 0
+                : drawing.windows.halvings(
+                      shown.loaded,
+                      layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray',
+                  ),
+    };
 }

@@ -10,9 +10,8 @@ export interface LevelReading {
 }
 export interface ColumnReading {
     levels: LevelReading[]; // from the bottom
-    greatest: LevelReading | null;
-    seenFromM: number | null; // between these heights the column was seen
-    seenToM: number | null;
+    greatest: { heightM: number; value: number } | null;
+    seenM: [number, number] | null; // between these heights the column was seen
 }
 
 // The column whose cell holds a point of the plane; null beyond the grid.
@@ -24,21 +23,15 @@ export function columnAt(grid: PackedGrid, xM: number, yM: number): [number, num
 }
 
 export function readColumn(grid: PackedGrid, x: number, y: number): ColumnReading {
-    const reading: ColumnReading = { levels: [], greatest: null, seenFromM: null, seenToM: null };
+    const reading: ColumnReading = { levels: [], greatest: null, seenM: null };
     for (let z = 0; z < grid.nz; ++z) {
         const code = codeAt(grid, x, y, z);
-        const level: LevelReading = {
-            heightM: grid.levelsM[z]!,
-            code,
-            value: code >= firstValueCode ? valueOf(grid, code) : null,
-        };
-        reading.levels.push(level);
-        if (level.value !== null && (reading.greatest === null || level.value > reading.greatest.value!))
-            reading.greatest = level;
-        if (code > 0) {
-            reading.seenFromM ??= level.heightM;
-            reading.seenToM = level.heightM;
-        }
+        const heightM = grid.levelsM[z]!;
+        const value = code >= firstValueCode ? valueOf(grid, code) : null;
+        reading.levels.push({ heightM, code, value });
+        if (value !== null && (reading.greatest === null || value > reading.greatest.value))
+            reading.greatest = { heightM, value };
+        if (code > 0) reading.seenM = [reading.seenM?.[0] ?? heightM, heightM];
     }
     return reading;
 }

@@ -10,7 +10,7 @@ const swatch = 10;
 
 // Returns the lines without how old the data are, which is so only now.
 function shownLines(): string[] {
-    const lines = told.map((id) => element(id)).filter((one) => one && !one.hidden);
+    const lines = told.map((id) => element(id)).filter((one) => !one.hidden);
     return lines
         .map((one) =>
             [...one.childNodes]

@@ -207,12 +207,12 @@ class Stream {
         this.tables.set(level, 'coming');
         const { domain, moment, time, key } = this.parts;
         packed(domain, moment, time, { ...this.query(level), part: 'table' })
-            .then((bytes) => this.decoder.ask({ kind: 'level', key, bytes }))
+            .then((bytes) => this.decoder.ask({ kind: 'table', key, bytes }))
             .then(() => {
                 this.tables.set(level, 'there');
                 this.fetchMore();
             })
-            .catch((error) => {
+            .catch((error: unknown) => {
                 this.tables.delete(level);
                 this.stumble(error);
             });
@@ -271,7 +271,7 @@ class Stream {
             .then(({ columns: made }) => {
                 for (const { key } of columns) this.making.delete(key);
                 if (this.hasEnded) return;
-                for (const { level, x, y, hasValues, texels } of made!) {
+                for (const { level, x, y, hasValues, texels } of made) {
                     // There is room for all that is wanted; what no longer is may find none.
                     const resident = this.pool.take(level, x, y, hasValues, this.wantedKeys);
                     if (resident) this.renderer.putBricks(resident.slots, texels);
@@ -280,7 +280,7 @@ class Stream {
                 this.changed();
                 this.fetchMore();
             })
-            .catch((error) => this.fail(error));
+            .catch((error: unknown) => this.fail(error));
     }
 
     // Asks again later, because too much was asked at once, or the network or the server failed. Tells of a

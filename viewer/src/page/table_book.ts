@@ -1,5 +1,6 @@
 // The color tables that the page knows: those of the server, and what the user made of them.
 
+import { colorFiles } from '../facts';
 import { ViewState } from '../scene/view_state';
 import { ColorTable } from '../wire/color_tables';
 import { Draft, draftOf, tableOf } from '../tables/draft';
@@ -10,8 +11,7 @@ import { texts } from './texts';
 // Tables of the server with this in front differ from class to class for every kind of color vision
 // (render/color/built_in_tables.h).
 const safePrefix = 'safe-';
-const clearAir = 'smooth-clear-air';
-export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.editor.safe(name) : name);
+export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.safeTable(name) : name);
 
 export class TableBook {
     readonly usual: UsualOpacity;
@@ -30,7 +30,7 @@ export class TableBook {
     }
     preset(moment: string, name: string): ColorTable | undefined {
         const presets = this.presets(moment);
-        const usual = name === '' && moment === 'REF' && this.isClearAir ? clearAir : name;
+        const usual = name === '' && moment === 'REF' && this.isClearAir ? colorFiles.clearAir : name;
         return (
             presets.find((table) => table.name === usual) ??
             presets.find((table) => table.name === this.tables.usual[moment])

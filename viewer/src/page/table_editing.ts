@@ -2,7 +2,7 @@
 
 import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
-import { writeToml } from '../tables/toml_file';
+import { writeToml } from '../tables/toml_writer';
 import { App } from './app';
 
 interface Colors {
@@ -99,14 +99,16 @@ export class TableEditing {
     }
 
     // The table as it is shown; what is hidden is not in it.
-    toml(): ExportedFile {
-        const draft = this.draft!;
-        return { name: `${draft.name}.toml`, text: writeToml(fileOf(draft, this.app.state.least)), isWhole: true };
+    toml(): ExportedFile | undefined {
+        const { draft } = this;
+        return (
+            draft && { name: `${draft.name}.toml`, text: writeToml(fileOf(draft, this.app.state.least)), isWhole: true }
+        );
     }
     // The same with a name of its own for each content: a browser saves a second file of a name under another one,
     // and a command would read the first.
-    tomlForCommand(): ExportedFile {
+    tomlForCommand(): ExportedFile | undefined {
         const file = this.toml();
-        return { ...file, name: file.name.replace(/\.toml$/, `-${checksum(file.text)}.toml`) };
+        return file && { ...file, name: file.name.replace(/\.toml$/, `-${checksum(file.text)}.toml`) };
     }
 }

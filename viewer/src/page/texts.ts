@@ -13,7 +13,7 @@ const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `
 // Tells how far from an instant the volumes are that show a site.
 function ofVolumes(middlesS: number[]): string {
     const away = (seconds: number) =>
-        `${Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`}`;
+        Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`;
     const told = middlesS.map((seconds) => (seconds < 0 ? `${away(seconds)} before` : `${away(seconds)} after`));
     if (middlesS.length > 1) return `from volumes ${told.join(' and ')}`;
     return Math.abs(middlesS[0] ?? 0) < 1 ? 'as it was' : `as it was ${told[0]}`;
@@ -84,42 +84,8 @@ export const texts = {
     betweenEvery: (seconds: number) => (seconds < 60 ? `every ${seconds} s` : `every ${seconds / 60} min`),
     isBetween: 'made between volumes',
     waiting: (time: string) => `Waiting for ${time}`,
-    editor: {
-        open: 'Edit colors and opacity',
-        title: 'Colors and opacity',
-        preset: 'Table',
-        undo: 'Undo',
-        redo: 'Redo',
-        import: 'Import',
-        toToml: 'Save .toml',
-        toPal: 'Save .pal',
-        close: 'Close the editor',
-        colors: 'Points of color',
-        opacities: 'Points of opacity',
-        point: (kind: 'color' | 'opacity', number: number) => `${kind === 'color' ? 'Color' : 'Opacity'} ${number}`,
-        colorIs: (value: string, [red, green, blue]: readonly number[]) =>
-            `${value}: red ${red}, green ${green}, blue ${blue}`,
-        opacityIs: (value: string, perKm: number) => `${value}: ${perKm} per km`,
-        perKm: '/km',
-        value: 'Value',
-        color: 'Color',
-        opacity: 'Opacity per km',
-        add: 'Add',
-        remove: 'Remove',
-        safe: (name: string) => `${name} (for every color vision)`,
-        edited: (name: string) => `${name} (edited)`,
-        noRoom: 'There is no room for another point here.',
-        lastPoints: 'These points must stay.',
-        saved: (name: string) => `Saved as ${name}; stormcellar frame --colors ${name} draws the same.`,
-        savedInPart: (name: string) =>
-            `Saved as ${name}, but a .pal cannot say that echo is denser than usual; a .toml can.`,
-        taken: (name: string, points: number) => `${name} is shown, with ${points} points of color.`,
-        otherMoment: (name: string, moment: string) => `${name} is for ${moment}: choose ${moment} to see it.`,
-        otherEnding: (name: string) => `${name}: the file of a color table must end in .pal or .toml.`,
-        otherUnit: (name: string, unit: string, wanted: string) =>
-            `${name}: its values are in ${unit}, and not in ${wanted || 'numbers without a unit'}.`,
-        tooLarge: (name: string) => `${name}: a file of a color table has at most 1 MiB.`,
-    },
+    editColors: 'Edit colors and opacity',
+    safeTable: (name: string) => `${name} (for every color vision)`,
     threshold: 'Hide values below',
     nothingHidden: 'nothing is hidden',
     opacity: 'Opacity',
@@ -332,3 +298,39 @@ export const texts = {
                 .join(' · '),
     },
 } as const;
+
+// Texts of the editor of colors, which the page loads when it is first opened.
+export const editorTexts = {
+    title: 'Colors and opacity',
+    preset: 'Table',
+    undo: 'Undo',
+    redo: 'Redo',
+    import: 'Import',
+    toToml: 'Save .toml',
+    toPal: 'Save .pal',
+    close: 'Close the editor',
+    colors: 'Points of color',
+    opacities: 'Points of opacity',
+    point: (kind: 'color' | 'opacity', number: number) => `${kind === 'color' ? 'Color' : 'Opacity'} ${number}`,
+    colorIs: (value: string, [red, green, blue]: readonly number[]) =>
+        `${value}: red ${red}, green ${green}, blue ${blue}`,
+    opacityIs: (value: string, perKm: number) => `${value}: ${perKm} per km`,
+    perKm: '/km',
+    value: 'Value',
+    color: 'Color',
+    opacity: 'Opacity per km',
+    add: 'Add',
+    remove: 'Remove',
+    edited: (name: string) => `${name} (edited)`,
+    noRoom: 'There is no room for another point here.',
+    lastPoints: 'These points must stay.',
+    saved: (name: string) => `Saved as ${name}; stormcellar frame --colors ${name} draws the same.`,
+    savedInPart: (name: string) =>
+        `Saved as ${name}, but a .pal cannot say that echo is denser than usual; a .toml can.`,
+    taken: (name: string, points: number) => `${name} is shown, with ${points} points of color.`,
+    otherMoment: (name: string, moment: string) => `${name} is for ${moment}: choose ${moment} to see it.`,
+    otherEnding: (name: string) => `${name}: the file of a color table must end in .pal or .toml.`,
+    otherUnit: (name: string, unit: string, wanted: string) =>
+        `${name}: its values are in ${unit}, and not in ${wanted || 'numbers without a unit'}.`,
+    tooLarge: (name: string) => `${name}: a file of a color table has at most 1 MiB.`,
+};

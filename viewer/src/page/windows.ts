@@ -186,6 +186,7 @@ export class Windows {
         const { domain, moment, time } = stream;
         held.abort?.abort();
         const abort = (held.abort = new AbortController());
+        const isOver = () => abort.signal.aborted;
         held.asked = window;
         try {
             const bytes = await packed(
@@ -196,15 +197,15 @@ export class Windows {
                 abort.signal,
             );
             const { grid: cells } = await this.decoder.ask({ kind: 'cells', bytes });
-            if (abort.signal.aborted) return;
-            held.cells = { grid: cells!, middle: middleOn(grid, cells!) };
+            if (isOver()) return;
+            held.cells = { grid: cells, middle: middleOn(grid, cells) };
             held.has = window;
         } catch (error) {
-            if (abort.signal.aborted) return;
+            if (isOver()) return;
             this.fail(error);
             if (isAbsent(error)) throw error;
             await new Promise((done) => setTimeout(done, againAfterMs));
-            return abort.signal.aborted ? undefined : this.fetch(held, loaded, stream, window);
+            return isOver() ? undefined : this.fetch(held, loaded, stream, window);
         }
         held.abort = null;
         this.came();

@@ -5,6 +5,7 @@ import { Atlas, blockEdge, blocksABrick, blocksAlong, slotOf } from '../atlas/at
 import { Vec3, ViewGeometry } from '../camera/geometry';
 import { cellSizeM } from '../earth/projection';
 import { PackedGrid } from '../wire/packed_grid';
+import { Program } from './program';
 
 // A picture, or a small one of the same view, whose sides need not be whole pixels.
 export type RayView = Pick<
@@ -184,7 +185,7 @@ export class TilePass {
     }
 
     // The tiles at the right and the upper edge reach beyond the picture.
-    draw({ width, height }: RayView, tiles: Tiles, at: (name: string) => WebGLUniformLocation | null): void {
+    draw({ width, height }: RayView, tiles: Tiles, program: Program): void {
         const { gl } = this;
         this.array ??= gl.createVertexArray();
         this.buffer ??= gl.createBuffer();
@@ -193,7 +194,7 @@ export class TilePass {
         gl.bufferData(gl.ARRAY_BUFFER, tiles.points, gl.STREAM_DRAW);
         gl.enableVertexAttribArray(0);
         gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
-        gl.uniform1f(at('side'), tiles.side);
+        program.float('side', tiles.side);
         gl.viewport(0, 0, tiles.columns * tiles.side, tiles.rows * tiles.side);
         gl.drawArrays(gl.POINTS, 0, tiles.points.length / 4);
         gl.viewport(0, 0, Math.ceil(width), Math.ceil(height));

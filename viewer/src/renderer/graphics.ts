@@ -1,12 +1,14 @@
 // Holds what the passes of a picture share of WebGL: programs by name, textures, and the camera.
 
 import type { RayView } from './echo_tiles';
+import { Program } from './program';
+import { ShaderProgram, shaderText } from './shader_programs';
 
 // No program reads from this unit, so that an upload changes nothing that is bound.
 const unitOfUploads = 15;
 
 export class Graphics {
-    private programs = new Map<string, WebGLProgram>();
+    private programs = new Map<string, Program>();
     private begun = new Map<string, WebGLProgram>(); // their compilation was not waited for yet
 
     constructor(readonly gl: WebGL2RenderingContext) {}
@@ -40,25 +42,27 @@ export class Graphics {
     }
 
     // Begins to compile, which is waited for when the program is first used.
-    begin(name: string, vertex: string, fragment: string): WebGLProgram {
+    begin({ name, defines, vertex, fragment }: ShaderProgram): WebGLProgram {
         const gl = this.gl;
         const program = gl.createProgram()!;
-        gl.attachShader(program, this.compile(gl.VERTEX_SHADER, vertex));
-        gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, fragment));
+        gl.attachShader(program, this.compile(gl.VERTEX_SHADER, shaderText(vertex, defines)));
+        gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, shaderText(fragment, defines)));
         gl.linkProgram(program);
         this.begun.set(name, program);
         return program;
     }
 
-    program(name: string, vertex: string, fragment: string): WebGLProgram {
+    private program(wanted: ShaderProgram): Program {
+        const { name } = wanted;
         const known = this.programs.get(name);
         if (known) return known;
         const gl = this.gl;
-        const program = this.begun.get(name) ?? this.begin(name, vertex, fragment);
-        if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-            const logs = gl.getAttachedShaders(program)!.map((shader) => gl.getShaderInfoLog(shader));
-            throw new Error(`${name}: ${gl.getProgramInfoLog(program)} ${logs.join(' ')}`);
+        const linked = this.begun.get(name) ?? this.begin(wanted);
+        if (!gl.getProgramParameter(linked, gl.LINK_STATUS) && !gl.isContextLost()) {
+            const logs = gl.getAttachedShaders(linked)!.map((shader) => gl.getShaderInfoLog(shader));
+            throw new Error(`${name}: ${gl.getProgramInfoLog(linked)} ${logs.join(' ')}`);
         }
+        const program = new Program(gl, linked);
         this.programs.set(name, program);
         return program;
     }
@@ -111,24 +115,17 @@ export class Graphics {
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     }
 
-    // Takes a program into use, gives it the camera, and tells where its uniforms are.
-    use(program: WebGLProgram, geometry: RayView): (name: string) => WebGLUniformLocation | null {
-        const gl = this.gl;
-        gl.useProgram(program);
-        const at = (name: string) => gl.getUniformLocation(program, name);
-        gl.uniform2f(at('size'), geometry.width, geometry.height);
-        gl.uniform3fv(at('eye'), geometry.eye);
-        gl.uniform3fv(at('right'), geometry.right);
-        gl.uniform3fv(at('up'), geometry.up);
-        gl.uniform3fv(at('forward'), geometry.forward);
-        gl.uniform1f(at('scale'), geometry.isPerspective ? geometry.focalPixels : geometry.metersPerPixel);
-        return at;
-    }
-
-    bind(unit: number, target: number, texture: WebGLTexture | null, at: WebGLUniformLocation | null): void {
-        this.gl.activeTexture(this.gl.TEXTURE0 + unit);
-        this.gl.bindTexture(target, texture);
-        this.gl.uniform1i(at, unit);
+    // Takes a program into use, and gives it the camera.
+    use(wanted: ShaderProgram, geometry: RayView): Program {
+        const program = this.program(wanted);
+        this.gl.useProgram(program.linked);
+        program.vec2('size', geometry.width, geometry.height);
+        program.vec3('eye', geometry.eye);
+        program.vec3('right', geometry.right);
+        program.vec3('up', geometry.up);
+        program.vec3('forward', geometry.forward);
+        program.float('scale', geometry.isPerspective ? geometry.focalPixels : geometry.metersPerPixel);
+        return program;
     }
 
     // Waits until everything is drawn.

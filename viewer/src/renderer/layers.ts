@@ -13,8 +13,15 @@ import { Crop, sunAsideDeg, sunElevationDeg } from '../scene/layers';
 import { Looks, lookColumns, lookCount } from '../tables/looks';
 import { PackedSweep } from '../wire/packed_sweep';
 import { Graphics, TextureShelf } from './graphics';
-import { drapeFragment, fieldFragment, showSolidsFragment, solidVertex, sweepFragment } from './layer_shaders';
-import { fullScreenVertex } from './shaders';
+import { Program } from './program';
+import {
+    ShaderProgram,
+    fieldProgram,
+    maximumProgram,
+    radialsAcross,
+    solidsShownProgram,
+    sweepProgram,
+} from './shader_programs';
 import { shades } from './shades';
 import { SolidTarget } from './solid_target';
 
@@ -54,7 +61,7 @@ export interface DrawnLayers {
 }
 
 export const hasSolids = ({ plane, section, surface, sweep }: DrawnLayers): boolean =>
-    Boolean(plane || section || surface || sweep);
+    Boolean(plane ?? section ?? surface ?? sweep);
 
 // The direction of the sun, which stands beside the camera.
 function sunOf({ right }: ViewGeometry): Vec3 {
@@ -64,7 +71,6 @@ function sunOf({ right }: ViewGeometry): Vec3 {
 }
 
 const beyondGrid = 4; // the state of a field's place outside of the grid
-const radialsAcross = 1800;
 
 interface Mesh {
     array: WebGLVertexArrayObject;
@@ -100,18 +106,13 @@ export class LayerPasses {
             const texels = new Float32Array(2 * field.values.length);
             for (let i = 0; i < field.values.length; ++i) {
                 texels[2 * i] = field.values[i]!;
-                texels[2 * i + 1] = inGrid && inGrid[i % field.width] === 0 ? beyondGrid : field.states[i]!;
+                texels[2 * i + 1] = inGrid?.[i % field.width] === 0 ? beyondGrid : field.states[i]!;
             }
             return this.graphics.texture2d(gl.RG32F, gl.RG, gl.FLOAT, field.width, field.height, texels);
         });
     }
 
-    bindLooks(
-        unit: number,
-        { looks }: DrawnLayers,
-        at: (name: string) => WebGLUniformLocation | null,
-        codeLine?: [number, number],
-    ): void {
+    bindLooks(unit: number, { looks }: DrawnLayers, program: Program, codeLine?: [number, number]): void {
         const { gl } = this.graphics;
         const texture = this.shelf.take('looks', looks, () =>
             this.graphics.texture2d(
@@ -123,19 +124,15 @@ export class LayerPasses {
                 looks.rgba,
             ),
         );
-        this.graphics.bind(unit, gl.TEXTURE_2D, texture, at('looks'));
+        program.texture2d('looks', unit, texture);
         const [zero, step] = codeLine ?? [0, 1];
-        gl.uniform2f(at('lookLine'), looks.offset + looks.slope * zero, looks.slope * step);
-    }
-
-    private color(at: WebGLUniformLocation | null, rgb: readonly number[]): void {
-        this.graphics.gl.uniform3f(at, rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
+        program.vec2('lookLine', looks.offset + looks.slope * zero, looks.slope * step);
     }
 
     // -- what is solid
 
-    // The target has the size of the picture; `surface` draws into it what needs the grid's own textures.
-    drawSolids(geometry: ViewGeometry, layers: DrawnLayers, surface: () => void): void {
+    // The target has the size of the picture; `drawSurface` draws into it what needs the grid's own textures.
+    drawSolids(geometry: ViewGeometry, layers: DrawnLayers, drawSurface: (surface: DrawnSurface) => void): void {
         const { gl } = this.graphics;
         const { width, height } = geometry;
         if (this.target?.width !== width || this.target.height !== height) {
@@ -146,30 +143,20 @@ export class LayerPasses {
         if (layers.plane) this.drawPlane(geometry, layers, layers.plane);
         if (layers.section) this.drawSection(geometry, layers, layers.section);
         if (layers.sweep) this.drawSweep(geometry, layers, layers.sweep);
-        if (layers.surface) surface();
+        if (layers.surface) drawSurface(layers.surface);
         this.target.end();
     }
 
-    private beginSolid(
-        name: string,
-        fragment: string,
-        geometry: ViewGeometry,
-        layers: DrawnLayers,
-    ): (name: string) => WebGLUniformLocation | null {
-        const { gl } = this.graphics;
-        const whole = `${name}, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(
-            this.graphics.program(whole, solidVertex(geometry.isPerspective), fragment),
-            geometry,
-        );
-        gl.uniform1f(at('exaggeration'), geometry.exaggeration);
-        gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
-        this.bindLooks(0, layers, at);
-        this.color(at('seenColor'), shades.seen);
-        this.color(at('foldedColor'), layers.folded);
-        this.color(at('hatchColor'), shades.hatch);
-        this.color(at('borderColor'), shades.border);
-        return at;
+    private beginSolid(wanted: ShaderProgram, geometry: ViewGeometry, layers: DrawnLayers): Program {
+        const program = this.graphics.use(wanted, geometry);
+        program.float('exaggeration', geometry.exaggeration);
+        program.vec2('depthRange', geometry.nearM, geometry.farM);
+        this.bindLooks(0, layers, program);
+        program.colors('seenColor', shades.seen);
+        program.colors('foldedColor', layers.folded);
+        program.colors('hatchColor', shades.hatch);
+        program.colors('borderColor', shades.border);
+        return program;
     }
 
     // Corners with three coordinates and a place of two, as triangles or, without these, as a strip.
@@ -194,13 +181,9 @@ export class LayerPasses {
         for (const buffer of buffers) gl.deleteBuffer(buffer);
     }
 
-    private bindField(
-        at: (name: string) => WebGLUniformLocation | null,
-        texture: WebGLTexture,
-        { mixes }: DrawnLayers,
-    ): void {
-        this.graphics.bind(1, this.graphics.gl.TEXTURE_2D, texture, at('field'));
-        this.graphics.gl.uniform1i(at('mixes'), mixes ? 1 : 0);
+    private bindField(program: Program, texture: WebGLTexture, { mixes }: DrawnLayers): void {
+        program.texture2d('field', 1, texture);
+        program.flag('mixes', mixes);
     }
 
     private drawPlane(
@@ -208,8 +191,8 @@ export class LayerPasses {
         layers: DrawnLayers,
         { field, heightM, extent }: PlacedField & { heightM: number },
     ): void {
-        const at = this.beginSolid('field', fieldFragment(geometry.isPerspective), geometry, layers);
-        this.bindField(at, this.fieldTexture('plane', field, null), layers);
+        const program = this.beginSolid(fieldProgram(geometry.isPerspective), geometry, layers);
+        this.bindField(program, this.fieldTexture('plane', field, null), layers);
         // Cells of a halved grid may reach beyond the grid.
         const { halfXM, halfYM } = geometry.box;
         const [west, east] = [Math.max(-halfXM, extent.westM), Math.min(halfXM, extent.eastM)];
@@ -229,8 +212,8 @@ export class LayerPasses {
     }
 
     private drawSection(geometry: ViewGeometry, layers: DrawnLayers, section: Section): void {
-        const at = this.beginSolid('field', fieldFragment(geometry.isPerspective), geometry, layers);
-        this.bindField(at, this.fieldTexture('section', section.field, section.inGrid), layers);
+        const program = this.beginSolid(fieldProgram(geometry.isPerspective), geometry, layers);
+        this.bindField(program, this.fieldTexture('section', section.field, section.inGrid), layers);
         const corners = section.ends.flatMap(([x, y], i) => [
             x,
             y,
@@ -248,7 +231,7 @@ export class LayerPasses {
 
     private drawSweep(geometry: ViewGeometry, layers: DrawnLayers, { gates, radials, cone }: DrawnSweep): void {
         const { gl } = this.graphics;
-        const at = this.beginSolid('sweep', sweepFragment(geometry.isPerspective), geometry, layers);
+        const program = this.beginSolid(sweepProgram(geometry.isPerspective), geometry, layers);
         const isShort = gates.codes instanceof Uint16Array;
         const codes = this.shelf.take('gates', gates, () =>
             this.graphics.texture2d(
@@ -260,7 +243,7 @@ export class LayerPasses {
                 gates.codes,
             ),
         );
-        this.graphics.bind(1, gl.TEXTURE_2D, codes, at('codes'));
+        program.texture2d('codes', 1, codes);
         const numbers = this.shelf.take('radials', gates, () => {
             const pairs = new Uint16Array(2 * radials.length);
             radials.forEach((radial, i) => pairs.set([radial, gates.gateCounts[radial] ?? 0], 2 * i));
@@ -273,10 +256,10 @@ export class LayerPasses {
                 pairs,
             );
         });
-        this.graphics.bind(2, gl.TEXTURE_2D, numbers, at('radials'));
-        gl.uniform2f(at('gateLine'), 0.5 - gates.firstGateM / gates.gateSpacingM, 1 / gates.gateSpacingM);
-        gl.uniform2f(at('valueLine'), -gates.offset / gates.scale, 1 / gates.scale);
-        gl.uniform1f(at('firstValue'), gates.firstValueCode);
+        program.texture2d('radials', 2, numbers);
+        program.vec2('gateLine', 0.5 - gates.firstGateM / gates.gateSpacingM, 1 / gates.gateSpacingM);
+        program.vec2('valueLine', -gates.offset / gates.scale, 1 / gates.scale);
+        program.float('firstValue', gates.firstValueCode);
         this.drawMesh(cone.corners, cone.triangles);
     }
 
@@ -284,57 +267,46 @@ export class LayerPasses {
 
     showSolids(geometry: ViewGeometry): void {
         const { gl } = this.graphics;
-        const at = this.graphics.use(
-            this.graphics.program('solids shown', fullScreenVertex, showSolidsFragment),
-            geometry,
-        );
-        this.graphics.bind(0, gl.TEXTURE_2D, this.target!.color, at('solidColor'));
-        this.graphics.bind(1, gl.TEXTURE_2D, this.target!.depth, at('solidDepth'));
+        if (!this.target) return;
+        const program = this.graphics.use(solidsShownProgram, geometry);
+        program.texture2d('solidColor', 0, this.target.color);
+        program.texture2d('solidDepth', 1, this.target.depth);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
     // The sun, for what draws a surface.
-    bindSun(geometry: ViewGeometry, at: (name: string) => WebGLUniformLocation | null): void {
-        this.graphics.gl.uniform3fv(at('sun'), sunOf(geometry));
+    bindSun(geometry: ViewGeometry, program: Program): void {
+        program.vec3('sun', sunOf(geometry));
     }
 
-    bindSolidDepth(unit: number, at: (name: string) => WebGLUniformLocation | null, geometry: ViewGeometry): void {
-        this.graphics.bind(unit, this.graphics.gl.TEXTURE_2D, this.target!.depth, at('solidDepth'));
-        this.graphics.gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
+    bindSolidDepth(unit: number, program: Program, geometry: ViewGeometry): void {
+        if (this.target) program.texture2d('solidDepth', unit, this.target.depth);
+        program.vec2('depthRange', geometry.nearM, geometry.farM);
     }
 
     drawMaximum(geometry: ViewGeometry, layers: DrawnLayers, { field, extent }: PlacedField): void {
         const { gl } = this.graphics;
-        const name = `maximum, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(
-            this.graphics.program(name, fullScreenVertex, drapeFragment(geometry.isPerspective)),
-            geometry,
-        );
-        this.bindLooks(0, layers, at);
-        this.bindField(at, this.fieldTexture('maximum', field, null), layers);
-        this.color(at('seenColor'), shades.seen);
-        this.color(at('foldedColor'), layers.folded);
-        gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
-        gl.uniform4f(at('extent'), extent.westM, extent.southM, extent.eastM, extent.northM);
-        gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
+        const program = this.graphics.use(maximumProgram(geometry.isPerspective), geometry);
+        this.bindLooks(0, layers, program);
+        this.bindField(program, this.fieldTexture('maximum', field, null), layers);
+        program.colors('seenColor', shades.seen);
+        program.colors('foldedColor', layers.folded);
+        program.vec2('halfSize', geometry.box.halfXM, geometry.box.halfYM);
+        program.vec4('extent', [extent.westM, extent.southM, extent.eastM, extent.northM]);
+        program.float('ground', geometry.groundM * geometry.exaggeration);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    bindAir(
-        unit: number,
-        air: Air & { placing: Placing },
-        layers: DrawnLayers,
-        at: (name: string) => WebGLUniformLocation | null,
-    ): void {
+    bindAir(unit: number, air: Air & { placing: Placing }, layers: DrawnLayers, program: Program): void {
         const { gl } = this.graphics;
         const texture = this.shelf.take('air', air, () =>
             this.graphics.texture3d(gl.RG8, gl.RG, air.size, air.shares, gl.NEAREST),
         );
-        this.graphics.bind(unit, gl.TEXTURE_3D, texture, at('air'));
-        gl.uniform2fv(at('airFirst'), air.placing.first);
-        gl.uniform2f(at('airCells'), airCellsAcross * 2 ** air.placing.halvings, airCellsUp);
-        this.color(at('hazeColor'), shades.haze);
-        this.color(at('foldedColor'), layers.folded);
+        program.texture3d('air', unit, texture);
+        program.vec2('airFirst', ...air.placing.first);
+        program.vec2('airCells', airCellsAcross * 2 ** air.placing.halvings, airCellsUp);
+        program.colors('hazeColor', shades.haze);
+        program.colors('foldedColor', layers.folded);
     }
 
     // The light of a volume: where its values fall, and the sun.
@@ -344,24 +316,23 @@ export class LayerPasses {
         geometry: ViewGeometry,
         cellM: readonly [number, number],
         levelM: number,
-        at: (name: string) => WebGLUniformLocation | null,
+        program: Program,
     ): void {
         const { gl } = this.graphics;
         const [nx, ny, nz] = falls.size;
         const texture = this.shelf.take('falls', falls, () =>
             this.graphics.texture3d(gl.RGBA8, gl.RGBA, [nz, ny, nx], falls.bytes, gl.LINEAR),
         );
-        this.graphics.bind(unit, gl.TEXTURE_3D, texture, at('falls'));
+        program.texture3d('falls', unit, texture);
         const cells = fallCellsAcross * 2 ** falls.placing.halvings; // of the grid, in a coarse one
-        gl.uniform2fv(at('fallsFirst'), falls.placing.first);
-        gl.uniform2f(at('fallsCells'), cells * nx, cells * ny);
+        program.vec2('fallsFirst', ...falls.placing.first);
+        program.vec2('fallsCells', cells * nx, cells * ny);
         // Falls reach from the coarse cell before to the one after.
-        gl.uniform3f(
-            at('perM'),
+        program.vec3('perM', [
             0.5 / (cells * cellM[0]),
             0.5 / (cells * cellM[1]),
             0.5 / (levelM * geometry.exaggeration),
-        );
-        this.bindSun(geometry, at);
+        ]);
+        this.bindSun(geometry, program);
     }
 }

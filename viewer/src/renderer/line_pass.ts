@@ -3,7 +3,7 @@
 import { MapLines } from '../scene/ground_lines';
 import { ViewGeometry } from '../camera/geometry';
 import { Graphics } from './graphics';
-import { lineFragment, lineVertex } from './shaders';
+import { lineProgram } from './shader_programs';
 import { shades } from './shades';
 
 interface UploadedLines {
@@ -48,7 +48,7 @@ export class LinePass {
     constructor(private graphics: Graphics) {}
 
     prepare(): void {
-        this.graphics.begin('lines', lineVertex, lineFragment);
+        this.graphics.begin(lineProgram);
     }
     // Call after the context came back.
     forget(): void {
@@ -82,13 +82,13 @@ export class LinePass {
     draw(geometry: ViewGeometry, grain: number): void {
         const { gl } = this.graphics;
         if (this.uploaded.length === 0) return;
-        const at = this.graphics.use(this.graphics.program('lines', lineVertex, lineFragment), geometry);
-        gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
-        gl.uniform1i(at('isPerspective'), geometry.isPerspective ? 1 : 0);
+        const program = this.graphics.use(lineProgram, geometry);
+        program.float('ground', geometry.groundM * geometry.exaggeration);
+        program.flag('isPerspective', geometry.isPerspective);
         for (const { lines, array, count } of this.uploaded) {
             const rgba = shades[lines.kind];
-            gl.uniform4f(at('look'), rgba[0] / 255, rgba[1] / 255, rgba[2] / 255, rgba[3] / 255);
-            gl.uniform1f(at('width'), widths[lines.kind] / grain);
+            program.vec4('look', [rgba[0] / 255, rgba[1] / 255, rgba[2] / 255, rgba[3] / 255]);
+            program.float('width', widths[lines.kind] / grain);
             gl.bindVertexArray(array);
             gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
         }

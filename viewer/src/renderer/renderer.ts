@@ -13,10 +13,10 @@ import { PackedGrid } from '../wire/packed_grid';
 import { RayView, TilePass, blockEnds, tilesOf } from './echo_tiles';
 import { Exposure } from './exposure';
 import { Graphics } from './graphics';
-import { AirVariant, SurfaceVariant, airFragment, airName, surfaceFragment, surfaceName } from './layer_shaders';
 import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
 import { LinePass } from './line_pass';
-import { VolumeVariant, fullScreenVertex, groundFragment, tileVertex, variantName, volumeFragment } from './shaders';
+import { Program } from './program';
+import { VolumeVariant, airProgram, groundProgram, surfaceProgram, volumeProgram } from './shader_programs';
 import { shades } from './shades';
 import { WaterMask, WaterTexture } from './water_texture';
 
@@ -207,10 +207,12 @@ export class Renderer {
             this.canvas.height = geometry.height;
         }
         const layers = frame.layers ?? null;
-        const isSolid = layers !== null && this.uploaded !== null && hasSolids(layers);
+        const { uploaded } = this;
+        const isSolid = layers !== null && uploaded !== null && hasSolids(layers);
         this.passes.begin(isSolid);
         if (!layers?.surface?.of) this.releaseOther();
-        if (isSolid) this.passes.drawSolids(geometry, layers, () => this.drawSurface(frame, layers, layers.surface!));
+        if (isSolid)
+            this.passes.drawSolids(geometry, layers, (surface) => this.drawSurface(frame, uploaded, layers, surface));
         gl.viewport(0, 0, geometry.width, geometry.height);
         gl.disable(gl.BLEND);
         gl.clearColor(
@@ -220,15 +222,15 @@ export class Renderer {
             1,
         );
         gl.clear(gl.COLOR_BUFFER_BIT);
-        if (!this.uploaded) return;
+        if (!uploaded) return;
         if (frame.hasGround) {
-            this.drawGround(geometry, frame.grain, layers?.hasHaze ?? false);
+            this.drawGround(uploaded, geometry, frame.grain, layers?.hasHaze ?? false);
         }
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (layers?.maximum) this.passes.drawMaximum(geometry, layers, layers.maximum);
         if (frame.hasGround) this.lines.draw(geometry, frame.grain);
-        if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, layers, layers.air);
+        if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, uploaded, layers, layers.air);
         if (isSolid) this.passes.showSolids(geometry);
         if (!frame.hasVolume) return;
         if (layers?.falls && !frame.keepsExposure) this.measureLight(frame);
@@ -260,36 +262,26 @@ export class Renderer {
         gl.viewport(0, 0, frame.geometry.width, frame.geometry.height);
     }
 
-    private drawGround(geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
+    private drawGround({ coverage, loaded }: Uploaded, geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
         const gl = this.gl;
-        const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(
-            this.graphics.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)),
-            geometry,
-        );
-        const color = (uniform: string, rgb: readonly number[]) =>
-            gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
-        this.graphics.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
-        const { grid, stream } = this.uploaded!.loaded;
-        gl.uniform2f(at('columns'), grid.nx, grid.ny);
-        gl.uniform1f(at('columnsATexel'), 2 ** (stream?.level ?? 0));
-        gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
-        gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
-        color('page', shades.page);
-        color('hatch', shades.hatch);
+        const program = this.graphics.use(groundProgram(geometry.isPerspective), geometry);
+        program.texture2d('coverage', 0, coverage);
+        const { grid, stream } = loaded;
+        program.vec2('columns', grid.nx, grid.ny);
+        program.float('columnsATexel', 2 ** (stream?.level ?? 0));
+        program.vec2('halfSize', geometry.box.halfXM, geometry.box.halfYM);
+        program.float('ground', geometry.groundM * geometry.exaggeration);
+        program.colors('page', shades.page);
+        program.colors('hatch', shades.hatch);
         for (const [name, own] of [
             ['land', shades],
             ['water', shades.water],
         ] as const) {
             // Haze says from how low the air was seen.
-            const colors = [own.notSeen, hasHaze ? own.seen : own.seenAloft, own.seen, own.beyond];
-            gl.uniform3fv(
-                at(`${name}Shades`),
-                colors.flat().map((one) => one / 255),
-            );
+            program.colors(`${name}Shades`, own.notSeen, hasHaze ? own.seen : own.seenAloft, own.seen, own.beyond);
         }
-        this.water.bind(1, at);
-        gl.uniform1f(at('hatchScale'), 1 / grain);
+        this.water.bind(1, program);
+        program.float('hatchScale', 1 / grain);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
@@ -298,40 +290,39 @@ export class Renderer {
         const gl = this.gl;
         const now = this.transfer;
         const key: TransferKey = [frame.table, grid.firstValue, grid.step, frame.opacity, frame.leastValue];
-        const isSame = now && now.key.every((part, i) => part === key[i]);
-        const stretch = isSame ? stepM / now.stepM : 0;
-        if (!isSame || stretch > mostStretch || stretch < 1 / mostStretch) {
+        const stretch = now?.key.every((part, i) => part === key[i]) ? stepM / now.stepM : 0;
+        if (!now || stretch > mostStretch || stretch < 1 / mostStretch) {
             const made = makeTransfer(frame.table, grid, { opacity: frame.opacity, least: frame.leastValue }, stepM);
             this.transfer = { made, stepM, key };
             gl.deleteTexture(this.transferTexture);
             this.transferTexture = this.graphics.texture2d(gl.RGBA32F, gl.RGBA, gl.FLOAT, 256, 256, made.entries);
             return { made, scale: 1 };
         }
-        return { made: now!.made, scale: stretch };
+        return { made: now.made, scale: stretch };
     }
 
     // Tells a program where the cells of a grid are, and how its rays step.
     private bindGrid(
         { loaded, atlas, indirection, levels, levelRange }: Uploaded,
         frame: Frame,
-        at: (name: string) => WebGLUniformLocation | null,
+        program: Program,
     ): void {
         const gl = this.gl;
         const { grid } = loaded;
         const { box, exaggeration } = frame.geometry;
         const [nearM, farM] = slicedDepths(loaded, frame.geometry);
         const [cellWidth, cellHeight] = cellSizeM(grid);
-        this.graphics.bind(0, gl.TEXTURE_3D, atlas, at('atlas'));
+        program.texture3d('atlas', 0, atlas);
         const filter = frame.isNearest ? gl.NEAREST : gl.LINEAR;
         for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
             gl.texParameteri(gl.TEXTURE_3D, name, filter);
-        this.graphics.bind(1, gl.TEXTURE_3D, indirection, at('indirection'));
+        program.texture3d('indirection', 1, indirection);
         if (levels) {
-            this.graphics.bind(3, gl.TEXTURE_2D, levels, at('levels'));
-            gl.uniform2f(at('levelRange'), levelRange[0] * exaggeration, levelRange[1] * exaggeration);
+            program.texture2d('levels', 3, levels);
+            program.vec2('levelRange', levelRange[0] * exaggeration, levelRange[1] * exaggeration);
         } else {
             const spacing = grid.nz > 1 ? grid.levelsM[1]! - grid.levelsM[0]! : 1;
-            gl.uniform2f(at('levelLine'), -grid.levelsM[0]! / spacing, 1 / (spacing * exaggeration));
+            program.vec2('levelLine', -grid.levelsM[0]! / spacing, 1 / (spacing * exaggeration));
         }
         const whole = {
             westM: -box.halfXM,
@@ -342,113 +333,108 @@ export class Renderer {
             topM: box.topM,
         };
         const inside = croppedBox(whole, frame.layers?.crop ?? null);
-        gl.uniform3f(at('boxLow'), inside.westM, inside.southM, inside.bottomM * exaggeration);
-        gl.uniform3f(at('boxHigh'), inside.eastM, inside.northM, inside.topM * exaggeration);
-        gl.uniform1fv(at('brickHeights'), brickHeights(grid, frame.geometry));
-        gl.uniform3f(at('cells'), grid.nx, grid.ny, grid.nz);
-        gl.uniform2f(at('perCell'), 1 / cellWidth, 1 / cellHeight);
-        gl.uniform3fv(at('slots'), slotStrides(loaded.atlas));
-        gl.uniform3fv(at('perTexel'), perTexel(loaded.atlas));
-        gl.uniform1f(at('near'), nearM);
-        gl.uniform1f(at('stepM'), (farM - nearM) / frame.slices);
-        gl.uniform1f(at('slices'), frame.slices);
+        program.vec3('boxLow', [inside.westM, inside.southM, inside.bottomM * exaggeration]);
+        program.vec3('boxHigh', [inside.eastM, inside.northM, inside.topM * exaggeration]);
+        program.floats('brickHeights', brickHeights(grid, frame.geometry));
+        program.vec3('cells', [grid.nx, grid.ny, grid.nz]);
+        program.vec2('perCell', 1 / cellWidth, 1 / cellHeight);
+        program.vec3('slots', slotStrides(loaded.atlas));
+        program.vec3('perTexel', perTexel(loaded.atlas));
+        program.float('near', nearM);
+        program.float('stepM', (farM - nearM) / frame.slices);
+        program.float('slices', frame.slices);
     }
 
     // `view` is the picture, or a small one of the same view.
     private drawVolume(frame: Frame, wanted: WantedOfVolume, view: RayView = frame.geometry): void {
-        const gl = this.gl;
         const { geometry, layers } = frame;
-        const { loaded, levels } = this.uploaded!;
+        const { uploaded } = this;
+        if (!uploaded || uploaded.loaded.atlas.brickCount === 0) return;
+        const { loaded, levels } = uploaded;
         const { grid } = loaded;
-        if (loaded.atlas.brickCount === 0) return;
         const variant: VolumeVariant = {
             isPerspective: geometry.isPerspective,
             hasUnevenLevels: levels !== null,
             hasHalved: loaded.stream !== null,
             ...wanted,
         };
-        const at = this.graphics.use(
-            this.graphics.program(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant)),
-            view,
-        );
+        const program = this.graphics.use(volumeProgram(variant), view);
         const [nearM, farM] = slicedDepths(loaded, geometry);
         const { made, scale } = this.transferFor(frame, grid, (farM - nearM) / frame.slices);
         if (made.leastVisibleCode === Infinity) return;
-        this.bindGrid(this.uploaded!, frame, at);
-        this.graphics.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
+        this.bindGrid(uploaded, frame, program);
+        program.texture2d('transfer', 2, this.transferTexture);
         const { codeScale, codeOffset } = loaded.atlas;
-        gl.uniform2f(at('binLine'), made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
+        program.vec2('binLine', made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
         const leastShown = Math.min(255, Math.max(1, Math.floor((made.leastVisibleCode - codeOffset) / codeScale)));
-        gl.uniform1ui(at('leastShown'), leastShown);
-        gl.uniform1f(at('depthScale'), scale);
-        if (variant.endsAtSolids) this.passes.bindSolidDepth(4, at, geometry);
-        if (variant.isLit) {
-            this.passes.bindLight(5, layers!.falls!, geometry, cellSizeM(grid), levelSpacingM(grid), at);
-            gl.uniform1f(at('exposure'), this.exposure.value);
+        program.uint('leastShown', leastShown);
+        program.float('depthScale', scale);
+        if (variant.endsAtSolids) this.passes.bindSolidDepth(4, program, geometry);
+        if (variant.isLit && layers?.falls) {
+            this.passes.bindLight(5, layers.falls, geometry, cellSizeM(grid), levelSpacingM(grid), program);
+            program.float('exposure', this.exposure.value);
         }
-        this.tiles.draw(view, tilesOf(view, loaded.atlas, blockEnds(grid, geometry), leastShown), at);
+        this.tiles.draw(view, tilesOf(view, loaded.atlas, blockEnds(grid, geometry), leastShown), program);
     }
 
-    private drawAir(frame: Frame, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
+    private drawAir(frame: Frame, uploaded: Uploaded, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
         const { geometry } = frame;
-        const variant: AirVariant = {
+        const wanted = airProgram({
             isPerspective: geometry.isPerspective,
-            hasUnevenLevels: this.uploaded!.levels !== null,
+            hasUnevenLevels: uploaded.levels !== null,
             hasHaze: layers.hasHaze,
             hasFolded: layers.hasFolded,
-        };
-        const at = this.graphics.use(
-            this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)),
-            geometry,
-        );
-        this.bindGrid(this.uploaded!, frame, at);
+        });
+        const program = this.graphics.use(wanted, geometry);
+        this.bindGrid(uploaded, frame, program);
         // The density of a veil depends on the whole depth of the grid.
-        this.gl.uniform1f(at('near'), geometry.nearM);
-        this.gl.uniform1f(at('stepM'), (geometry.farM - geometry.nearM) / frame.slices);
-        this.passes.bindAir(4, air, layers, at);
+        program.float('near', geometry.nearM);
+        program.float('stepM', (geometry.farM - geometry.nearM) / frame.slices);
+        this.passes.bindAir(4, air, layers, program);
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
     }
 
-    private drawSurface(frame: Frame, layers: DrawnLayers, { value, isBelow, of }: DrawnSurface): void {
+    private drawSurface(
+        frame: Frame,
+        shown: Uploaded,
+        layers: DrawnLayers,
+        { value, isBelow, of }: DrawnSurface,
+    ): void {
         const gl = this.gl;
         const { geometry } = frame;
-        const shown = this.uploaded!;
         if (of && this.other?.loaded !== of) {
             this.release(this.other);
             this.other = this.upload(of);
         }
-        const surface = of ? this.other! : shown;
+        const surface = (of && this.other) ?? shown;
         if (surface.loaded.atlas.brickCount === 0) return;
-        const variant: SurfaceVariant = {
+        const wanted = surfaceProgram({
             isPerspective: geometry.isPerspective,
             hasUnevenLevels: surface.levels !== null,
             hasHalved: surface.loaded.stream !== null,
             isBelow,
             hasOther: of !== null,
-        };
-        const at = this.graphics.use(
-            this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)),
-            geometry,
-        );
-        this.bindGrid(surface, frame, at);
+        });
+        const program = this.graphics.use(wanted, geometry);
+        this.bindGrid(surface, frame, program);
         const { grid, atlas } = surface.loaded;
         const chosen = (3 + (value - grid.firstValue) / grid.step - atlas.codeOffset) / atlas.codeScale;
-        gl.uniform1f(at('chosen'), chosen);
-        gl.uniform1ui(at('leastShown'), isBelow ? 1 : Math.min(255, Math.max(1, Math.floor(chosen))));
+        program.float('chosen', chosen);
+        program.uint('leastShown', isBelow ? 1 : Math.min(255, Math.max(1, Math.floor(chosen))));
         const [width, height] = cellSizeM(grid);
-        gl.uniform3f(at('cellM'), width, height, levelSpacingM(grid) * geometry.exaggeration);
-        gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
-        this.passes.bindSun(geometry, at);
+        program.vec3('cellM', [width, height, levelSpacingM(grid) * geometry.exaggeration]);
+        program.vec2('depthRange', geometry.nearM, geometry.farM);
+        this.passes.bindSun(geometry, program);
         if (of) {
-            this.graphics.bind(4, gl.TEXTURE_3D, shown.atlas, at('otherAtlas'));
-            this.graphics.bind(5, gl.TEXTURE_3D, shown.indirection, at('otherIndirection'));
-            gl.uniform3fv(at('otherSlots'), slotStrides(shown.loaded.atlas));
-            gl.uniform3fv(at('otherPerTexel'), perTexel(shown.loaded.atlas));
+            program.texture3d('otherAtlas', 4, shown.atlas);
+            program.texture3d('otherIndirection', 5, shown.indirection);
+            program.vec3('otherSlots', slotStrides(shown.loaded.atlas));
+            program.vec3('otherPerTexel', perTexel(shown.loaded.atlas));
         }
         // value = firstValue + step * (code - 3), code = codeOffset + codeScale * shown code
         const colored = shown.loaded;
         const zero = colored.grid.firstValue + colored.grid.step * (colored.atlas.codeOffset - 3);
-        this.passes.bindLooks(2, layers, at, [zero, colored.grid.step * colored.atlas.codeScale]);
+        this.passes.bindLooks(2, layers, program, [zero, colored.grid.step * colored.atlas.codeScale]);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
@@ -465,9 +451,8 @@ export class Renderer {
 
     // Begins to compile what the first picture needs, while its data are still on their way.
     prepare(): void {
-        const variant: VolumeVariant = { isPerspective: true, hasUnevenLevels: false };
-        this.graphics.begin(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant));
-        this.graphics.begin('ground, perspective', fullScreenVertex, groundFragment(true));
+        this.graphics.begin(volumeProgram({ isPerspective: true, hasUnevenLevels: false }));
+        this.graphics.begin(groundProgram(true));
         this.lines.prepare();
     }
 }

@@ -1,6 +1,7 @@
 // Where the ground is water, as a texture.
 
 import { Graphics } from './graphics';
+import { Program } from './program';
 
 export interface WaterMask {
     shares: Uint8Array; // of water, of 255; rows from the northwest
@@ -28,11 +29,10 @@ export class WaterTexture {
         this.mask = mask;
     }
 
-    bind(unit: number, at: (name: string) => WebGLUniformLocation | null): void {
-        const { gl } = this.graphics;
+    bind(unit: number, program: Program): void {
         this.texture ??= this.upload();
-        this.graphics.bind(unit, gl.TEXTURE_2D, this.texture, at('water'));
-        gl.uniform2f(at('waterHalf'), this.mask?.halfXM ?? 1, this.mask?.halfYM ?? 1);
+        program.texture2d('water', unit, this.texture);
+        program.vec2('waterHalf', this.mask?.halfXM ?? 1, this.mask?.halfYM ?? 1);
     }
 
     private upload(): WebGLTexture {

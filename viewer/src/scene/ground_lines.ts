@@ -26,13 +26,13 @@ const siteRank = 1e9;
 function segmentsOf(
     lines: (Plane | null)[][],
     halfM: number,
-    isDrawn = (_line: number, _point: number) => true,
+    isDrawn: (line: number, point: number) => boolean = () => true,
 ): Float32Array {
     const ends: number[] = [];
     const isNear = (p: Plane) => Math.abs(p[0]) < reach * halfM && Math.abs(p[1]) < reach * halfM;
     lines.forEach((line, number) => {
         for (let i = 1; i < line.length; ++i) {
-            const [a, b] = [line[i - 1]!, line[i]!];
+            const [a, b] = [line[i - 1], line[i]];
             if (a && b && (isNear(a) || isNear(b)) && isDrawn(number, i)) ends.push(a[0], a[1], b[0], b[1]);
         }
     });

@@ -1,6 +1,7 @@
 // Layers that are drawn beside the map, and how: one value, and its part of the address.
 
 import { Place } from '../earth/projection';
+import { momentFacts } from '../wire/moments';
 
 // Sides of a box in meters: from the middle of the grid, and above sea level.
 export interface Crop {
@@ -35,8 +36,9 @@ export interface Layers {
 export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
 
 // Air that is range folded is not clear: a volume of velocities or their widths shows it unless it is told not to.
+// `moment` is empty while nothing is shown.
 export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean =>
-    hasFolded ?? (hasVolume && (moment === 'VEL' || moment === 'SW'));
+    hasFolded ?? (hasVolume && moment !== '' && momentFacts(moment).isDoppler);
 
 // Returns the other choice; null if the moment has it by itself, so that an address stays short.
 export function toggledFolded(layers: Layers, moment: string): boolean | null {
@@ -80,7 +82,8 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.hasMaximum) parts.push(['maximum', '1']);
     if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
     if (layers.sweepDeg !== null && layers.sweepNumber !== null) parts.push(['sweep', String(layers.sweepNumber)]);
-    if (layers.crop) parts.push(['crop-km', cropSides.map((side) => kilometers(layers.crop![side])).join(',')]);
+    const { crop } = layers;
+    if (crop) parts.push(['crop-km', cropSides.map((side) => kilometers(crop[side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
     if (layers.hasHaze) parts.push(['haze', '1']);
     if (layers.hasFolded !== null) parts.push(['folded', layers.hasFolded ? '1' : '0']);

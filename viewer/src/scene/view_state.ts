@@ -2,6 +2,7 @@
 
 import { Camera, usualCamera } from '../camera/geometry';
 import { geodesic } from '../earth/projection';
+import { moments, ranges, usualGrid } from '../facts';
 import { Draft } from '../tables/draft';
 import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { PackedGrid } from '../wire/packed_grid';
@@ -47,7 +48,7 @@ export const usualState: ViewState = {
     units: usualUnits,
 };
 
-const mostDrafts = 7; // as many as there are moments
+const mostDrafts = Object.keys(moments).length;
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
 
@@ -90,7 +91,12 @@ function draftsOf(words: string[]): Draft[] {
     return [...drafts.values()];
 }
 
-function number(text: string | null, least: number, most: number, otherwise: number): number {
+interface Range {
+    least: number;
+    most: number;
+}
+
+function number(text: string | null, { least, most }: Range, otherwise: number): number {
     const value = text === null || text === '' ? NaN : Number(text);
     return value >= least && value <= most ? value : otherwise;
 }
@@ -106,30 +112,34 @@ function timeOf(text: string): string {
 export function stateOf(text: string): ViewState {
     const query = new URLSearchParams(text.replace(/^#/, ''));
     const usual = usualState;
-    const least = number(query.get('least'), -1000, 1000, NaN);
+    const least = number(query.get('least'), { least: -1000, most: 1000 }, NaN);
     const lookAt = (query.get('look-at-km') ?? '').split(',').map(Number);
     return {
         domain: (query.get('domain') ?? '').slice(0, 100),
         moment: (query.get('moment') ?? '').toUpperCase().slice(0, 8),
         time: timeOf(query.get('time') ?? ''),
-        betweenS: number(query.get('between'), 10, 3600, 0),
+        betweenS: number(query.get('between'), { least: 10, most: 3600 }, 0),
         camera: {
-            azimuthDeg: number(query.get('azimuth'), 0, 360, usual.camera.azimuthDeg),
-            tiltDeg: number(query.get('tilt'), 0, 90, usual.camera.tiltDeg),
-            zoom: number(query.get('zoom'), 0.01, 1000, usual.camera.zoom),
-            fieldOfViewDeg: number(query.get('field-of-view'), 0, 150, usual.camera.fieldOfViewDeg),
+            azimuthDeg: number(query.get('azimuth'), { least: 0, most: 360 }, usual.camera.azimuthDeg),
+            tiltDeg: number(query.get('tilt'), ranges.tiltDeg, usual.camera.tiltDeg),
+            zoom: number(query.get('zoom'), ranges.zoom, usual.camera.zoom),
+            fieldOfViewDeg: number(
+                query.get('field-of-view'),
+                { ...ranges.fieldOfViewDeg, least: 0 },
+                usual.camera.fieldOfViewDeg,
+            ),
             lookAtM:
                 lookAt.length === 3 && lookAt.every(Number.isFinite)
                     ? [lookAt[0]! * 1000, lookAt[1]! * 1000, lookAt[2]! * 1000]
                     : null,
         },
         hasGround: query.get('ground') !== '0',
-        exaggeration: number(query.get('exaggeration'), 0.1, 100, usual.exaggeration),
-        opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
+        exaggeration: number(query.get('exaggeration'), ranges.exaggeration, usual.exaggeration),
+        opacity: number(query.get('opacity'), ranges.opacity, usual.opacity),
         least: Number.isNaN(least) ? null : least,
         colors: (query.get('colors') ?? '').slice(0, 100),
         quality: (query.get('quality') ?? '').slice(0, 100),
-        memoryMib: number(query.get('memory'), 4, 4096, usual.memoryMib),
+        memoryMib: number(query.get('memory'), { least: 4, most: 4096 }, usual.memoryMib),
         countsFetches: query.get('count-fetches') === '1',
         drafts: draftsOf(query.getAll('table')),
         layers: layersOf(query),
@@ -137,19 +147,16 @@ export function stateOf(text: string): ViewState {
     };
 }
 
-// Limits of `stormcellar frame` (stormcellar/render/scene.h).
-const leastPerspectiveDeg = 1;
-const mostPlaneM = 60_000;
-const sectionM = { least: 1000, most: 5e6 };
-const sidePixels = { least: 16, most: 8192 };
+const isWithin = (value: number, { least, most }: Range): boolean => value >= least && value <= most;
 
+// Returns true if `stormcellar frame` does not draw such a picture.
 export function isBeyondLimits({ camera, layers }: ViewState, width: number, height: number): boolean {
-    if ([width, height].some((side) => side < sidePixels.least || side > sidePixels.most)) return true;
-    if (layers.hasVolume) return camera.fieldOfViewDeg > 0 && camera.fieldOfViewDeg < leastPerspectiveDeg;
-    if (layers.planeM !== null && layers.planeM > mostPlaneM) return true;
+    if (![width, height].every((side) => isWithin(side, ranges.sidePx))) return true;
+    if (layers.hasVolume) return camera.fieldOfViewDeg > 0 && !isWithin(camera.fieldOfViewDeg, ranges.fieldOfViewDeg);
+    if (layers.planeM !== null && !isWithin(layers.planeM, ranges.planeM)) return true;
     if (!layers.section) return false;
     const { distanceM } = geodesic(layers.section[0], layers.section[1]);
-    return !(distanceM >= sectionM.least && distanceM <= sectionM.most);
+    return !isWithin(distanceM / 1000, ranges.sectionKm);
 }
 
 function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): string[] {
@@ -169,20 +176,19 @@ function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): stri
     return words;
 }
 
-// Returns true for the grid that `stormcellar frame` makes of a raw file (stormcellar/grid/grid_spec.h).
+// Returns true for the grid that `stormcellar frame` makes of a raw file.
 export function isUsualGrid({
     nx,
     ny,
     spacing,
     levelsM,
 }: Pick<PackedGrid, 'nx' | 'ny' | 'spacing' | 'levelsM'>): boolean {
-    const [cells, spacingM, levels, betweenLevelsM] = [460, 1000, 32, 500];
     return (
-        nx === cells &&
-        ny === cells &&
-        spacing === spacingM &&
-        levelsM.length === levels &&
-        levelsM.every((m, level) => m === betweenLevelsM * (level + 1))
+        nx === usualGrid.nx &&
+        ny === usualGrid.ny &&
+        spacing === usualGrid.spacingM &&
+        levelsM.length === usualGrid.levels &&
+        levelsM.every((m, level) => m === usualGrid.betweenLevelsM * (level + 1))
     );
 }
 

@@ -28,8 +28,12 @@ export function withColorMoved(draft: Draft, at: number, value: number): Draft {
     };
 }
 
-export function withColor(draft: Draft, at: number, [red, green, blue]: readonly number[]): Draft {
-    const color = (before: Rgba): Rgba => [red!, green!, blue!, before[3]];
+export function withColor(
+    draft: Draft,
+    at: number,
+    [red, green, blue]: readonly [number, number, number, ...number[]],
+): Draft {
+    const color = (before: Rgba): Rgba => [red, green, blue, before[3]];
     return {
         ...draft,
         colors: draft.colors.map((point, i) => (i === at ? { ...point, color: color(point.color) } : point)),

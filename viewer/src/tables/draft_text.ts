@@ -3,8 +3,7 @@
 
 import { Rgba } from '../wire/color_tables';
 import { ColorPoint, Draft, OpacityPoint, mostPoints, roundedPerKm, roundedValue } from './draft';
-import { colorOfHex, hexOf } from './table_file';
-import { knownMoments } from './toml_file';
+import { colorOfHex, hexOf, knownMoments } from './table_file';
 
 const mostLetters = 8000;
 
@@ -29,7 +28,7 @@ function pairs<T>(text: string, read: (value: number, word: string) => T | null)
         const number = value === '' || value === undefined ? NaN : Number(value);
         return Number.isFinite(number) && word !== undefined ? read(roundedValue(number), word) : null;
     });
-    return points.length <= mostPoints && points.every((point) => point !== null) ? (points as T[]) : null;
+    return points.length <= mostPoints && points.every((point): point is T => point !== null) ? points : null;
 }
 
 function rises(points: { value: number }[], mayRepeat: boolean): boolean {

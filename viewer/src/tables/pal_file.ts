@@ -3,9 +3,9 @@
 //
 // Errors: a TableError, "FILE:LINE: why".
 
+import { colorFiles, palProducts, palUnits } from '../facts';
 import { ColorStop, ColorTable, Rgba } from '../wire/color_tables';
-import { TableError, endOf, greatestValue, mostStops, shownWord, usualExtinctionOf, usualFolded } from './table_file';
-import { knownMoments } from './toml_file';
+import { TableError, endOf, greatestValue, knownMoments, mostStops, shownWord, usualExtinctionOf } from './table_file';
 import { UsualOpacity } from './usual_opacity';
 
 interface Entry {
@@ -15,37 +15,6 @@ interface Entry {
     isSolid: boolean;
 }
 
-// Moment and unit of the values, by the name of the product.
-const products: Record<string, { moment?: string; unit: string }> = {
-    BR: { moment: 'REF', unit: 'dBZ' },
-    CR: { moment: 'REF', unit: 'dBZ' },
-    BV: { moment: 'VEL', unit: 'm/s' },
-    SRV: { moment: 'VEL', unit: 'm/s' },
-    CC: { moment: 'RHO', unit: '' },
-    ET: { unit: 'km' },
-    EET: { unit: 'km' },
-    VIL: { unit: 'kg/m2' },
-    DVL: { unit: 'kg/m2' },
-};
-// Number of the file's units that make one of ours, and our unit.
-const fileUnits: Record<string, [number, string]> = {
-    KT: [1.943844, 'm/s'],
-    KTS: [1.943844, 'm/s'],
-    KNOTS: [1.943844, 'm/s'],
-    MPH: [2.236936, 'm/s'],
-    KMH: [3.6, 'm/s'],
-    'KM/H': [3.6, 'm/s'],
-    'M/S': [1, 'm/s'],
-    MPS: [1, 'm/s'],
-    KFT: [3.28084, 'km'],
-    FT: [3280.84, 'km'],
-    KM: [1, 'km'],
-    M: [1000, 'km'],
-    DBZ: [1, 'dBZ'],
-    DB: [1, 'dB'],
-    'KG/M2': [1, 'kg/m2'],
-    '%': [100, ''],
-};
 const momentsOfUnits: Record<string, string> = { dBZ: 'REF', 'm/s': 'VEL' };
 const inList = <T>(list: Record<string, T>, key: string): T | undefined =>
     Object.prototype.hasOwnProperty.call(list, key) ? list[key] : undefined;
@@ -159,17 +128,17 @@ class PalReader {
     private meaning(): { moment: string; unit: string; perOurs: number } {
         let moment = '';
         let unit = '';
-        const product = inList(products, this.product);
+        const product = inList(palProducts, this.product);
         if (inList(knownMoments, this.product) !== undefined)
             [moment, unit] = [this.product, knownMoments[this.product]!];
         else if (product) [moment, unit] = [product.moment ?? '', product.unit];
         const hasMeaning = moment !== '' || unit !== '';
-        const known = inList(fileUnits, this.unit.toUpperCase());
+        const known = inList(palUnits, this.unit.toUpperCase());
         if (!hasMeaning) {
             unit = known ? known[1] : this.unit;
             if (known) moment = momentsOfUnits[unit] ?? '';
         }
-        return { moment, unit, perOurs: this.numbers.SCALE ?? (known && known[1] === unit ? known[0] : 1) };
+        return { moment, unit, perOurs: this.numbers.SCALE ?? (known?.[1] === unit ? known[0] : 1) };
     }
 
     private stops(perOurs: number): ColorStop[] {
@@ -199,7 +168,7 @@ class PalReader {
             stops,
             end: 0,
             bar_begin: first.from,
-            range_folded: this.folded ?? usualFolded,
+            range_folded: this.folded ?? [...colorFiles.rangeFolded],
             extinction: [],
         };
         const step = (this.numbers.STEP ?? 0) / perOurs;

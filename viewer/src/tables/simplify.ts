@@ -29,8 +29,8 @@ const linearOf = (level: number): number =>
     level <= 10.31475 ? level / 3294.6 : ((level / 255 + 0.055) / 1.055) ** 2.4;
 
 // OKLab, in which equal distances look about equal: render/color/ok_lab.h.
-export function okLabOf([r, g, b]: readonly number[]): [number, number, number] {
-    const [red, green, blue] = [linearOf(r!), linearOf(g!), linearOf(b!)];
+export function okLabOf([r, g, b]: Readonly<Rgba>): [number, number, number] {
+    const [red, green, blue] = [linearOf(r), linearOf(g), linearOf(b)];
     const l = Math.cbrt(0.4122214708 * red + 0.5363325363 * green + 0.0514459929 * blue);
     const m = Math.cbrt(0.2119034982 * red + 0.6806995451 * green + 0.1073969566 * blue);
     const s = Math.cbrt(0.0883024619 * red + 0.2817188376 * green + 0.6299787005 * blue);
@@ -42,7 +42,7 @@ export function okLabOf([r, g, b]: readonly number[]): [number, number, number] 
 }
 
 // Returns how different two colors look; 0.02 can just be seen side by side.
-export function colorDistance(one: readonly number[], other: readonly number[]): number {
+export function colorDistance(one: Readonly<Rgba>, other: Readonly<Rgba>): number {
     const [a, b] = [okLabOf(one), okLabOf(other)];
     return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }

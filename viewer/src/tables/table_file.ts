@@ -3,15 +3,18 @@
 //
 // Errors: a TableError that names the file, the line where there is one, and the reason.
 
+import { colorFiles, moments } from '../facts';
 import { ColorTable, Rgba } from '../wire/color_tables';
 import { UsualOpacity, fadedByAlpha, rising } from './usual_opacity';
 
 export class TableError extends Error {}
 
-export const mostFileBytes = 2 ** 20;
-export const mostStops = 4096;
-export const greatestValue = 1e6;
-export const usualFolded: Rgba = [0x77, 0x00, 0x7d, 255];
+export const { mostBytes: mostFileBytes, mostStops, greatestValue } = colorFiles;
+
+// Moments by name, with the unit that a file of colors writes: none for a number.
+export const knownMoments: Record<string, string> = Object.fromEntries(
+    Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]),
+);
 
 export interface FilePoint {
     value: number;
@@ -33,8 +36,9 @@ export interface TableFile {
 
 // Returns the end of the color bar of a table that does not say it: its last class is as long as the one before.
 export function endOf(table: ColorTable): number {
-    const [before, last] = table.stops.slice(-2).map((stop) => stop.from);
-    return last === undefined ? before! + 1 : last + (last - before!);
+    const { stops } = table;
+    const [before, last] = [stops[stops.length - 2]?.from, stops[stops.length - 1]!.from];
+    return last + (before === undefined ? 1 : last - before);
 }
 
 export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
@@ -50,13 +54,12 @@ export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
         })),
         end: 0,
         bar_begin: points[0]!.value,
-        range_folded: file.rangeFolded ?? usualFolded,
+        range_folded: file.rangeFolded ?? [...colorFiles.rangeFolded],
         extinction: [],
     };
     table.end = file.end ?? endOf(table);
-    if (points.every((point) => point.perKm !== null))
-        table.extinction = points.map(({ value, perKm }) => ({ value, per_km: perKm! }));
-    else table.extinction = usualExtinctionOf(table, usual);
+    table.extinction = points.flatMap(({ value, perKm }) => (perKm === null ? [] : [{ value, per_km: perKm }]));
+    if (table.extinction.length === 0) table.extinction = usualExtinctionOf(table, usual);
     return table;
 }
 

@@ -1,16 +1,19 @@
-// Color tables in TOML, as docs/rendering.md and render/color/color_file.h have them.
+// Reads color tables in TOML, as docs/rendering.md and render/color/color_file.h have them.
 //
 // Errors: see table_file.ts; of several complaints the one on the earliest line.
 
-import { moments } from '../facts';
 import { Rgba } from '../wire/color_tables';
-import { FilePoint, TableError, TableFile, colorOfHex, greatestValue, hexOf, mostStops, shownWord } from './table_file';
-import { TomlArray, TomlTable, TomlValue, readTomlValues } from './toml_values';
-
-// Moments by name, with the unit that a file of colors writes: none for a number.
-export const knownMoments: Record<string, string> = Object.fromEntries(
-    Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]),
-);
+import {
+    FilePoint,
+    TableError,
+    TableFile,
+    colorOfHex,
+    greatestValue,
+    knownMoments,
+    mostStops,
+    shownWord,
+} from './table_file';
+import { TomlTable, readTomlValues } from './toml_values';
 
 class TomlColors {
     private complaints: { line: number; why: string }[] = [];
@@ -46,7 +49,7 @@ class TomlColors {
     private complain(table: TomlTable, key: string, why: string): void {
         this.complaints.push({ line: table.lineOf(key), why: `${shownWord(key)} ${why}` });
     }
-    private find(table: TomlTable, key: string): TomlValue | undefined {
+    private find(table: TomlTable, key: string): unknown {
         const read = this.read.get(table) ?? new Set();
         this.read.set(table, read.add(key));
         return table.get(key);
@@ -77,7 +80,7 @@ class TomlColors {
     private color(table: TomlTable, key: string): Rgba | null {
         const value = this.find(table, key);
         if (value === undefined) return null;
-        const numbers = value instanceof TomlArray ? value.items : [];
+        const numbers: unknown[] = Array.isArray(value) ? value : [];
         const isColor =
             (numbers.length === 3 || numbers.length === 4) &&
             numbers.every((one) => typeof one === 'number' && one >= 0 && one <= 255);
@@ -99,18 +102,18 @@ class TomlColors {
     }
 
     private points(isStepped: boolean): FilePoint[] {
-        const list = this.find(this.root, 'point');
-        const items = list instanceof TomlArray ? list.items : [];
+        this.find(this.root, 'point');
+        const items = this.root.tables('point');
         const least = isStepped ? 1 : 2;
-        if (items.length < least || items.length > mostStops || !items.every((item) => item instanceof TomlTable)) {
+        if (!items || items.length < least || items.length > mostStops) {
             this.complain(this.root, 'point', `must be there ${least} to ${mostStops} times, as [[point]]`);
             return [];
         }
         const points: FilePoint[] = [];
-        for (const item of items as TomlTable[]) this.point(item, points, isStepped);
+        for (const item of items) this.point(item, points, isStepped);
         const withOpacity = points.filter((point) => point.perKm !== null).length;
         if (withOpacity !== 0 && withOpacity !== points.length) {
-            this.complain(items[0] as TomlTable, 'opacity_per_km', 'must be given for all points or for none');
+            this.complain(items[0]!, 'opacity_per_km', 'must be given for all points or for none');
         }
         return points;
     }
@@ -140,22 +143,4 @@ class TomlColors {
 
 export function readToml(text: string, fileName: string): TableFile {
     return new TomlColors(readTomlValues(text, fileName), fileName).table();
-}
-
-const quoted = (text: string): string => `"${text.replace(/[^\x20-\x7e]/g, '?').replace(/["\\]/g, '\\$&')}"`;
-
-export function writeToml(file: TableFile): string {
-    const lines = ['# A color table for stormcellar frame --colors FILE, and for the viewer.'];
-    lines.push(`name = ${quoted(file.name)}`);
-    if (file.moment !== null) lines.push(`moment = ${quoted(file.moment)}`);
-    else if (file.unit) lines.push(`unit = ${quoted(file.unit)}`);
-    if (file.isStepped) lines.push('stepped = true');
-    if (file.end !== null) lines.push(`end = ${file.end}`);
-    if (file.rangeFolded) lines.push(`range_folded = "${hexOf(file.rangeFolded)}"`);
-    for (const { value, color, until, perKm } of file.points) {
-        lines.push('', '[[point]]', `value = ${value}`, `color = "${hexOf(color)}"`);
-        if (until) lines.push(`until = "${hexOf(until)}"`);
-        if (perKm !== null) lines.push(`opacity_per_km = ${perKm}`);
-    }
-    return `${lines.join('\n')}\n`;
 }

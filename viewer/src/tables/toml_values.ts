@@ -1,239 +1,162 @@
-// Reads TOML 1.0 as far as tables of colors need it: keys, texts, numbers, flags, arrays, inline tables,
-// [tables] and [[lists of tables]]; dates and texts of several lines are refused.
+// Reads TOML with smol-toml, and finds the lines of its keys, which smol-toml does not tell.
 //
-// Errors: a TableError, "FILE:LINE: why". Nothing is deeper than `deepest`, so that no text exhausts the
-// stack.
+// Errors: a TableError, "FILE:LINE: why". Nothing is deeper than `deepest`, so that no text exhausts the stack.
 
+import { TomlError, parse } from 'smol-toml';
 import { TableError, shownWord } from './table_file';
 
-export type TomlValue = string | number | boolean | TomlArray | TomlTable;
-export class TomlArray {
-    constructor(
-        readonly items: TomlValue[],
-        readonly isOfTables = false, // made by [[ ]], which may add to it
-    ) {}
+const deepest = 16;
+
+// Where a value is, and what is in it: keys of a table, or items of an array.
+interface Place {
+    line: number;
+    keys: Map<string, Place>;
+    items: Place[];
 }
+
+const placeAt = (line: number): Place => ({ line, keys: new Map(), items: [] });
+
+// A table, whose tables and arrays are read as they are asked for.
 export class TomlTable {
-    private entries = new Map<string, { value: TomlValue; line: number }>();
-    constructor(readonly line: number) {}
+    constructor(
+        private values: Record<string, unknown>,
+        private place: Place,
+    ) {}
 
     get keys(): string[] {
-        return [...this.entries.keys()];
+        return Object.keys(this.values);
     }
     has(key: string): boolean {
-        return this.entries.has(key);
+        return Object.prototype.hasOwnProperty.call(this.values, key);
     }
-    get(key: string): TomlValue | undefined {
-        return this.entries.get(key)?.value;
+    // Returns the value of a key as smol-toml reads it; undefined if it is not there.
+    get(key: string): unknown {
+        return this.has(key) ? this.values[key] : undefined;
+    }
+    // Returns the tables of an array; null if the value is none, or has other items.
+    tables(key: string): TomlTable[] | null {
+        const items = this.get(key);
+        const places = this.place.keys.get(key)?.items ?? [];
+        if (!Array.isArray(items) || !items.every(isTable)) return null;
+        return items.map((item, i) => new TomlTable(item, places[i] ?? this.place));
     }
     lineOf(key: string): number {
-        return this.entries.get(key)?.line ?? this.line;
-    }
-    put(key: string, value: TomlValue, line: number): void {
-        this.entries.set(key, { value, line });
+        return this.place.keys.get(key)?.line ?? this.place.line;
     }
 }
 
-const deepest = 16;
-const bareKey = /[A-Za-z0-9_-]+/y;
-const number =
-    /[+-]?(?:inf|nan|0x[0-9a-fA-F_]+|0o[0-7_]+|0b[01_]+|(?:0|[1-9](?:_?\d)*)(?:\.\d(?:_?\d)*)?(?:[eE][+-]?\d(?:_?\d)*)?)(?![\w.:-])/y;
-const blank = /[ \t]*/y;
-const blankLines = /(?:[ \t\r\n]|#[^\n]*)*/y;
-const escapes: Record<string, string> = { b: '\b', t: '\t', n: '\n', f: '\f', r: '\r', '"': '"', '\\': '\\' };
+const isTable = (value: unknown): value is Record<string, unknown> =>
+    typeof value === 'object' && value !== null && !Array.isArray(value) && !(value instanceof Date);
 
-class TomlReader {
+// Texts, comments, ends of lines, brackets and the like, and all between them.
+const token =
+    /"""(?:\\[^]|[^\\])*?"{3,5}|'''[^]*?'{3,5}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#.*|\n|[[\]{},=]|(?:(?!["'#\n[\]{},=])[^])+/g;
+
+// Finds the lines of keys in a text that is known to be TOML.
+class LineFinder {
+    private tokens: { text: string; line: number }[] = [];
     private at = 0;
-    private counted = { to: 0, line: 1 };
 
-    constructor(
-        private text: string,
-        private name: string,
-    ) {}
+    constructor(text: string) {
+        let line = 1;
+        for (const match of text.matchAll(token)) {
+            const found = match[0]!;
+            if (found.trim() !== '' && !found.startsWith('#')) this.tokens.push({ text: found.trim(), line });
+            if (found === '\n') this.tokens.push({ text: '\n', line });
+            line += found.split('\n').length - 1;
+        }
+    }
 
-    read(): TomlTable {
-        const root = new TomlTable(1);
+    find(): Place {
+        const root = placeAt(1);
         let table = root;
-        for (;;) {
-            this.skip(blankLines);
-            if (this.at >= this.text.length) return root;
-            if (this.text[this.at] === '[') table = this.header(root);
-            else this.pair(table, 0);
-            this.endOfLine();
+        for (; !this.isAtEnd; ++this.at) {
+            if (this.next === '\n') continue;
+            if (this.next === '[') table = this.header(root);
+            else this.pair(table);
         }
+        return root;
     }
 
+    private get isAtEnd(): boolean {
+        return this.at >= this.tokens.length;
+    }
+    private get next(): string {
+        return this.tokens[this.at]?.text ?? '';
+    }
     private get line(): number {
-        const { counted } = this;
-        for (
-            let i = this.text.indexOf('\n', counted.to);
-            i >= 0 && i < this.at;
-            i = this.text.indexOf('\n', counted.to)
-        ) {
-            ++counted.line;
-            counted.to = i + 1;
-        }
-        return counted.line;
-    }
-    private refuse(why: string): never {
-        throw new TableError(`${this.name}:${this.line}: ${why}`);
-    }
-    private match(pattern: RegExp): string | null {
-        pattern.lastIndex = this.at;
-        const found = pattern.exec(this.text)?.[0] ?? null;
-        if (found !== null) this.at += found.length;
-        return found;
-    }
-    private skip(pattern: RegExp): void {
-        this.match(pattern);
-    }
-    private take(word: string): boolean {
-        if (!this.text.startsWith(word, this.at)) return false;
-        this.at += word.length;
-        return true;
-    }
-    private need(word: string): void {
-        this.skip(blank);
-        if (!this.take(word)) this.refuse(`'${word}' is missing`);
-    }
-    private endOfLine(): void {
-        this.skip(blank);
-        if (this.at < this.text.length && !/[\r\n#]/.test(this.text[this.at]!)) {
-            this.refuse(`'${shownWord(this.text.slice(this.at, this.at + 20))}' has no meaning here`);
-        }
+        return this.tokens[this.at]?.line ?? 1;
     }
 
-    private key(): string[] {
-        const parts: string[] = [];
-        do {
-            this.skip(blank);
-            const quote = this.text[this.at];
-            const part = quote === '"' || quote === "'" ? this.quoted() : this.match(bareKey);
-            if (part === null) this.refuse('a key is missing');
-            parts.push(part);
-            this.skip(blank);
-        } while (this.take('.'));
-        if (parts.length > deepest) this.refuse('the key has too many parts');
-        return parts;
-    }
-
-    // [key] or [[key]]
-    private header(root: TomlTable): TomlTable {
-        const line = this.line;
-        const isList = this.take('[[') || (this.need('['), false);
-        const parts = this.key();
-        this.need(isList ? ']]' : ']');
-        const last = parts.pop()!;
-        const parent = this.tableAt(root, parts);
-        const known = parent.get(last);
-        const table = new TomlTable(line);
-        if (isList) {
-            if (known === undefined) parent.put(last, new TomlArray([table], true), line);
-            else if (known instanceof TomlArray && known.isOfTables) known.items.push(table);
-            else this.refuse(`'${shownWord(last)}' is there already`);
-            return table;
-        }
-        if (known !== undefined) this.refuse(`'${shownWord(last)}' is there already`);
-        parent.put(last, table, line);
-        return table;
-    }
-    private tableAt(table: TomlTable, parts: string[]): TomlTable {
-        for (const part of parts) {
-            let next = table.get(part);
-            if (next instanceof TomlArray && next.isOfTables) next = next.items[next.items.length - 1];
-            if (next === undefined) {
-                next = new TomlTable(this.line);
-                table.put(part, next, this.line);
-            }
-            if (!(next instanceof TomlTable)) this.refuse(`'${shownWord(part)}' is no table`);
-            table = next;
-        }
-        return table;
-    }
-
-    // key = value
-    private pair(table: TomlTable, depth: number): void {
-        const line = this.line;
-        const parts = this.key();
-        this.need('=');
-        const last = parts.pop()!;
-        const parent = this.tableAt(table, parts);
-        if (parent.has(last)) this.refuse(`'${shownWord(last)}' is there already`);
-        parent.put(last, this.value(depth), line);
-    }
-
-    private value(depth: number): TomlValue {
-        this.skip(blank);
-        if (depth > deepest) this.refuse('the values are too deep');
-        switch (this.text[this.at]) {
-            case '"':
-            case "'":
-                return this.quoted();
-            case '[':
-                return this.array(depth);
-            case '{':
-                return this.inlineTable(depth);
-        }
-        const flag = this.match(/(?:true|false)(?![\w.-])/y);
-        if (flag) return flag === 'true';
-        const word = this.match(number);
-        if (word === null)
-            this.refuse(`'${shownWord(/^[^\s,\]}]*/.exec(this.text.slice(this.at, this.at + 70))![0])}' is no value`);
-        const plain = word.replace(/_/g, '');
-        if (/inf$/.test(plain)) return plain.startsWith('-') ? -Infinity : Infinity;
-        return Number(plain);
-    }
-
-    private array(depth: number): TomlArray {
-        this.need('[');
-        const items: TomlValue[] = [];
-        for (;;) {
-            this.skip(blankLines);
-            if (this.take(']')) return new TomlArray(items);
-            items.push(this.value(depth + 1));
-            this.skip(blankLines);
-            if (!this.take(',') && this.text[this.at] !== ']') this.refuse("',' or ']' is missing");
-        }
-    }
-
-    private inlineTable(depth: number): TomlTable {
-        const table = new TomlTable(this.line);
-        this.need('{');
-        this.skip(blank);
-        if (this.take('}')) return table;
-        do this.pair(table, depth + 1);
-        while ((this.skip(blank), this.take(',')));
-        this.need('}');
-        return table;
-    }
-
-    private quoted(): string {
-        const quote = this.text[this.at]!;
-        if (this.text.startsWith(quote.repeat(3), this.at)) this.refuse('texts of several lines are not read');
+    // Reads the parts of a key, up to one of the ends.
+    private key(end: string): string[] {
         let text = '';
-        for (++this.at; ; ++this.at) {
-            const letter = this.text[this.at];
-            if (letter === undefined || letter === '\n') this.refuse('a text has no end');
-            if (letter === quote) break;
-            text += letter === '\\' && quote === '"' ? this.escaped() : letter;
-        }
-        ++this.at;
-        return text;
+        for (; !this.isAtEnd && this.next !== end; ++this.at) text += this.next;
+        const parts = text.match(/"(?:\\.|[^"\\])*"|'[^']*'|[^.\s"']+/g) ?? [];
+        return parts.map((part) => Object.keys(parse(`${part} = 0`))[0]!);
     }
-    private escaped(): string {
-        const letter = this.text[++this.at] ?? '';
-        const known = escapes[letter];
-        if (known !== undefined) return known;
-        const digits = letter === 'u' ? 4 : letter === 'U' ? 8 : 0;
-        const code = this.text.slice(this.at + 1, this.at + 1 + digits);
-        if (digits === 0 || !/^[0-9a-fA-F]+$/.test(code) || code.length !== digits || parseInt(code, 16) > 0x10ffff) {
-            this.refuse(`'\\${shownWord(letter)}' has no meaning in a text`);
+
+    // Returns the place of a key, which may be that of a table that is there already.
+    private descend(table: Place, parts: string[], line: number): Place {
+        for (const part of parts) {
+            const known = table.keys.get(part) ?? placeAt(line);
+            table.keys.set(part, known);
+            table = known.items[known.items.length - 1] ?? known;
         }
-        this.at += digits;
-        return String.fromCodePoint(parseInt(code, 16));
+        return table;
+    }
+
+    // Reads [key] or [[key]], and the brackets behind it.
+    private header(root: Place): Place {
+        const { line } = this;
+        ++this.at;
+        const isList = this.next === '[';
+        if (isList) ++this.at;
+        const parts = this.key(']');
+        const last = parts.pop()!;
+        if (isList) ++this.at;
+        const parent = this.descend(root, parts, line);
+        if (!isList) return this.descend(parent, [last], line);
+        const list = parent.keys.get(last) ?? placeAt(line);
+        parent.keys.set(last, list);
+        list.items.push(placeAt(line));
+        return list.items[list.items.length - 1]!;
+    }
+
+    // Reads key = value.
+    private pair(table: Place): void {
+        const { line } = this;
+        const place = this.descend(table, this.key('='), line);
+        ++this.at;
+        this.value(place);
+    }
+
+    // Ends at the last token of the value.
+    private value(place: Place): void {
+        const close = { '[': ']', '{': '}' }[this.next];
+        if (!close) {
+            while (!['\n', ',', ']', '}'].includes(this.tokens[this.at + 1]?.text ?? '\n')) ++this.at;
+            return;
+        }
+        for (++this.at; !this.isAtEnd && this.next !== close; ++this.at) {
+            if (this.next === '\n' || this.next === ',') continue;
+            if (close === '}') this.pair(place);
+            else {
+                const item = placeAt(this.line);
+                place.items.push(item);
+                this.value(item);
+            }
+        }
     }
 }
 
 export function readTomlValues(text: string, name: string): TomlTable {
-    return new TomlReader(text, name).read();
+    try {
+        return new TomlTable(parse(text, { maxDepth: deepest }), new LineFinder(text).find());
+    } catch (error) {
+        if (!(error instanceof TomlError)) throw error;
+        const why = error.message.replace(/^Invalid TOML document: /, '').split('\n')[0]!;
+        const line = text.split('\n')[error.line - 1]!.trim();
+        throw new TableError(`${name}:${error.line}: ${why}, in '${shownWord(line)}'`);
+    }
 }

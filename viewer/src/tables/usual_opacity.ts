@@ -24,7 +24,7 @@ export function usualOpacity(tables: ColorTable[], usual: Record<string, string>
     return {
         of(moment, lowest) {
             const points = tables.find((table) => table.name === usual[moment])?.extinction;
-            if (!points) return rising(lowest, lowest + 1);
+            if (!points) throw new Error(`${moment}: no opacity is known`);
             return moment === 'REF' ? reflectivityFrom(points, lowest) : points;
         },
     };

@@ -216,7 +216,7 @@ export function packed(
     signal?: AbortSignal,
 ): Promise<ArrayBuffer> {
     // A grid without its id may have been made again, and the bricks of two grids do not fit together.
-    const options: RequestInit = { ...(query.id === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
+    const options: RequestInit = { ...(query['id'] === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
     return bytesOf(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options);
 }
 // A grid that is made on request, whole: for an instant between volumes, or of a region.

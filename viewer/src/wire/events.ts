@@ -10,10 +10,10 @@ export interface ServerEvent {
 function eventOf(frame: string): ServerEvent {
     const event: ServerEvent = { kind: '', id: '', data: '' };
     for (const line of frame.split('\n')) {
-        const [, name, value] = /^(id|event|data): ?(.*)$/.exec(line) ?? [];
-        if (name === 'id') event.id = value!;
-        if (name === 'event') event.kind = value!;
-        if (name === 'data') event.data += value!;
+        const [, name, value = ''] = /^(id|event|data): ?(.*)$/.exec(line) ?? [];
+        if (name === 'id') event.id = value;
+        if (name === 'event') event.kind = value;
+        if (name === 'data') event.data += value;
     }
     return event;
 }

@@ -187,6 +187,7 @@ function readTable(header: Header, grid: PackedGrid): void {
     for (let i = 0; i < rows; ++i) {
         const at = tableAt + i * rowBytes;
         grid.kind[i] = view.getUint8(at);
+        need(grid.kind[i]! <= BrickKind.codes, 'the packed grid has a brick of an unknown kind');
         grid.state[i] = view.getUint8(at + 1);
         grid.valueCount[i] = view.getUint16(at + 2, true);
         grid.leastCode[i] = view.getUint16(at + 4, true);

@@ -37,15 +37,17 @@ const liveS = 30 * 60; // no radar takes so long from one volume to the next
 const againAfterMs = 20_000; // ages grow
 
 function putTitle(app: App): void {
-    const { domain, moment } = app.shown!;
-    const { grid } = app.shown!.loaded;
+    const { shown } = app;
+    if (!shown || app.isOnMap) return;
+    const { domain, moment } = shown;
+    const { grid } = shown.loaded;
     const names = grid.sites.map((site) => site.icao).join(', ');
     const time = new Date(grid.timeMs)
         .toISOString()
         .replace('T', ' ')
         .replace(/\.\d+Z/, ' UTC');
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
-    const notes = [grid.isPartial ? texts.partial : '', app.shown!.isBetween ? texts.isBetween : ''];
+    const notes = [grid.isPartial ? texts.partial : '', shown.isBetween ? texts.isBetween : ''];
     // A saved picture has no age.
     const age = document.createElement('span');
     age.textContent = ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '';
@@ -119,7 +121,7 @@ export function addChoices(app: App, facts: FactsOfShown): void {
         );
     window.setInterval(() => {
         askSites();
-        if (app.shown && !app.isOnMap) putTitle(app);
+        putTitle(app);
         putNotice(app);
     }, againAfterMs);
     app.on('shown', () => {

@@ -19,12 +19,12 @@ export function addEditor(app: App, drawing: Drawing, editing: TableEditing, key
     };
     const use = (act: (editor: Editor) => void): void => {
         loaded ??= load();
-        loaded.then(act).catch((error) => {
+        loaded.then(act).catch((error: unknown) => {
             loaded = null;
             app.fail(error);
         });
     };
-    const open = button('edit-colors', texts.editor.open, () => use((editor) => editor.open()));
+    const open = button('edit-colors', texts.editColors, () => use((editor) => editor.open()));
     open.setAttribute('aria-expanded', 'false');
     element('colors').closest('label')!.after(open);
     keys.add('e', () => use((editor) => (editor.isOpen ? editor.close() : editor.open())));

@@ -1,7 +1,7 @@
 // The editor of colors and opacity: presets, points, threshold, undo and redo, files. It is a program of its own, which
 // is loaded when it is first opened (edit_colors.ts); while it is closed it costs nothing.
 
-import { OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
+import { Draft, OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
 import {
     withColor,
     withColorAdded,
@@ -18,13 +18,14 @@ import { App, Shown } from '../app';
 import { button, element, labeledButton, putOptions, saveFile } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
+import { ColorTable } from '../../wire/color_tables';
 import { ExportedFile, TableEditing } from '../table_editing';
 import { tableTitle } from '../table_book';
-import { texts } from '../texts';
+import { editorTexts } from '../texts';
 import { EditorPlot, Selection } from './editor_plot';
 import { draftFrom, palOf } from './table_files';
 
-const words = texts.editor;
+const words = editorTexts;
 const otherPanels = [
     { id: 'settings', opener: 'open' },
     { id: 'layers', opener: 'layers-open' },
@@ -74,11 +75,11 @@ export class Editor {
         element('editor-preset').focus();
     }
     close(takesKeyboard = true): void {
-        if (!this.isOpen) return;
-        this.section!.hidden = true;
+        if (!this.section || this.section.hidden) return;
+        this.section.hidden = true;
         element('edit-colors').setAttribute('aria-expanded', 'false');
-        const isThere = this.opener !== null && this.opener.offsetParent !== null;
-        if (takesKeyboard) (isThere ? this.opener! : element('picture')).focus();
+        const opener = this.opener?.offsetParent ? this.opener : element('picture');
+        if (takesKeyboard) opener.focus();
         this.drawing.draw();
     }
 
@@ -128,7 +129,7 @@ export class Editor {
             button('editor-import', words.import, () => file.click()),
             file,
             button('editor-toml', words.toToml, () => this.save(this.editing.toml())),
-            button('editor-pal', words.toPal, () => this.save(palOf(this.app, this.editing.draft!))),
+            button('editor-pal', words.toPal, () => this.save(palOf(this.app, this.editing))),
             labeledButton('editor-close', '×', words.close, () => this.close()),
         );
         return tools;
@@ -188,11 +189,10 @@ export class Editor {
     // The points of opacity that would be edited.
     private opacities(): OpacityPoint[] {
         const { draft } = this.editing;
-        if (!draft) return [];
-        if (draft.opacity) return draft.opacity;
-        const table = this.app.table!;
+        const { table, book } = this.app;
+        if (!draft || !table || !book) return [];
         // A table of another moment: its opacity is not the usual one, and becomes points.
-        return draftOf({ ...table, moment: '' }, draft.moment, this.app.book!.usual).opacity ?? [];
+        return draft.opacity ?? draftOf({ ...table, moment: '' }, draft.moment, book.usual).opacity ?? [];
     }
     private valueOfSelected(): number {
         const { kind, at } = this.selected;
@@ -203,7 +203,7 @@ export class Editor {
         return this.selected.kind === 'opacity' ? (this.opacities()[this.selected.at]?.perKm ?? 0) : null;
     }
     private get least(): number {
-        return this.app.state.least ?? this.editing.draft!.barBegin;
+        return this.app.state.least ?? this.editing.draft?.barBegin ?? 0;
     }
 
     private edit(change: Parameters<TableEditing['edit']>[0], doing: string | null): void {
@@ -223,9 +223,10 @@ export class Editor {
         else this.hideBelow(value, doing);
     }
     private hideBelow(value: number, doing: string | null): void {
-        const { barBegin, end } = this.editing.draft!;
+        const { draft } = this.editing;
+        if (!draft) return;
         this.drawing.move();
-        this.editing.hideBelow(value <= barBegin ? null : Math.min(end, value), doing);
+        this.editing.hideBelow(value <= draft.barBegin ? null : Math.min(draft.end, value), doing);
     }
     private add(kind: 'color' | 'opacity', value: number, perKm: number): void {
         const opacity = this.opacities();
@@ -278,7 +279,9 @@ export class Editor {
             this.say(error instanceof Error ? error.message : String(error), true);
         }
     }
-    private save({ name, text, isWhole }: ExportedFile): void {
+    private save(file: ExportedFile | undefined): void {
+        if (!file) return;
+        const { name, text, isWhole } = file;
         saveFile(name, text);
         this.say(isWhole ? words.saved(name) : words.savedInPart(name), !isWhole);
     }
@@ -293,8 +296,8 @@ export class Editor {
         const opacity = this.opacities();
         const count = { color: draft.colors.length, opacity: opacity.length, least: 1 }[this.selected.kind];
         this.selected = { ...this.selected, at: Math.max(0, Math.min(count - 1, this.selected.at)) };
-        this.putTools();
-        this.putPoint(opacity);
+        this.putTools(draft, table);
+        this.putPoint(draft, opacity);
         const content = { draft, opacity, table, least: this.least, unit: this.unit, selected: this.selected };
         this.plot.show({ ...content, histogram: null });
         const histogram = this.histogram();
@@ -303,7 +306,7 @@ export class Editor {
 
     private histogram(): Uint32Array | null {
         const { shown } = this.app;
-        if (!shown || shown.moment !== this.app.state.moment) return null;
+        if (shown?.moment !== this.app.state.moment) return null;
         const range = this.plot.range();
         const key = `${range.join()} ${this.plot.columns}`;
         if (this.counted?.shown !== shown || this.counted.key !== key) {
@@ -314,27 +317,27 @@ export class Editor {
         return this.counted.histogram;
     }
 
-    private putTools(): void {
+    private putTools(draft: Draft, table: ColorTable): void {
         const { app, editing } = this;
         const preset = element<HTMLSelectElement>('editor-preset');
-        const names = app.book!.presets(app.state.moment).map((table) => table.name);
+        const names = (app.book?.presets(app.state.moment) ?? []).map((one) => one.name);
         if (editing.isEdited) names.unshift('');
-        putOptions(preset, names, editing.isEdited ? '' : app.table!.name, (name) =>
-            name ? tableTitle(name) : words.edited(editing.draft!.name),
+        putOptions(preset, names, editing.isEdited ? '' : table.name, (name) =>
+            name ? tableTitle(name) : words.edited(draft.name),
         );
         element<HTMLButtonElement>('editor-undo').disabled = !editing.canUndo;
         element<HTMLButtonElement>('editor-redo').disabled = !editing.canRedo;
     }
 
-    private putPoint(opacity: OpacityPoint[]): void {
+    private putPoint(draft: Draft, opacity: OpacityPoint[]): void {
         const { kind, at } = this.selected;
         const value = element<HTMLInputElement>('point-value');
         value.value = String(Number((this.valueOfSelected() * this.unit.perStored).toFixed(3)));
         const color = element<HTMLInputElement>('point-color');
-        color.parentElement!.hidden = kind !== 'color';
-        if (kind === 'color') color.value = hexOf(this.editing.draft!.colors[at]!.color).slice(0, 7);
+        color.closest('label')!.hidden = kind !== 'color';
+        if (kind === 'color') color.value = hexOf(draft.colors[at]!.color).slice(0, 7);
         const perKm = element<HTMLInputElement>('point-opacity');
-        perKm.parentElement!.hidden = kind !== 'opacity';
+        perKm.closest('label')!.hidden = kind !== 'opacity';
         if (kind === 'opacity') perKm.value = String(opacity[at]!.perKm);
         element<HTMLButtonElement>('point-remove').disabled = kind === 'least';
     }

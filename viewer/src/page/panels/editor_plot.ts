@@ -8,7 +8,7 @@ import { Draft, OpacityPoint } from '../../tables/draft';
 import { ShownUnit } from '../../tables/units';
 import { stepOf } from '../color_bar';
 import { fontOf, textScale } from '../dom';
-import { texts } from '../texts';
+import { editorTexts, texts } from '../texts';
 
 export type Kind = 'color' | 'opacity' | 'least';
 export interface Selection {
@@ -45,7 +45,7 @@ export class EditorPlot {
     private canvas = document.createElement('canvas');
     private handles: Record<Kind, HTMLElement[]> = { color: [], opacity: [], least: [] };
     private groups: Record<Kind, HTMLElement>;
-    private content: PlotContent | null = null;
+    private content!: PlotContent; // show() comes before all that reads it
     private drags = 0;
     private scale = 1; // pixels of the page in one of the plot
 
@@ -55,8 +55,8 @@ export class EditorPlot {
         this.canvas.addEventListener('pointerup', (event) => this.addAt(event));
         this.groups = {
             least: this.group(texts.threshold),
-            opacity: this.group(texts.editor.opacities),
-            color: this.group(texts.editor.colors),
+            opacity: this.group(editorTexts.opacities),
+            color: this.group(editorTexts.colors),
         };
         this.box.append(this.canvas, ...Object.values(this.groups));
     }
@@ -71,7 +71,7 @@ export class EditorPlot {
     // -- axes
 
     range(): [number, number] {
-        const { draft } = this.content!;
+        const { draft } = this.content;
         return [draft.barBegin, Math.max(draft.end, draft.colors[draft.colors.length - 1]!.value)];
     }
     get columns(): number {
@@ -128,7 +128,7 @@ export class EditorPlot {
     }
 
     private drawAxes(pen: CanvasRenderingContext2D): void {
-        const { unit } = this.content!;
+        const { unit } = this.content;
         pen.textBaseline = 'middle';
         pen.textAlign = 'right';
         for (const perKm of [0.001, 0.01, 0.1, 1, 10]) {
@@ -138,7 +138,7 @@ export class EditorPlot {
             pen.fillStyle = shades.quietText;
             pen.fillText(String(perKm).replace(/^0/, ''), left - 4, y);
         }
-        pen.fillText(texts.editor.perKm, left - 4, 7);
+        pen.fillText(editorTexts.perKm, left - 4, 7);
         const [low, high] = this.range().map((value) => value * unit.perStored) as [number, number];
         const step = stepOf(high - low);
         pen.textAlign = 'center';
@@ -153,7 +153,7 @@ export class EditorPlot {
     }
 
     private drawHistogram(pen: CanvasRenderingContext2D): void {
-        const { histogram } = this.content!;
+        const { histogram } = this.content;
         if (!histogram) return;
         const most = Math.log1p(Math.max(1, ...histogram));
         const width = (this.width - left - right) / histogram.length;
@@ -165,11 +165,11 @@ export class EditorPlot {
     }
 
     private isHidden(value: number): boolean {
-        return value < this.content!.least;
+        return value < this.content.least;
     }
 
     private drawOpacity(pen: CanvasRenderingContext2D): void {
-        const { table } = this.content!;
+        const { table } = this.content;
         const [from, to] = [left, this.width - right];
         const yAt = (x: number) => this.yOf(1000 * extinctionPerM(table, this.valueOf(x), 1));
         const column = 1 / this.scale;
@@ -187,7 +187,7 @@ export class EditorPlot {
     }
 
     private drawStrip(pen: CanvasRenderingContext2D): void {
-        const { table } = this.content!;
+        const { table } = this.content;
         const column = 1 / this.scale;
         for (let x = left; x < this.width - right; x += column) {
             const color = colorOf(table, this.valueOf(x + 0.5 * column));
@@ -206,7 +206,7 @@ export class EditorPlot {
         const handles = this.handles[kind];
         while (handles.length > count) handles.pop()!.remove();
         while (handles.length < count) handles.push(this.makeHandle(kind, handles.length));
-        const { selected } = this.content!;
+        const { selected } = this.content;
         const current = selected.kind === kind ? Math.min(count - 1, selected.at) : 0;
         handles.forEach((handle, i) => {
             handle.tabIndex = i === current ? 0 : -1;
@@ -216,7 +216,7 @@ export class EditorPlot {
     }
 
     private placeHandle(handle: HTMLElement, kind: Kind, i: number): void {
-        const { draft, opacity, least, unit } = this.content!;
+        const { draft, opacity, least, unit } = this.content;
         const value = kind === 'color' ? draft.colors[i]!.value : kind === 'opacity' ? opacity[i]!.value : least;
         const color = kind === 'color' ? draft.colors[i]!.color : null;
         const perKm = kind === 'opacity' ? opacity[i]!.perKm : null;
@@ -232,9 +232,9 @@ export class EditorPlot {
         handle.setAttribute('aria-valuenow', String(value));
         handle.setAttribute(
             'aria-valuetext',
-            perKm !== null ? texts.editor.opacityIs(shown, perKm) : color ? texts.editor.colorIs(shown, color) : shown,
+            perKm !== null ? editorTexts.opacityIs(shown, perKm) : color ? editorTexts.colorIs(shown, color) : shown,
         );
-        handle.setAttribute('aria-label', kind === 'least' ? texts.threshold : texts.editor.point(kind, i + 1));
+        handle.setAttribute('aria-label', kind === 'least' ? texts.threshold : editorTexts.point(kind, i + 1));
     }
 
     focus({ kind, at }: Selection): void {
@@ -280,7 +280,7 @@ export class EditorPlot {
     }
 
     private addAt(event: PointerEvent): void {
-        if (!this.content || event.button !== 0) return;
+        if (event.button !== 0) return;
         const box = this.box.getBoundingClientRect();
         const isColor = (event.clientY - box.top) / this.scale > this.bottom;
         this.actions.add(isColor ? 'color' : 'opacity', ...this.at(event));
@@ -288,7 +288,7 @@ export class EditorPlot {
 
     private press(event: KeyboardEvent, selection: Selection): void {
         const { kind, at } = selection;
-        const { draft, opacity, least } = this.content!;
+        const { draft, opacity, least } = this.content;
         const [low, high] = this.range();
         const step = ((high - low) / 200) * (event.shiftKey ? 10 : 1);
         const value = kind === 'color' ? draft.colors[at]!.value : kind === 'opacity' ? opacity[at]!.value : least;
@@ -320,7 +320,7 @@ export class EditorPlot {
 
     // Half way from a point to the next one, or before the last one.
     middleAfter(kind: 'color' | 'opacity', at: number): number {
-        const points: { value: number }[] = kind === 'color' ? this.content!.draft.colors : this.content!.opacity;
+        const points: { value: number }[] = kind === 'color' ? this.content.draft.colors : this.content.opacity;
         const first = Math.max(0, Math.min(at, points.length - 2));
         const [here, next] = [points[first]!, points[first + 1]];
         return next ? (here.value + next.value) / 2 : here.value + (this.range()[1] - here.value) / 2;

@@ -80,7 +80,7 @@ export class Hover {
         const { units } = app.state;
         const words = texts.hover;
         const { layer, state, value, heightM, gate } = picked;
-        const way = nearestTo(app.shown!.loaded.grid.sites, picked.place);
+        const way = nearestTo(app.shown?.loaded.grid.sites ?? [], picked.place);
         const from = way
             ? [words.from(distanceText(way.way.distanceM, units), (way.way.azimuth * 180) / Math.PI, way.site.icao)]
             : [];
@@ -126,9 +126,8 @@ export class Hover {
     // If the grid does not name its sweeps, maybe no beam had this elevation, so tells only the way `from` the site.
     private beamLines(picked: Picked, from: string[]): string[] {
         const { units } = this.app.state;
-        const { grid } = this.app.shown!.loaded;
         const { known } = this.facts;
-        const beam = beamReading(grid.sites, known, picked.place, picked.heightM);
+        const beam = beamReading(this.app.shown?.loaded.grid.sites ?? [], known, picked.place, picked.heightM);
         if (!beam) return [];
         const told = (sweepDeg: number) =>
             texts.hover.beam(
@@ -143,8 +142,7 @@ export class Hover {
         if (site) lines.push(texts.start.ofVolumes(site.volumes.map((one) => one.middle_s)));
         else if (beam.timeMs !== null) lines.push(this.when(beam.timeMs));
         if (beam.rms !== null) {
-            const unit = known!.audit!.unit;
-            const { perStored, symbol } = shownUnit(unit, units);
+            const { perStored, symbol } = shownUnit(known?.audit?.unit ?? '', units);
             lines.push(texts.hover.error(`${(beam.rms * perStored).toFixed(1)} ${symbol}`));
         }
         return lines;

@@ -64,10 +64,10 @@ export class LayersPanel {
         this.addLayers();
         this.addKeys(keys);
         addMarks(this.app, this.drawing);
-        new SectionPlot(this.app, this.drawing.windows!);
+        new SectionPlot(this.app, this.drawing.windows);
         for (const happening of ['view', 'shown', 'choices', 'units'] as const)
             this.app.on(happening, () => this.put());
-        this.drawing.layers!.layerCame = () => this.put();
+        this.drawing.layers.layerCame = () => this.put();
     }
 
     private open(isOpen: boolean): void {
@@ -133,9 +133,10 @@ export class LayersPanel {
 
     private surfaceParts(): HTMLElement[] {
         const value = input('surface-value', 'range');
-        value.addEventListener('input', () =>
-            this.slide({ surface: { ...this.layers.surface!, value: Number(value.value) } }),
-        );
+        value.addEventListener('input', () => {
+            const { surface } = this.layers;
+            if (surface) this.slide({ surface: { ...surface, value: Number(value.value) } });
+        });
         const told = document.createElement('output');
         told.id = 'surface-told';
         const of = document.createElement('select');
@@ -245,12 +246,13 @@ export class LayersPanel {
     private lookAtSection(): void {
         const { section } = this.layers;
         const { shown, state } = this.app;
-        if (!section || !shown) return;
+        const whole = wholeBox(this.app);
+        if (!section || !shown || !whole) return;
         const plane = planeOf(shown.loaded.grid);
         const [a, b] = section.map((place) => plane.toPlane(place));
         if (!a || !b) return;
         const azimuthDeg = ((Math.atan2(b[0] - a[0], b[1] - a[1]) * 180) / Math.PI + 90 + 360) % 360;
-        const heightM = 0.4 * wholeBox(this.app)!.topM;
+        const heightM = 0.4 * whole.topM;
         this.app.moved({
             ...state.camera,
             azimuthDeg,
@@ -275,7 +277,7 @@ export class LayersPanel {
     }
     // Pictures take one cut of an elevation in every volume. Names a cut by its number only if it is another one.
     private chooseCut(number: number): void {
-        const row = this.drawing.layers!.sweepRows()?.find((one) => one.sweep === number);
+        const row = this.drawing.layers.sweepRows()?.find((one) => one.sweep === number);
         if (!row) return;
         this.set({
             sweepDeg: Number(row.elevation_deg.toFixed(2)),
@@ -292,7 +294,8 @@ export class LayersPanel {
     }
     // Moves a side of the box, but not past the one opposite.
     private slideCrop(side: keyof Crop, value: number): void {
-        const crop = { ...this.layers.crop!, [side]: value };
+        if (!this.layers.crop) return;
+        const crop = { ...this.layers.crop, [side]: value };
         for (const [low, high] of [
             ['westM', 'eastM'],
             ['southM', 'northM'],
@@ -331,7 +334,7 @@ export class LayersPanel {
             const more = this.parts.get(name);
             if (more) more.hidden = !on;
         }
-        const told = this.drawing.layers!.told();
+        const told = this.drawing.layers.told();
         this.told.textContent = told.join(' · ');
         this.told.hidden = told.length === 0;
         const box = wholeBox(this.app);
@@ -366,14 +369,15 @@ export class LayersPanel {
         slider.max = String(table?.end ?? value);
         slider.step = String(((table?.end ?? 1) - (table?.bar_begin ?? 0)) / 200);
         slider.value = String(value);
-        slider.previousElementSibling!.textContent = isBelow(moment, value) ? words.enclosesBelow : words.encloses;
+        const name = slider.closest('label')!.querySelector('span')!;
+        name.textContent = isBelow(moment, value) ? words.enclosesBelow : words.encloses;
         const text = valueText(value, table?.unit ?? '', this.app.state.units);
         slider.setAttribute('aria-valuetext', text);
         element('surface-told').textContent = text;
     }
 
     private putSweep(elevationDeg: number): void {
-        const layers = this.drawing.layers!;
+        const { layers } = this.drawing;
         const rows = layers.sweepRows() ?? [];
         const cuts = cutsOf(rows, this.app.shown?.moment ?? '');
         const select = element<HTMLSelectElement>('sweep-elevation');

@@ -4,7 +4,7 @@ import { colorOf } from '../../tables/color_table';
 import { heightText, shownUnit } from '../../tables/units';
 import { App } from '../app';
 import { fontOf, textScale } from '../dom';
-import { ColumnReading } from '../reading';
+import { ColumnReading, LevelReading } from '../reading';
 import { shades } from '../../renderer/shades';
 import { texts } from '../texts';
 
@@ -32,21 +32,17 @@ export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement
         height - bottom - ((heightM - lowM) / Math.max(1, highM - lowM)) * (height - bottom - 8);
     // A level is gray if no beam saw it, purple if range folded, else dark; a value is a bar in its color.
     for (let i = 0; i < levels.length; ++i) {
-        const [below, above] = [levels[i - 1] ?? levels[i]!, levels[i + 1] ?? levels[i]!].map((one) =>
-            y((one.heightM + levels[i]!.heightM) / 2),
-        );
+        const { heightM, code, value } = levels[i]!;
+        const middle = (other: LevelReading | undefined) => y(((other?.heightM ?? heightM) + heightM) / 2);
+        const above = middle(levels[i + 1]);
+        const tall = middle(levels[i - 1]) - above;
         pen.fillStyle =
-            levels[i]!.code === 0
-                ? 'rgba(78, 82, 92, 0.55)'
-                : levels[i]!.code === 2
-                  ? 'rgba(124, 74, 140, 0.6)'
-                  : 'rgba(40, 44, 50, 0.9)';
-        pen.fillRect(left, above!, width - left - 8, below! - above!);
-        const { value } = levels[i]!;
+            code === 0 ? 'rgba(78, 82, 92, 0.55)' : code === 2 ? 'rgba(124, 74, 140, 0.6)' : 'rgba(40, 44, 50, 0.9)';
+        pen.fillRect(left, above, width - left - 8, tall);
         const color = value === null ? null : colorOf(table, value);
-        if (!color) continue;
+        if (value === null || !color) continue;
         pen.fillStyle = `rgb(${color.slice(0, 3).join(',')})`;
-        pen.fillRect(left, above! + 0.4, x(value!) - left, below! - above! - 0.8);
+        pen.fillRect(left, above + 0.4, x(value) - left, tall - 0.8);
     }
     pen.font = fontOf(10);
     pen.fillStyle = shades.quietText;

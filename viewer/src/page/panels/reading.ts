@@ -21,26 +21,27 @@ const mostRows = 10;
 const markColor = '#ffffff';
 const mostDigits = 6; // of a value: all that its code has
 
-function summaryOf({ levels, greatest, seenFromM }: ColumnReading, unit: string, units: Units): string {
+function summaryOf({ levels, greatest, seenM }: ColumnReading, unit: string, units: Units): string {
     if (!greatest && levels.some((level) => level.code === CellState.rangeFolded)) return texts.rangeFolded;
     if (greatest)
         return texts.greatestAt(
-            valueText(greatest.value!, unit, units, mostDigits),
+            valueText(greatest.value, unit, units, mostDigits),
             heightText(greatest.heightM, units),
         );
-    return seenFromM === null ? texts.notSeen : texts.noEcho;
+    return seenM === null ? texts.notSeen : texts.noEcho;
 }
 
 function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
     const { unit } = app;
     const { units } = app.state;
     body.append(paragraph(summaryOf(reading, unit, units)));
-    if (reading.seenFromM !== null) {
+    if (reading.seenM) {
+        const [fromM, toM] = reading.seenM;
         body.append(
-            paragraph(texts.seenBetween(heightNumber(reading.seenFromM, units), heightText(reading.seenToM!, units))),
+            paragraph(texts.seenBetween(heightNumber(fromM, units), heightText(toM, units))),
+            profilePlot(app, reading),
         );
     }
-    if (reading.seenFromM !== null) body.append(profilePlot(app, reading));
     const table = document.createElement('table');
     const told = reading.levels.filter((level) => level.value !== null || level.code === 2);
     const every = Math.ceil(told.length / mostRows);
@@ -112,7 +113,7 @@ export class Reader implements Tool {
             geometry.project([at[0], at[1], heightM * geometry.exaggeration])?.map((one) => one / ratio) as
                 [number, number] | undefined;
         const foot = pixelAt(geometry.groundM);
-        const head = picked && picked.of === this.app.shown ? pixelAt(picked.what.heightM) : foot;
+        const head = picked?.of === this.app.shown ? pixelAt(picked.what.heightM) : foot;
         if (!foot || !head) return;
         const scale = textScale();
         for (const [color, width] of [
@@ -176,7 +177,7 @@ export class Reader implements Tool {
                     putColumn(body, this.app, readColumn(exact, ...column));
                     this.drawing.drawMarks();
                 })
-                .catch((error) => this.app.fail(error));
+                .catch((error: unknown) => this.app.fail(error));
         }
         box.replaceChildren(this.close, title, body);
         this.drawing.drawMarks();

@@ -93,7 +93,7 @@ export class SectionPlot {
         const hasBeenHidden = this.box.hidden;
         const cells = shown && ends && this.windows.along(shown.loaded, ends);
         this.box.hidden = !cells || !table;
-        if (!cells || !table || !ends || !shown) {
+        if (!cells || !table) {
             this.drawn = [];
             return;
         }
@@ -116,7 +116,8 @@ export class SectionPlot {
 
     private draw(): void {
         const { section } = this;
-        if (!section) return;
+        const { shownTable: table, state } = this.app;
+        if (!section || !table) return;
         const ratio = (window.devicePixelRatio || 1) * textScale();
         const [width, height] = this.size;
         this.canvas.width = Math.round((left + width + right) * ratio);
@@ -124,7 +125,7 @@ export class SectionPlot {
         const pen = this.canvas.getContext('2d')!;
         const { field } = section;
         const image = new ImageData(field.width, field.height);
-        image.data.set(sectionPixels(section, this.app.shownTable!, this.app.state.least));
+        image.data.set(sectionPixels(section, table, state.least));
         pen.putImageData(image, Math.round(left * ratio), Math.round(top * ratio));
         pen.scale(ratio, ratio);
         this.drawAxes(pen, section, width, height);

@@ -15,7 +15,7 @@ import { texts } from '../texts';
 
 // Browsers give no clipboard to pages that came over plain HTTP from another machine.
 function copy(app: App, text: string, said: string, ...notes: string[]): void {
-    const clipboard: Clipboard | undefined = navigator.clipboard;
+    const { clipboard } = navigator as Partial<Navigator>;
     (clipboard ? clipboard.writeText(text) : Promise.reject(new Error('no clipboard'))).then(
         () => app.say([said, ...notes].join(' ')),
         () => window.prompt([texts.copyByHand, ...notes].join(' '), text),
@@ -27,7 +27,8 @@ function save(app: App, drawing: Drawing): void {
     app.say(texts.saving);
     drawing.whenFine(
         () => {
-            const { domain, moment, time } = app.shown!;
+            if (!app.shown) return;
+            const { domain, moment, time } = app.shown;
             const link = document.createElement('a');
             link.download = `${domain}_${moment}_${time.replace(/:/g, '')}.png`;
             link.href = snapshotOf(drawing.picture, drawing.labels, moment).toDataURL('image/png');
@@ -86,7 +87,7 @@ function whyNoCommand(app: App, drawing: Drawing): string {
     if (drawing.drawn?.hasFolded && drawing.drawn.air?.hasFolded) return words.veil;
     const size = drawing.geometry();
     if (isBeyondLimits(state, size?.width ?? 0, size?.height ?? 0)) return words.limits;
-    return state.layers.sweepDeg !== null && !drawing.layers?.shownCut() ? words.noSweep : '';
+    return state.layers.sweepDeg !== null && !drawing.layers.shownCut() ? words.noSweep : '';
 }
 
 // Copies the command that draws what is shown: at its time even if the page follows the newest, and as large as
@@ -94,10 +95,10 @@ function whyNoCommand(app: App, drawing: Drawing): string {
 function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile: RawFile): void {
     const why = whyNoCommand(app, drawing);
     const size = drawing.geometry();
-    if (why || !size) return app.say(why);
-    const { domain, moment, time } = app.shown!;
+    if (why || !size || !app.shown) return app.say(why);
+    const { domain, moment, time } = app.shown;
     // The cut that is drawn, whichever rule has chosen it.
-    const layers = { ...app.state.layers, sweepNumber: drawing.layers!.shownCut()?.sweep ?? null };
+    const layers = { ...app.state.layers, sweepNumber: drawing.layers.shownCut()?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
     const raw = rawFile.known;
     const notes = [raw ? texts.commandReads(raw) : texts.commandReadsCache];
@@ -112,6 +113,7 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile:
         );
     if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '');
     const file = editing.tomlForCommand();
+    if (!file) return;
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
     savedFiles.add(file.name);
     give(file.name, texts.commandColors(file.name));

@@ -5,19 +5,19 @@ import { readPal, writePal } from '../../tables/pal_file';
 import { TableError, mostFileBytes, tableOfFile } from '../../tables/table_file';
 import { readToml } from '../../tables/toml_file';
 import { App } from '../app';
-import { ExportedFile } from '../table_editing';
-import { texts } from '../texts';
+import { ExportedFile, TableEditing } from '../table_editing';
+import { editorTexts } from '../texts';
 
 // The draft of a file, and what is to be said of it. Errors: a TableError.
 export function draftFrom({ state, book }: App, text: string, fileName: string): { draft: Draft; said: string } {
     const ending = /\.(pal|toml)$/i.exec(fileName)?.[1]?.toLowerCase();
-    if (!ending || !book) throw new TableError(texts.editor.otherEnding(fileName));
-    if (text.length > mostFileBytes) throw new TableError(texts.editor.tooLarge(fileName));
+    if (!ending || !book) throw new TableError(editorTexts.otherEnding(fileName));
+    if (text.length > mostFileBytes) throw new TableError(editorTexts.tooLarge(fileName));
     const table =
         ending === 'pal' ? readPal(text, fileName, book.usual) : tableOfFile(readToml(text, fileName), book.usual);
     const moment = table.moment || state.moment;
     const unit = book.preset(moment, '')?.unit ?? table.unit;
-    if (table.unit && table.unit !== unit) throw new TableError(texts.editor.otherUnit(fileName, table.unit, unit));
+    if (table.unit && table.unit !== unit) throw new TableError(editorTexts.otherUnit(fileName, table.unit, unit));
     const draft = {
         ...draftOf({ ...table, name: table.name || fileName.replace(/\.[^.]*$/, '') }, moment, book.usual),
         unit,
@@ -26,13 +26,14 @@ export function draftFrom({ state, book }: App, text: string, fileName: string):
         draft,
         said:
             moment === state.moment
-                ? texts.editor.taken(fileName, draft.colors.length)
-                : texts.editor.otherMoment(fileName, moment),
+                ? editorTexts.taken(fileName, draft.colors.length)
+                : editorTexts.otherMoment(fileName, moment),
     };
 }
 
 // The table as it is shown, as far as a .pal can say it; what is hidden is not in it.
-export function palOf({ state, book }: App, draft: Draft): ExportedFile {
-    const { table, isWhole } = tableForPal(draft, book!.usual, state.least);
+export function palOf({ state, book }: App, { draft }: TableEditing): ExportedFile | undefined {
+    if (!draft || !book) return undefined;
+    const { table, isWhole } = tableForPal(draft, book.usual, state.least);
     return { name: `${draft.name}.pal`, text: writePal(table), isWhole };
 }

@@ -59,13 +59,13 @@ function addPlaying(app: App): void {
         seconds === 0 ? texts.betweenOff : texts.betweenEvery(seconds),
     ]);
     element('playing').append(
-        select('speed', texts.speed, rates, app.framesASecond, (rate) => (app.framesASecond = rate)),
-        select('between', texts.between, everys, betweenS, (seconds) => void app.setBetween(seconds)),
+        select('speed', texts.speed, rates, app.playback.framesASecond, (rate) => (app.playback.framesASecond = rate)),
+        select('between', texts.between, everys, betweenS, (seconds) => void app.playback.setBetween(seconds)),
     );
     element('loops').append(
-        button('loop-from', texts.loopFrom, () => app.setLoop('from')),
-        button('loop-to', texts.loopTo, () => app.setLoop('to')),
-        button('loop-all', texts.loopAll, () => app.setLoop(null)),
+        button('loop-from', texts.loopFrom, () => app.playback.setLoop('from')),
+        button('loop-to', texts.loopTo, () => app.playback.setLoop('to')),
+        button('loop-all', texts.loopAll, () => app.playback.setLoop(null)),
     );
 }
 
@@ -77,14 +77,16 @@ export function addTimeline(app: App, keys: Keys): void {
     ] as const) {
         element(id).textContent = sign;
         element(id).setAttribute('aria-label', text);
-        element(id).addEventListener('click', () => app.step(by));
+        element(id).addEventListener('click', () => app.playback.step(by));
     }
     element('times').setAttribute('aria-label', texts.time);
-    element('times').addEventListener('input', (event) => app.goTo(Number((event.target as HTMLInputElement).value)));
-    element('play').addEventListener('click', () => app.play());
-    element('follow').addEventListener('click', () => app.follow());
+    element('times').addEventListener('input', (event) =>
+        app.playback.goTo(Number((event.target as HTMLInputElement).value)),
+    );
+    element('play').addEventListener('click', () => app.playback.play());
+    element('follow').addEventListener('click', () => app.playback.follow());
     addPlaying(app);
-    keys.add('<', () => app.setLoop('from'));
-    keys.add('>', () => app.setLoop('to'));
+    keys.add('<', () => app.playback.setLoop('from'));
+    keys.add('>', () => app.playback.setLoop('to'));
     app.on('time', () => putTimes(app));
 }

@@ -20,7 +20,10 @@ interface RawFile {
 // The files of volumes that began at these times, as far as they are there.
 async function filesOf(volumes: { station: string; time: string }[]): Promise<RawFile[]> {
     const found = await Promise.all(volumes.map(({ station, time }) => rawAt(station, time)));
-    return volumes.flatMap(({ station }, i) => (found[i] ? [{ station, name: found[i]!.raw! }] : []));
+    return volumes.flatMap(({ station }, i) => {
+        const name = found[i]?.raw;
+        return name ? [{ station, name }] : [];
+    });
 }
 
 export class ToolsPanel {
@@ -106,7 +109,7 @@ export class ToolsPanel {
             const name = (await rawBefore(shown.domain, shown.time))?.raw;
             return name ? [{ station: shown.domain, name }] : [];
         }
-        const facts = await this.facts.ask().catch((error) => this.app.fail(error));
+        const facts = await this.facts.ask().catch((error: unknown) => this.app.fail(error));
         if (!facts) return null;
         const { source_files, stations } = facts.provenance;
         const [own] = stations.length === 1 ? await filesOf([{ station: stations[0]!, time: shown.time }]) : [];
@@ -120,7 +123,11 @@ export class ToolsPanel {
     // Offers a link to each raw volume that the grid was made of; the download of a single one begins at once.
     private async download(): Promise<void> {
         const loaded = this.app.shown?.loaded ?? null;
-        const files = await this.rawFiles().catch((error) => (isAbsent(error) ? [] : (this.app.fail(error), null)));
+        const files = await this.rawFiles().catch((error: unknown) => {
+            if (isAbsent(error)) return [];
+            this.app.fail(error);
+            return null;
+        });
         if (!files || loaded !== this.app.shown?.loaded) return this.tell('');
         this.toldOf = loaded;
         const links = files.map(({ station, name }) => {

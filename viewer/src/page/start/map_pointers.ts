@@ -85,8 +85,10 @@ export class MapPointers {
     private up(event: PointerEvent): void {
         if (!this.pointers.delete(event.pointerId)) return;
         const isClick = event.type === 'pointerup' && this.travelled < farthestClick;
-        if (this.isBox && !isClick) void (event.type === 'pointerup' ? this.map.openBox() : this.map.dropBox());
-        else if (isClick) void this.map.open(this.map.at(event.offsetX, event.offsetY));
+        if (this.isBox && !isClick) {
+            if (event.type === 'pointerup') void this.map.openBox();
+            else this.map.dropBox();
+        } else if (isClick) void this.map.open(this.map.at(event.offsetX, event.offsetY));
         this.isBox = false;
     }
 }

@@ -18,6 +18,13 @@ export interface SeenDomain {
     outline: Outline | null; // its border; of a station, a circle
 }
 
+// A domain whose newest grid is known.
+export interface PicturedDomain extends SeenDomain {
+    facts: GridFacts;
+    outline: Outline;
+}
+const isPictured = (seen: SeenDomain | null): seen is PicturedDomain => Boolean(seen?.facts && seen.outline);
+
 export class StartData {
     unpictured = 0; // stations of the view whose echo is not drawn, because there are too many
     lacks = false; // what some domain of the picture is has not come yet
@@ -62,10 +69,10 @@ export class StartData {
               )
             : null;
         const places = facts && (isStation ? circleOf(facts) : outlineOf(facts));
-        if (facts && isStation)
+        if (places && isStation)
             this.reachM = Math.max(
                 this.reachM,
-                geodesic({ latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] }, places![0]!).distanceM,
+                geodesic({ latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] }, places[0]!).distanceM,
             );
         const seen: SeenDomain = { domain, facts, outline: places && { domain: domain.domain, places } };
         this.seen.set(domain.domain, seen);
@@ -100,7 +107,7 @@ export class StartData {
         domains: Domain[],
         visible: StationPlace[],
         isWithin: (outline: Outline, station: StationPlace) => boolean,
-    ): SeenDomain[] {
+    ): PicturedDomain[] {
         // A clock that is wrong makes nothing old.
         const newestMs = (outline: Outline) =>
             Math.max(
@@ -109,13 +116,15 @@ export class StartData {
                     .map((one) => Date.parse(one.newestGrid ?? '') || 0),
                 0,
             );
-        const mosaics = this.mosaics.filter(
-            ({ domain, outline }) =>
-                outline && Date.parse(StartData.pictureTime(domain) ?? '') >= newestMs(outline) - mostBehindMs,
-        );
+        const mosaics = this.mosaics
+            .filter(isPictured)
+            .filter(
+                ({ domain, outline }) =>
+                    Date.parse(StartData.pictureTime(domain) ?? '') >= newestMs(outline) - mostBehindMs,
+            );
         const isShown = (one: StationPlace) =>
             mosaics.some(
-                ({ facts, outline }) => facts!.provenance.stations.includes(one.icao) && isWithin(outline!, one),
+                ({ facts, outline }) => facts.provenance.stations.includes(one.icao) && isWithin(outline, one),
             );
         const own = visible.flatMap((station) => {
             const domain = domains.find((one) => one.domain === station.icao);
@@ -128,9 +137,7 @@ export class StartData {
             .slice(0, mostPicturedStations)
             .sort((a, b) => b.ageS - a.ageS)
             .map(({ domain }) => domain);
-        const stationsSeen = this.drawn
-            .map((domain) => this.find(domain))
-            .filter((seen): seen is SeenDomain => seen !== null && seen.facts !== null);
+        const stationsSeen = this.drawn.map((domain) => this.find(domain)).filter(isPictured);
         this.lacks = stationsSeen.length < this.drawn.length || this.mosaics.some(({ facts }) => !facts);
         return [...stationsSeen, ...mosaics];
     }

@@ -106,11 +106,11 @@ export class StartMap {
 
     private takeData(): void {
         if (this.page.hidden) return;
-        if (!this.view && this.fit()) {
-            const { width, height } = this.view!;
-            this.base.begin(boxBetween(this.view!, [0, 0], [width, height])).then(
+        const view = this.view ? null : this.fit();
+        if (view) {
+            this.base.begin(boxBetween(view, [0, 0], [view.width, view.height])).then(
                 () => this.putList(),
-                (error) => this.say(texts.failed(String(error))),
+                (error: unknown) => this.say(texts.failed(String(error))),
             );
         }
         this.putList();
@@ -119,14 +119,16 @@ export class StartMap {
     }
 
     // All that there is, or the most of it: a few stations on other continents do not shrink the rest.
-    private fit(): boolean {
+    private fit(): MapView | null {
         const { stations, mosaics } = this.data;
-        const middle = [...stations].sort((a, b) => a.longitudeDeg - b.longitudeDeg)[Math.floor(stations.length / 2)];
-        const near = stations.filter((one) => Math.abs(one.longitudeDeg - middle!.longitudeDeg) < 65);
+        const middleDeg = stations.map((one) => one.longitudeDeg).sort((a, b) => a - b)[
+            Math.floor(stations.length / 2)
+        ];
+        const near = stations.filter((one) => Math.abs(one.longitudeDeg - (middleDeg ?? 0)) < 65);
         const main = near.length >= 0.8 * stations.length ? near : stations;
         const points = [...main, ...mosaics.flatMap(({ outline }) => outline?.places ?? [])].map(mapPoint);
         const { clientWidth: width, clientHeight: height } = this.canvas;
-        if (width === 0 || points.length === 0) return false;
+        if (width === 0 || points.length === 0) return null;
         const list = element('places').getBoundingClientRect();
         const isBeside = list.height > height / 2;
         const clear: [number, number, number, number] = [
@@ -137,7 +139,7 @@ export class StartMap {
         ];
         this.view = fittedMap(points, width, height, clear, mostScaleAtFirst);
         this.draw();
-        return true;
+        return this.view;
     }
 
     private resize(): void {
@@ -195,9 +197,9 @@ export class StartMap {
             pictures: data.pictures(app.domains, visible, isWithin).map(({ domain, facts, outline }) => ({
                 domain: domain.domain,
                 time: StartData.pictureTime(domain)!,
-                id: facts!.id,
-                outline: outline!,
-                within: boundsOf(pixelsOf(view, outline!)),
+                id: facts.id,
+                outline,
+                within: boundsOf(pixelsOf(view, outline)),
             })),
             outlines: mosaics,
             stations: data.stations,
@@ -253,13 +255,13 @@ export class StartMap {
     private tellChosen(): void {
         const station = this.data.stations.find((one) => one.icao === this.chosen);
         const domain = this.app.domains.find((one) => one.domain === this.chosen);
-        if (!station && !domain) return this.say('');
+        if (this.chosen === null || (!station && !domain)) return this.say('');
         const seen =
             domain && (this.data.mosaics.find((one) => one.domain.domain === this.chosen) ?? this.data.find(domain));
         const age = station ? station.ageS : (domain?.moments[0]?.age_s ?? null);
         const moments = domain?.moments.map((one) => one.moment) ?? [];
         const strongest = moments.includes('REF') ? (seen?.facts?.greatest ?? null) : null;
-        this.say(texts.start.card(this.chosen!, station?.name ?? '', age, moments, strongest));
+        this.say(texts.start.card(this.chosen, station?.name ?? '', age, moments, strongest));
     }
     private say(text: string): void {
         this.said = text;
@@ -372,11 +374,10 @@ export class StartMap {
                 : pixelToward(pixels, pixels[now]!, way);
         if (next < 0) return;
         this.choose(data.stations[next]!.icao);
-        this.bringIn(pixels[next]!);
+        this.bringIn(view, pixels[next]!);
         if (this.anchor) this.boxToChosen();
     }
-    private bringIn([x, y]: Pixel): void {
-        const { width, height } = this.view!;
+    private bringIn({ width, height }: MapView, [x, y]: Pixel): void {
         const left =
             element('places').getBoundingClientRect().right < width / 2
                 ? element('places').getBoundingClientRect().right
@@ -396,9 +397,10 @@ export class StartMap {
         else this.toggleBoxes();
     }
     private boxToChosen(): void {
+        const { view, data } = this;
         const pixels = [this.anchor, this.chosen].map((icao) => {
-            const station = this.data.stations.find((one) => one.icao === icao);
-            return station && pixelOf(this.view!, mapPoint(station));
+            const station = data.stations.find((one) => one.icao === icao);
+            return view && station && pixelOf(view, mapPoint(station));
         });
         const [a, b] = pixels;
         if (!a || !b) return;

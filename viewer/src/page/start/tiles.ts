@@ -49,7 +49,7 @@ export class Tiles {
         const before = this.drawn.get(picture.domain) ?? [];
         if (before[0]?.id !== picture.id) this.drawn.set(picture.domain, [picture, ...before.slice(0, 1)]);
         const own = this.find(Tiles.key(picture, tile));
-        if (own) return void pen.drawImage(own, tile.x, tile.y, tile.side, tile.side);
+        if (own) return pen.drawImage(own, tile.x, tile.y, tile.side, tile.side);
         this.lacks = true;
         for (let up = 0; up <= Math.min(mostUp, tile.zoom); ++up) {
             const [column, row] = [tile.column >> up, tile.row >> up];

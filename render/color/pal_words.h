@@ -1,0 +1,58 @@
+// render/color/pal_words.h -- what the names of products and units in .pal files mean.
+//
+// The page of the viewer has the same tables from here (tests/repository/viewer_facts_test.cpp).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "stormcellar/level2/moment.h"
+
+namespace stormcellar::render {
+
+// The moment or unit of the values that the name of a product stands for. Names of moments are
+// known, too, and stand for themselves.
+struct PalProduct {
+    std::string_view word = {};
+    std::optional<level2::Moment> moment = std::nullopt;
+    std::string_view unit = {};
+};
+inline constexpr auto pal_products = std::to_array<PalProduct>({
+    {"BR", level2::Moment::ref},
+    {"CR", level2::Moment::ref},
+    {"BV", level2::Moment::vel},
+    {"SRV", level2::Moment::vel},
+    {"CC", level2::Moment::rho},
+    {"ET", {}, "km"},
+    {"EET", {}, "km"},
+    {"VIL", {}, "kg/m2"},
+    {"DVL", {}, "kg/m2"},
+});
+
+// A unit of files, and how many of it make one of ours.
+struct PalUnit {
+    std::string_view word = {};
+    double per_ours = 1;
+    std::string_view ours = {};
+};
+inline constexpr auto pal_units = std::to_array<PalUnit>({
+    {"KT", 1.943844, "m/s"},
+    {"KTS", 1.943844, "m/s"},
+    {"KNOTS", 1.943844, "m/s"},
+    {"MPH", 2.236936, "m/s"},
+    {"KMH", 3.6, "m/s"},
+    {"KM/H", 3.6, "m/s"},
+    {"M/S", 1, "m/s"},
+    {"MPS", 1, "m/s"},
+    {"KFT", 3.280840, "km"},
+    {"FT", 3280.840, "km"},
+    {"KM", 1, "km"},
+    {"M", 1000, "km"},
+    {"DBZ", 1, "dBZ"},
+    {"DB", 1, "dB"},
+    {"KG/M2", 1, "kg/m2"},
+    {"%", 100, ""},
+});
+
+}  // namespace stormcellar::render

@@ -1,0 +1,100 @@
+// Gives each check of the viewer a data server with the volumes of its project, and a page that nothing fails on.
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { basename, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { test as base, expect } from '@playwright/test';
+
+import { startServer } from './server.mjs';
+import { Slicer, mostDifference } from './slicer.mjs';
+import { ViewerPage, gridsOf } from './viewer_page.mjs';
+
+export { expect };
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const build = resolve(root, process.env.STORMCELLAR_BUILD || 'build/release');
+export const program = join(build, 'cli/stormcellar');
+export const daemon = join(build, 'daemon/stormcellard');
+
+// Simulates a volume, and returns its path.
+export function simulate(directory, scene = join(root, 'scenes/small-storm.toml')) {
+  execFileSync(program, ['synth', scene, '-o', directory], { stdio: 'ignore' });
+  const files = readdirSync(directory, { recursive: true, withFileTypes: true }).filter((one) => one.isFile());
+  return files.map((one) => join(one.parentPath ?? one.path, one.name)).sort();
+}
+
+// A server, and what is around it.
+class Server {
+  constructor({ address, volumes, directory }) {
+    Object.assign(this, { address, volumes, directory, program });
+    this.stations = volumes.map((file) => basename(file).slice(0, 4));
+    this.slicer = new Slicer({ address, directory, difference: join(build, 'tests/viewer/viewer_difference') });
+  }
+  get station() {
+    return this.stations[0];
+  }
+  get other() {
+    return this.stations.at(-1);
+  }
+  async json(path) {
+    return (await fetch(`${this.address}/api/v1/${path}`)).json();
+  }
+  // Grids of all stations. The server takes in later volumes beside its first answers.
+  grids(stations = new Set(this.stations)) {
+    return gridsOf(this.address, [...stations]);
+  }
+  // The newest grid of a station and a moment.
+  async grid(station, moment = 'REF') {
+    return (await this.grids([station])).findLast((one) => one.domain === station && one.moment === moment);
+  }
+}
+
+export const test = base.extend({
+  // Paths of raw volumes; without any, the server gets a simulated one.
+  volumes: [[], { option: true, scope: 'worker' }],
+  server: [
+    async ({ volumes }, use) => {
+      const directory = mkdtempSync(join(tmpdir(), 'stormcellar-viewer-'));
+      const files = volumes.length > 0 ? volumes : simulate(join(directory, 'made')).slice(0, 1);
+      const { address, stop } = await startServer(program, files);
+      const server = new Server({ address, volumes: files, directory });
+      await server.grids();
+      await use(server);
+      await stop();
+      rmSync(directory, { recursive: true, force: true });
+    },
+    { scope: 'worker', timeout: 120_000 },
+  ],
+  // Where the page is; a check may put something before the server.
+  address: ({ server }, use) => use(server.address),
+  // Errors of the page that a check provokes.
+  provoked: [/(?!)/, { option: true }],
+  viewer: async ({ page, address, provoked }, use) => {
+    const viewer = new ViewerPage(page, address);
+    await use(viewer);
+    expect(viewer.trouble.filter((line) => !provoked.test(line)), 'nothing of the page failed').toEqual([]);
+    const elsewhere = (url) => ![`${address}/`, 'data:', 'blob:'].some((begin) => url.startsWith(begin));
+    expect(viewer.requests.filter(elsewhere), 'every request goes to the server of the page').toEqual([]);
+  },
+  // Skips what needs volumes that are not here.
+  needVolumes: [
+    async ({ volumes }, use, info) => {
+      const missing = volumes.filter((file) => !existsSync(file));
+      info.skip(missing.length > 0, `not here: ${missing.map((file) => basename(file)).join(' ')}`);
+      await use();
+    },
+    { auto: true },
+  ],
+});
+
+// Says what was measured, since passing checks are silent.
+export const report = (text) => console.log(`  ${text}`);
+
+// The page draws what the slicer draws.
+export function expectLikeSlicer(what, { p99, mean, most, count }) {
+  report(`${what}: dE ${p99} (mean ${mean}, most ${most}) over ${count} pixels`);
+  expect(p99, `${what}: dE`).toBeLessThanOrEqual(mostDifference);
+  expect(count, `${what}: pixels`).toBeGreaterThan(300);
+}

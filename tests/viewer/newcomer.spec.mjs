@@ -1,0 +1,95 @@
+// From the address alone to a shared section through the hook of KTLX, 3 May 1999, as somebody would who has never seen
+// the page: what is pressed, dragged and turned is counted.
+import { expect, report, test } from './fixtures.mjs';
+import { image } from './pixels.mjs';
+import { ViewerPage } from './viewer_page.mjs';
+
+const mostActions = 12;
+const [width, height] = [796, 532];
+// The tornado that went from Bridge Creek to Moore was here at 23:56 UTC, within some kilometers.
+const hook = [35.27, -97.62];
+
+test.use({ viewport: { width, height }, permissions: ['clipboard-read', 'clipboard-write'] });
+
+// Presses what is written on it, where it is on the screen, and does not wait until the picture rests.
+async function press(viewer, text) {
+  const named = viewer.page.locator('button, label, summary').filter({ hasText: new RegExp(`^\\s*${text}\\s*$`), visible: true });
+  const at = await named.first().evaluate((one) => {
+    one.scrollIntoView({ block: 'nearest' });
+    const { left, right, top, bottom } = (one.querySelector('input[type=checkbox]') ?? one).getBoundingClientRect();
+    return [(left + right) / 2, (top + bottom) / 2];
+  });
+  await viewer.click(at);
+}
+// The strongest echo near a place of the picture, as the eye finds it: the middle of what is red.
+async function redNear(viewer, [nearX, nearY], within) {
+  const picture = image(await viewer.pixels());
+  let [count, sumX, sumY] = [0, 0, 0];
+  for (let y = Math.max(0, nearY - within); y < Math.min(height, nearY + within); ++y) {
+    for (let x = Math.max(0, nearX - within); x < Math.min(width, nearX + within); ++x) {
+      const [red, green, blue] = picture.at(x, y);
+      if (red >= 200 && green <= 120 && blue <= 100) [count, sumX, sumY] = [count + 1, sumX + x, sumY + y];
+    }
+  }
+  expect(count, 'red pixels').toBeGreaterThan(0);
+  return [Math.round(sumX / count), Math.round(sumY / count)];
+}
+
+test('a newcomer shares a section through the hook', async ({ page, context, viewer, server }) => {
+  const actions = [];
+  const act = async (what, how) => {
+    actions.push(what);
+    await viewer.settled(how);
+  };
+  // Opens something, of which the picture need not change; where it does, that is waited for.
+  const open = async (text) => {
+    actions.push(text);
+    await press(viewer, text);
+    await viewer.drawn();
+  };
+  actions.push('open the address');
+  await viewer.goto();
+  await viewer.drawn();
+  await open('Settings');
+  await act('Top', () => press(viewer, 'Top'));
+  const storm = await redNear(viewer, [width / 2, height / 2], 60);
+  await act('wheel over the storm', () => viewer.wheel(storm, -1200));
+  await open('Layers');
+  await act('Vertical section', () => press(viewer, 'Vertical section'));
+  await open('Draw on the ground');
+  const [x, y] = await redNear(viewer, storm, 150);
+  await act('drag across the hook', () => viewer.drag([x - 100, y], [200, 0]));
+  const said = await viewer.text('section-reading');
+  await open('Settings');
+  actions.push('Copy link');
+  await press(viewer, 'Copy link');
+  await expect(viewer.byId('state')).toContainText('clipboard');
+  report(`${actions.length} actions: ${actions.join(', ')}`);
+  expect(actions.length, actions.join(', ')).toBeLessThanOrEqual(mostActions);
+
+  const ends = (await viewer.told('section')).split(',').map(Number);
+  expect(ends[1], 'the section begins west of the hook').toBeLessThan(hook[1]);
+  expect(ends[3], 'and ends east of it').toBeGreaterThan(hook[1]);
+  expect(Math.abs(ends[0] - hook[0]), 'degrees of latitude between them').toBeLessThan(0.1);
+  // The greatest value that was read is, but for what is between cells, the server's own along that way.
+  const { points } = await server.json(`grids/KTLX/REF/latest/profile?from=${ends.slice(0, 2)}&to=${ends.slice(2)}&count=400`);
+  const greatest = Math.max(...points.flatMap(({ values }) => values ?? []).filter((value) => value !== null));
+  const read = Number(said.match(/-?\d+\.\d+/)[0]);
+  report(`${said}; among cells ${greatest}`);
+  expect(read).toBeLessThanOrEqual(greatest + 0.5);
+  expect(read).toBeGreaterThan(greatest - 3);
+
+  // Another page that opens the link shows the same.
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  const other = new ViewerPage(await context.newPage(), server.address);
+  await other.page.goto(link);
+  await other.drawn();
+  expect(await other.text('section-reading'), 'the section').toBe(said);
+  // The address rounds the camera, so edges may be a little aside.
+  const [mine, theirs] = [await viewer.pixels(), await other.pixels()];
+  expect(theirs.length).toBe(mine.length);
+  const apart = mine.reduce((count, byte, i) => count + (Math.abs(byte - theirs[i]) > 24 ? 1 : 0), 0);
+  report(`${apart} of ${mine.length} bytes of the pictures are apart`);
+  expect(apart, 'bytes of the pictures that are apart').toBeLessThan(mine.length / 200);
+  expect(other.trouble, 'nothing of the other page failed').toEqual([]);
+});

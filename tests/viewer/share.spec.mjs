@@ -1,0 +1,250 @@
+// Checks what a user takes along: link, command that draws the same, picture, grid.
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join } from 'node:path';
+
+import { expect, test } from './fixtures.mjs';
+
+const [width, height] = [560, 420];
+test.use({ viewport: { width, height } });
+
+const state = (viewer) => viewer.byId('state');
+const copied = (page) => page.evaluate(() => window.copied ?? null);
+// The time of the drawn grid.
+const drawnTime = async (viewer) => (await viewer.data('drawn')).split('/').pop();
+
+// Answers what the page asks about raw volumes, or lets the server answer, and sets window.told once the page has read
+// it.
+function tellVolumes(page, volumes = null) {
+  return page.evaluate((volumes) => {
+    const own = window.fetch;
+    window.told = false;
+    window.fetch = async (url, ...more) => {
+      if (!String(url).includes('/volumes?to=')) return own(url, ...more);
+      const read = volumes ? { volumes } : await (await own(url, ...more)).json();
+      // Readers have read it before the timer fires.
+      return Object.assign(new Response(), { json: async () => (setTimeout(() => (window.told = true)), read) });
+    };
+  }, volumes);
+}
+// Opens a station's reflectivity whose raw volumes are these, and returns the command.
+async function commandFor(viewer, station, volumes) {
+  await viewer.open(`domain=${station}&moment=REF&folded=0`);
+  await viewer.catchCopies();
+  const time = await drawnTime(viewer);
+  await tellVolumes(viewer.page, volumes.map((one) => ({ time, ...one })));
+  await viewer.press('open');
+  await viewer.until(() => window.told);
+  return viewer.copiedBy('command');
+}
+
+test.describe('what is taken along', { tag: '@full' }, () => {
+  test('a link shows the same, with the time that is shown', async ({ page, viewer, server: { station } }) => {
+    await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2&least=30&height-km=3`);
+    await viewer.catchCopies();
+    await viewer.settled(() => viewer.key('ArrowRight'));
+    const link = await viewer.copiedBy('share');
+    const pinned = page.url().replace('time=latest', `time=${encodeURIComponent(await drawnTime(viewer))}`);
+    expect(link).toBe(pinned);
+    expect(link).toContain('height-km=3');
+    const picture = await viewer.pixels();
+    // If no command draws the same, none is offered (2026-11-28: of several layers it drew one without a word).
+    await page.evaluate(() => void (window.copied = undefined));
+    await viewer.press('command');
+    await expect(state(viewer)).toContainText('one layer');
+    expect(await copied(page)).toBeNull();
+    // Somebody else opens it.
+    await page.goto('about:blank');
+    await page.goto(link);
+    await viewer.drawn();
+    expect((await viewer.pixels()).equals(picture), 'the picture is the same').toBe(true);
+  });
+
+  test('a command runs where the raw volume is', async ({ viewer, server }) => {
+    const { station, program, directory } = server;
+    const volume = server.volumes[0];
+    await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2`);
+    await viewer.catchCopies();
+    await viewer.catchLinks();
+    await tellVolumes(viewer.page);
+    await viewer.press('open');
+    await viewer.until(() => window.told);
+    const command = await viewer.copiedBy('command');
+    // A shell splits the command.
+    const words = execFileSync('sh', ['-c', `printf '%s\\n' ${command}`], { encoding: 'utf8' }).trimEnd().split('\n').slice(1);
+    expect(words.slice(0, 2), command).toEqual(['frame', basename(volume)]);
+    const drawn = join(directory, 'command.png');
+    execFileSync(program, [...words.slice(0, -1), drawn], { cwd: dirname(volume), stdio: 'ignore' });
+    expect(readFileSync(drawn).length, 'bytes of its picture').toBeGreaterThan(10000);
+    expect(command, 'it names the colors').toContain('--colors ');
+    expect(command, 'it names the size of the page').toContain(`--width ${width} --height ${height}`);
+    // 2026-11-28: Raw volume gave that file another name.
+    const taken = await viewer.takenBy('raw');
+    const file = await fetch(taken.href, { method: 'HEAD' });
+    expect(file.status).toBe(200);
+    // A browser takes the name of the answer before that of the link.
+    const saved = file.headers.get('content-disposition')?.match(/filename="(.*)"/)?.[1] ?? taken.name;
+    expect(saved, 'the name of the raw volume').toBe(words[1]);
+  });
+
+  test('a command is of the moment that is shown', async ({ page, viewer, server: { station } }) => {
+    await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2`);
+    await viewer.catchCopies();
+    // 2026-11-28: it had the colors of the moment that was chosen, and not of the one that was shown.
+    const said = await page.evaluate(() => {
+      document.getElementById('moment-VEL').click();
+      document.getElementById('command').click();
+      return document.getElementById('state').textContent;
+    });
+    expect(said, 'while another moment comes').toContain('not complete');
+    expect(await copied(page)).toBeNull();
+    await viewer.until(() => document.documentElement.dataset.drawn?.includes('/VEL/'), null, 60_000);
+    // 2026-11-28: the command drew range-folded air as clear.
+    await viewer.press('command');
+    await expect(state(viewer), 'a veil has no command').toContainText('veil');
+    expect(await copied(page)).toBeNull();
+    // 2026-11-29: the button was marked by the picture before.
+    const button = viewer.byId('command');
+    await expect(button, 'it is not offered').not.toHaveAttribute('aria-disabled', 'false');
+    await viewer.show(`domain=${station}&moment=VEL&azimuth=200&tilt=60&zoom=2&folded=0`);
+    const command = await viewer.copiedBy('command');
+    await expect(button, 'without a veil it is offered').toHaveAttribute('aria-disabled', 'false');
+    expect(command).toContain('--moment VEL');
+  });
+
+  test('a picture has what it needs to be understood', async ({ page, viewer, server: { station } }) => {
+    await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2&least=30&height-km=3`);
+    await viewer.catchLinks();
+    const { name, href } = await viewer.takenBy('save');
+    expect(href).toMatch(/^data:image\/png/);
+    expect(name).toMatch(new RegExp(`^${station}_REF_`));
+    const [w, h, heads, bars] = await page.evaluate(async (href) => {
+      const image = new Image();
+      image.src = href;
+      await image.decode();
+      const copy = document.createElement('canvas');
+      [copy.width, copy.height] = [image.width, image.height];
+      const pen = copy.getContext('2d');
+      pen.drawImage(image, 0, 0);
+      // Pixels of letters in the head, and colors of the bar.
+      const head = pen.getImageData(0, 8, 300, 22).data;
+      let letters = 0;
+      for (let i = 0; i < head.length; i += 4) if (head[i] > 200 && head[i + 1] > 200 && head[i + 2] > 200) ++letters;
+      const { left, top, height: long } = document.getElementById('bar').getBoundingClientRect();
+      const bar = pen.getImageData(left + 6, top + 22, 1, long - 34).data;
+      const colors = new Set();
+      for (let i = 0; i < bar.length; i += 4) colors.add(bar.slice(i, i + 3).join());
+      return [image.width, image.height, letters, colors.size];
+    }, href);
+    expect([w, h]).toEqual([width, height]);
+    expect(heads, 'light pixels of a title').toBeGreaterThan(300);
+    expect(bars, 'colors of the bar').toBeGreaterThan(40);
+    const pictures = process.env.STORMCELLAR_PICTURES;
+    if (!pictures) return;
+    mkdirSync(pictures, { recursive: true });
+    writeFileSync(join(pictures, 'saved.png'), Buffer.from(href.split(',')[1], 'base64'));
+  });
+
+  test('a grid is a file that the browser saves', async ({ page, viewer, server: { station, address } }) => {
+    await viewer.open(`domain=${station}&moment=REF`);
+    const { headers, status } = await fetch(`${address}/api/v1/grids/${await viewer.data('drawn')}/netcdf`);
+    expect(status).toBe(200);
+    expect(headers.get('content-type')).toContain('netcdf');
+    const [download] = await Promise.all([page.waitForEvent('download'), viewer.press('netcdf')]);
+    expect(download.url()).toMatch(/\/netcdf$/);
+    expect(headers.get('content-disposition')).toContain(download.suggestedFilename());
+  });
+
+  // 2026-11-28: the command drew an older raw file that is there.
+  test('without its raw file, a command reads the cache and says so', async ({ viewer, server: { station } }) => {
+    const command = await commandFor(viewer, station, [{ raw: 'OLDER', time: '2016-06-01T14:50:00Z' }]);
+    expect(command).toMatch(new RegExp(`^stormcellar frame ${station} `));
+    await expect(state(viewer)).toContainText('cache');
+  });
+
+  // 2026-11-28: the command read it, and it was offered.
+  test('a raw file that was deleted is not offered', async ({ page, viewer, server: { station } }) => {
+    expect(await commandFor(viewer, station, [{ raw: null }])).toMatch(new RegExp(`^stormcellar frame ${station} `));
+    await page.evaluate(() => {
+      const own = window.fetch;
+      const gone = async () => new Response(null, { status: 410 });
+      window.fetch = (url, options, ...more) => (options?.method === 'HEAD' ? gone() : own(url, options, ...more));
+    });
+    await viewer.press('raw');
+    await expect(viewer.byId('tool-says')).toContainText('not here');
+  });
+
+  // 2026-11-29: its raw file was said not to be here.
+  test('of the raw file of a grid that is gone, nothing is said', async ({ page, viewer, server: { station } }) => {
+    await viewer.open(`domain=${station}&moment=REF&folded=0`);
+    await page.evaluate((time) => {
+      const own = window.fetch;
+      const gone = async () => new Response('{"error": "no such grid"}', { status: 404, headers: { 'Stormcellar-Status': '404' } });
+      window.fetch = (url, ...more) => (decodeURIComponent(url).endsWith(time) ? gone() : own(url, ...more));
+    }, await drawnTime(viewer));
+    await viewer.press('raw');
+    await expect(state(viewer)).toHaveText(/^There is no picture/);
+    await expect(viewer.byId('tool-says')).toHaveText('');
+  });
+
+  // A copy of that file was deleted (2026-11-28: the command drew the first volume of it).
+  test('a command draws the second volume of a file', async ({ viewer, server: { station } }) => {
+    const command = await commandFor(viewer, station, [{ raw: 'TWO', number_in_file: 2 }, { raw: null, number_in_file: 2 }]);
+    expect(command).toMatch(/^stormcellar frame TWO /);
+    expect(command).toContain('--volume 2');
+  });
+
+  // 2026-11-28: it was saved under the name of the first chunk.
+  test('a volume that came in chunks has a name of its own', async ({ page, viewer, server: { station } }) => {
+    await viewer.open(`domain=${station}&moment=REF&folded=0`);
+    const began = await drawnTime(viewer);
+    const joined = station + began.slice(0, 19).replace(/[-:]/g, '').replace('T', '_');
+    await tellVolumes(page, [{ raw: joined, number_in_file: 1, time: began }]);
+    await viewer.catchLinks();
+    const { name, href } = await viewer.takenBy('raw');
+    expect(name).toBe(joined);
+    expect((await fetch(href, { method: 'HEAD' })).status).toBe(200);
+  });
+
+  // 2026-11-28: the command drew that grid.
+  test('the command of a grid that the program would not make reads the cache', async ({ page, viewer, server: { station } }) => {
+    await viewer.open(`domain=${station}&moment=REF&folded=0`);
+    await viewer.catchCopies();
+    await viewer.press('open');
+    await page.evaluate(() => {
+      const spacingAt = 64; // of a packed grid
+      const own = window.fetch;
+      window.fetch = async (url, ...more) => {
+        const answer = await own(url, ...more);
+        if (!String(url).includes('/packed')) return answer;
+        const bytes = await answer.arrayBuffer();
+        new DataView(bytes).setFloat64(spacingAt, 900, true);
+        return new Response(bytes);
+      };
+    });
+    await tellVolumes(page);
+    await viewer.press('moment-VEL');
+    await viewer.until(() => document.documentElement.dataset.drawn?.includes('/VEL/') && window.told);
+    expect(await viewer.copiedBy('command')).toMatch(new RegExp(`^stormcellar frame ${station} `));
+  });
+
+  // There is none over plain HTTP (2026-11-28: it was said that the link is there).
+  test('without a clipboard the page says so', async ({ page, viewer, server: { station } }) => {
+    await viewer.open(`domain=${station}&moment=REF`);
+    await page.evaluate(() => {
+      Object.defineProperty(navigator, 'clipboard', { value: undefined });
+      window.prompt = (said, text) => {
+        window.asked = [said, text];
+        return null;
+      };
+    });
+    for (const [id, part] of [['share', 'domain='], ['command', 'stormcellar frame']]) {
+      await page.evaluate(() => void (window.asked = undefined));
+      await viewer.press(id);
+      const [said, text] = await viewer.until(() => window.asked);
+      expect(said).toContain('not available');
+      expect(said).not.toContain('in the clipboard');
+      expect(text).toContain(part);
+    }
+  });
+});

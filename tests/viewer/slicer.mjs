@@ -1,0 +1,66 @@
+// Draws with the slicer what the page shows, and compares the two.
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { image } from './pixels.mjs';
+
+// The largest difference allowed between page and slicer: CIEDE2000, 99th percentile of the pixels that show echo.
+export const mostDifference = 2;
+
+// The view of a scene: the volume alone.
+export const viewOf = ({ station, moment, azimuth, tilt, zoom, field, exaggeration, opacity, at }) =>
+  `domain=${station}&moment=${moment}&ground=0&azimuth=${azimuth}&tilt=${tilt}&zoom=${zoom}&field-of-view=${field}` +
+  `&exaggeration=${exaggeration}&opacity=${opacity}&folded=0&look-at-km=${at.join(',')}`;
+
+// Draws the page's volumes with the slicer.
+export class Slicer {
+  // `difference` is the program viewer_difference; files go to `directory`, and pictures to `pictures` if it is there.
+  constructor({ address, difference, directory, pictures = process.env.STORMCELLAR_PICTURES }) {
+    Object.assign(this, { address, difference, directory, pictures, files: new Map() });
+  }
+  // Returns a file with the newest grid, or null.
+  async fileOf(station, moment) {
+    const name = `${station}-${moment}.scg`;
+    if (!this.files.has(name)) {
+      const answer = await fetch(`${this.address}/api/v1/grids/${station}/${moment}/latest/file`);
+      if (answer.ok) writeFileSync(join(this.directory, name), Buffer.from(await answer.arrayBuffer()));
+      this.files.set(name, answer.ok ? join(this.directory, name) : null);
+    }
+    return this.files.get(name);
+  }
+  // Returns the CIEDE2000 of a picture: 99th percentile, mean, greatest, and the number of pixels. `before` and
+  // `behind` have words for the program.
+  async compare(scene, ppm, { name = 'picture', before = [], behind = [] } = {}) {
+    const { azimuth, tilt, zoom, field, exaggeration, opacity, at } = scene;
+    if (this.pictures) mkdirSync(this.pictures, { recursive: true });
+    const picture = join(this.pictures || this.directory, `${name}.ppm`);
+    writeFileSync(picture, ppm);
+    const view = [azimuth, tilt, zoom, field, exaggeration, opacity, ...at.map((km) => km * 1000)].map(String);
+    const words = [...before, await this.fileOf(scene.station, scene.moment), picture, ...view, ...behind];
+    if (this.pictures) words.push(join(this.pictures, `${name}-slicer.png`));
+    const said = execFileSync(this.difference, words, { encoding: 'utf8' });
+    const [p99, mean, most, count] = said.trim().split(' ').map(Number);
+    return { p99, mean, most, count };
+  }
+}
+
+// The picture of `stormcellar frame`, which the browser reads.
+export async function pictureOf(page, program, words, w, h, directory) {
+  const file = join(directory, 'frame.png');
+  execFileSync(program, ['frame', ...words, '--width', w, '--height', h, '-o', file].map(String), { stdio: 'ignore' });
+  const text = await page.evaluate(async (bytes) => {
+    const picture = new Image();
+    picture.src = `data:image/png;base64,${bytes}`;
+    await picture.decode();
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [picture.width, picture.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    let text = '';
+    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+    return btoa(text);
+  }, readFileSync(file).toString('base64'));
+  return image(Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(text, 'base64')]));
+}

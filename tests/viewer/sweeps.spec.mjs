@@ -1,0 +1,216 @@
+// Checks sweeps of raw volumes on the page: which cut is shown, all of them to choose from, what is said of layers, and
+// loops.
+import { expect, report, test as base } from './fixtures.mjs';
+
+const isOf = (row, moment) => row.moments.some((one) => one.moment === moment);
+const told = (viewer) => viewer.byId('layers-told');
+
+const test = base.extend({
+  viewport: { width: 500, height: 400 },
+  // The newest volume's cuts with reflectivity, the one of the lowest elevation that pictures take, and another one.
+  cuts: async ({ server }, use) => {
+    const { volumes } = await server.json(`stations/${server.station}/volumes`);
+    const { sweeps } = await server.json(`stations/${server.station}/volumes/${volumes.at(-1).time}/sweeps`);
+    const having = sweeps.filter((row) => isOf(row, 'REF'));
+    const lowest = Math.min(...having.map(({ elevation_deg }) => elevation_deg));
+    const atLowest = having.filter(({ elevation_deg }) => elevation_deg <= lowest + 0.2);
+    const chosen = atLowest.find(({ moments }) => moments.some((one) => one.moment === 'REF' && one.chosen));
+    await use({ having, chosen, other: atLowest.find((row) => row !== chosen) });
+  },
+  above: ({ server }, use) =>
+    use(`domain=${server.station}&moment=REF&volume=0&azimuth=180&tilt=0&field-of-view=0&quality=${encodeURIComponent('64 slices')}`),
+});
+
+// 2026-11-28: the Doppler half, and no other, was shown.
+test('the page shows the cut that pictures take, and any other one', async ({ page, viewer, cuts: { having, chosen, other }, above }) => {
+  await viewer.open(`${above}&elevation=0.5`);
+  await expect(told(viewer)).toContainText(chosen.start.slice(11, 19));
+  await expect(page.locator('#sweep-elevation option'), 'each cut is in the list').toHaveCount(having.length);
+  if (!other) return;
+  const kind = isOf(other, 'VEL') === isOf(chosen, 'VEL') ? '' : isOf(other, 'VEL') ? ' Doppler' : ' long range';
+  await viewer.settled(() => viewer.give('sweep-elevation', other.sweep));
+  await expect(told(viewer)).toContainText(`${other.start.slice(11, 19)}${kind}`);
+  expect(await viewer.number('sweep')).toBe(other.sweep);
+  await viewer.catchCopies();
+  expect(await viewer.copiedBy('command')).toContain(`--product ppi --sweep ${other.sweep} `);
+});
+
+test.describe('the page says what it does not draw', () => {
+  test.use({ provoked: /404|500|ERR_CONNECTION_RESET/ });
+
+  // Ten seconds, after which the page asks again, pass in half of one.
+  const hurry = ({ page }) =>
+    page.evaluate(() => {
+      const [clock, timer] = [performance.now.bind(performance), setTimeout];
+      performance.now = () => 20 * clock();
+      window.setTimeout = (act, ms, ...more) => timer(act, ms > 10_000 && ms < 11_000 ? ms / 20 : ms, ...more);
+    });
+
+  // 2026-11-28: it told of a surface that it did not draw.
+  test('a surface of a moment that is not there', async ({ viewer, above }) => {
+    await viewer.open(`${above}&surface=20&surface-moment=ZZZ`);
+    await expect(told(viewer)).toContainText('not shown: no ZZZ');
+  });
+
+  // 2026-11-28: it said that there is no sweep.
+  test('a sweep that does not come', async ({ page, viewer, server: { station }, above }) => {
+    await viewer.open(above);
+    await hurry(viewer);
+    await page.route(/\/sweeps\//, (route) => route.abort('connectionreset'));
+    await viewer.show(`${above}&elevation=9`);
+    await expect(told(viewer)).not.toContainText('loading');
+    await expect(told(viewer)).toContainText('could not be loaded');
+    await page.unroute(/\/sweeps\//);
+    await expect(told(viewer), 'it is asked for again').toContainText(`sweep of ${station}: `);
+  });
+
+  // 2026-11-28: one failed answer said for good that there is no such moment.
+  test('a surface that does not come', async ({ page, viewer, above }) => {
+    await viewer.open(above);
+    await hurry(viewer);
+    await page.route(/\/VEL\/.*\/packed/, (route) => route.fulfill({ status: 500, json: { error: 'trouble' } }));
+    await viewer.show(`${above}&surface=20&surface-moment=VEL`);
+    await expect(told(viewer)).toContainText('VEL could not be loaded');
+    await page.unroute(/\/VEL\/.*\/packed/);
+    await expect(told(viewer), 'it is asked for again').toHaveText(/m\/s$/);
+  });
+});
+
+// 2026-11-28: a box, layers that are off, and a veil that is off looked like clear air.
+test('what is hidden is said', async ({ viewer, server: { station } }) => {
+  await viewer.open(`domain=${station}&moment=REF`);
+  for (const [view, words] of [
+    ['moment=REF&crop-km=-50,50,-50,50,14,16', 'echo outside the box from 14.0 km to 16.0 km is hidden'],
+    ['moment=REF&volume=0', 'echo is hidden'],
+    ['moment=REF&opacity=0.01', 'opacity × 0.01'],
+    ['moment=VEL&folded=0', 'range-folded air is hidden'],
+    ['moment=REF&folded=0', ''],
+    ['moment=VEL', ''],
+  ]) {
+    await viewer.show(`domain=${station}&${view}`);
+    expect(await viewer.text('layers-told'), view).toBe(words);
+  }
+});
+
+// 2026-11-28: it was cut off at the grid's box.
+test('the whole sweep is drawn, also beyond the grid', async ({ page, viewer, cuts: { chosen }, above }, info) => {
+  const reaches = Math.max(...chosen.moments.filter(({ moment }) => moment === 'REF').map(({ gates, gate_spacing_m }) => gates * gate_spacing_m));
+  info.skip(reaches <= 3e5, `the sweep ends at ${reaches / 1000} km`);
+  // At this zoom the grid is a third as high as the picture, and as wide as high.
+  await viewer.open(`${above}&elevation=0.5&zoom=0.333&ground=0`);
+  const { within, beyond } = await page.evaluate(() => {
+    const picture = document.getElementById('picture');
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [picture.width, picture.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    const count = { within: 0, beyond: 0 };
+    for (let y = 0, i = 0; y < copy.height; ++y) {
+      for (let x = 0; x < copy.width; ++x, i += 4) {
+        const channels = [data[i], data[i + 1], data[i + 2]];
+        if (Math.max(...channels) - Math.min(...channels) <= 50) continue;
+        const away = Math.max(Math.abs(x - copy.width / 2), Math.abs(y - copy.height / 2)) - copy.height / 6;
+        if (away < -3) ++count.within;
+        if (away > 3) ++count.beyond;
+      }
+    }
+    return count;
+  });
+  report(`of a sweep that reaches ${reaches / 1000} km ${within} pixels are drawn within the grid, ${beyond} beyond`);
+  expect(within, 'pixels within the grid').toBeGreaterThan(50);
+  expect(beyond, 'pixels beyond the grid').toBeGreaterThan(0);
+});
+
+test.describe('a loop', { tag: '@sequence' }, () => {
+  // Counts the pixels of a small copy of the picture that are not black.
+  const look = ({ page }) =>
+    page.evaluate(() => {
+      const pen = Object.assign(document.createElement('canvas'), { width: 100, height: 80 }).getContext('2d', { willReadFrequently: true });
+      window.shown = () => {
+        pen.drawImage(document.getElementById('picture'), 0, 0, 100, 80);
+        const { data } = pen.getImageData(0, 0, 100, 80);
+        let count = 0;
+        for (let i = 0; i < data.length; i += 4) if (Math.max(data[i], data[i + 1], data[i + 2]) > 60) ++count;
+        return count;
+      };
+    });
+  // Records what the page shows while it plays all times twice. Checks that it never shows an empty map, and returns
+  // what it says of its layers at each time.
+  async function play(viewer, view) {
+    const { page } = viewer;
+    await viewer.open(view);
+    await look(viewer);
+    await viewer.until(() => Number(document.getElementById('times').max) >= 4);
+    const full = await page.evaluate(() => window.shown());
+    await page.evaluate(() => {
+      window.seen = [];
+      window.isWatching = true;
+      const look = () => {
+        const [time] = document.getElementById('title').textContent.match(/\d\d:\d\d:\d\d/) ?? [];
+        window.seen.push([time, document.getElementById('layers-told').textContent, window.shown()]);
+        if (window.isWatching) requestAnimationFrame(look);
+      };
+      requestAnimationFrame(look);
+    });
+    await viewer.press('play');
+    const allTimes = (from) => new Set(window.seen.slice(from).map(([time]) => time)).size >= 5;
+    await viewer.until(allTimes, 0, 60_000);
+    await viewer.until(allTimes, await page.evaluate(() => window.seen.length), 60_000);
+    await viewer.press('play');
+    const seen = await page.evaluate(() => {
+      window.isWatching = false;
+      return window.seen;
+    });
+    const least = Math.min(...seen.map(([, , count]) => count));
+    report(`${seen.length} looks at a loop: at least ${least} of ${full} pixels`);
+    expect(full, 'pixels of a picture').toBeGreaterThan(20);
+    expect(least, 'pixels of the emptiest picture').toBeGreaterThanOrEqual(0.1 * full);
+    return new Map(seen.map(([time, line]) => [time, line]));
+  }
+
+  // 2026-11-28: all of 24 pictures were empty at 4 frames a second.
+  test('of sweeps is never empty, and names a sweep of the volume that is shown', async ({ viewer, above }) => {
+    const lines = await play(viewer, `${above}&ground=0&elevation=0.5`);
+    const secondsOf = (time) => Date.parse(`2000-01-01T${time}Z`) / 1000;
+    expect(lines.size, 'times').toBeGreaterThanOrEqual(5);
+    expect(new Set(lines.values()).size, 'names').toBe(lines.size);
+    for (const [time, line] of lines) {
+      const apart = Math.abs(secondsOf(line.match(/\d\d:\d\d:\d\d/)?.[0]) - secondsOf(time));
+      expect(apart, `seconds between ${line} and ${time}`).toBeLessThan(400);
+    }
+  });
+
+  // The last ones are of a grid in parts, whose layers are made of windows of it (2026-11-28: half of what was shown
+  // was empty). There is room for one sweep, beside the one that is shown.
+  for (const [memory, layer] of [
+    ['', 'surface=8&surface-moment=VEL'],
+    ['', 'height-km=3'],
+    ['memory=4&', 'height-km=3'],
+    ['memory=4&', 'maximum=1'],
+    ['memory=4&', 'elevation=0.5'],
+  ]) {
+    test(`of ${memory}${layer} is never empty`, async ({ viewer, above }) => {
+      await play(viewer, `${memory}${above}&ground=0&${layer}`);
+    });
+  }
+
+  // 2026-11-28: it was of the sweep before.
+  test('is read by a resting pointer: a gate of the sweep that is drawn', async ({ viewer, above }) => {
+    await viewer.open(`${above}&ground=0&elevation=0.5&zoom=4`);
+    await viewer.until(() => Number(document.getElementById('times').max) >= 4);
+    await viewer.hover([260, 240]);
+    for (let i = 0; i < 4; ++i) {
+      await expect(viewer.byId('hover')).toContainText('seen at');
+      await viewer.settled(() => viewer.press('earlier'));
+      const [line, reading] = [await viewer.text('layers-told'), await viewer.text('hover')];
+      const secondsOf = (text, before) => {
+        const [time] = text.slice(text.indexOf(before) + before.length).match(/\d\d:\d\d:\d\d/) ?? [];
+        return Date.parse(`2000-01-01T${time}Z`) / 1000;
+      };
+      const afterStart = secondsOf(reading, 'seen at ') - secondsOf(line, '° ');
+      expect(afterStart, `${line}; the pointer reads ${reading}`).toBeGreaterThanOrEqual(0);
+      expect(afterStart, `${line}; the pointer reads ${reading}`).toBeLessThan(60);
+    }
+  });
+});

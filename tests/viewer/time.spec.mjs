@@ -1,0 +1,126 @@
+// Checks what the timeline of the page does with several volumes of one station.
+import { expect, test as base } from './fixtures.mjs';
+
+const count = (viewer) => viewer.page.evaluate(() => Number(document.getElementById('times').max) + 1);
+const shown = (viewer) => viewer.data('drawn');
+
+const test = base.extend({
+  viewport: { width: 796, height: 532 },
+  view: ({ server }, use) => use(`domain=${server.station}&moment=REF&tilt=0&field-of-view=0`),
+  // Times of the volumes. The server takes in the later ones beside its first answers.
+  times: async ({ server }, use) => {
+    const times = async () => (await server.grids()).filter(({ moment }) => moment === 'REF').map(({ time }) => time);
+    await expect.poll(async () => (await times()).length, 'volumes').toBe(server.volumes.length);
+    await use(await times());
+  },
+  // The newest volume, on a timeline that has all of them.
+  newest: async ({ viewer, view, times }, use) => {
+    await viewer.open(view);
+    await expect.poll(() => count(viewer), 'times of the timeline').toBeGreaterThanOrEqual(times.length);
+    await use();
+  },
+});
+
+test('the newest volume is shown, and steps go back', async ({ viewer, newest }) => {
+  expect(await count(viewer)).toBeGreaterThanOrEqual(5);
+  expect(await viewer.told('time')).toBe('latest');
+  await viewer.settled(() => viewer.press('earlier'));
+  const second = await shown(viewer);
+  await viewer.settled(() => viewer.press('earlier'));
+  expect((await shown(viewer)) < second, 'a step shows the volume before').toBe(true);
+});
+
+test('keys follow the newest, set a loop and step in it', async ({ viewer, newest }) => {
+  await viewer.settled(() => viewer.press('earlier'));
+  await viewer.settled(() => viewer.press('earlier'));
+  const third = await shown(viewer);
+  await viewer.settled(() => viewer.key('l'));
+  expect(await viewer.told('time'), 'L follows the newest').toBe('latest');
+  await viewer.settled(() => viewer.key(','));
+  await viewer.key('>');
+  await viewer.settled(() => viewer.key(','));
+  await viewer.key('<');
+  await expect(viewer.byId('loop-all')).toBeVisible();
+  expect(await shown(viewer)).toBe(third);
+});
+
+// Never one of another time than the page says.
+test('playback stays in its loop', async ({ page, viewer, newest }) => {
+  await viewer.settled(() => viewer.key(','));
+  await viewer.press('loop-to');
+  await viewer.settled(() => viewer.press('earlier'));
+  await viewer.press('loop-from');
+  const first = await shown(viewer);
+  await viewer.give('speed', 15);
+  await page.evaluate(() => {
+    window.seen = [];
+    const look = () => {
+      const { drawn } = document.documentElement.dataset;
+      if (drawn && drawn !== window.seen.at(-1)) window.seen.push(drawn);
+    };
+    new MutationObserver(look).observe(document.documentElement, { attributes: true });
+  });
+  await viewer.press('play');
+  const seen = await viewer.until(() => window.seen.length >= 12 && window.seen);
+  await viewer.press('play');
+  expect(new Set(seen).size, 'volumes').toBe(2);
+  expect(seen).toContain(first);
+});
+
+test('frames between volumes are made, and said to be', async ({ viewer, newest }) => {
+  await viewer.settled(() => viewer.press('earlier'));
+  const before = await count(viewer);
+  const kept = await shown(viewer);
+  await viewer.give('between', 60);
+  await expect.poll(() => count(viewer), 'times with frames every minute').toBeGreaterThan(3 * before);
+  await viewer.drawn();
+  expect(await shown(viewer), 'the volume that is shown stays').toBe(kept);
+  await viewer.press('later');
+  const title = viewer.byId('title');
+  // The server makes it first.
+  await expect(title).toContainText('made between volumes', { timeout: 60_000 });
+  await expect(title).toContainText(':00 UTC');
+  expect(await viewer.told('between')).toBe('60');
+  // 2026-11-28: it said that there was no volume of the time of one.
+  await expect(viewer.byId('notice')).toHaveText('');
+});
+
+// 2026-11-28: "no volume of" a time of which there is one.
+test('a link to a volume among frames in between shows it', async ({ viewer, view, times }) => {
+  await viewer.open(`${view}&time=${times[1]}&between=60`);
+  expect((await shown(viewer)).endsWith(times[1]), await shown(viewer)).toBe(true);
+  expect(await viewer.text('notice')).toBe('');
+});
+
+// 2026-11-28: before anything else was shown, the oldest volume took the place of the newest.
+test('who pauses stays at the newest', async ({ viewer, times, newest }) => {
+  await viewer.press('play');
+  await viewer.press('play');
+  await viewer.press('moment-VEL');
+  await viewer.until(() => document.documentElement.dataset.drawn?.includes('/VEL/'));
+  expect((await shown(viewer)).endsWith(times.at(-1)), await shown(viewer)).toBe(true);
+  expect(await viewer.text('notice')).toBe('');
+});
+
+// 2026-11-28: the later one was called the nearest.
+test('a link to a time between two volumes shows the nearest', async ({ viewer, view, times }) => {
+  const wanted = new Date(Date.parse(times[1]) + 60_000).toISOString();
+  await viewer.open(`${view}&time=${wanted}`);
+  expect((await shown(viewer)).endsWith(times[1]), await shown(viewer)).toBe(true);
+  await expect(viewer.byId('notice')).toContainText('the nearest');
+});
+
+test.describe('an instant for which there is no frame', () => {
+  test.use({ provoked: /404/ });
+
+  // 2026-11-28: the next one was called the nearest.
+  test('shows the nearest volume, and a step goes on', async ({ viewer, view, times }) => {
+    const soon = new Date(Date.parse(times[0]) + 46_000).toISOString().slice(0, 19);
+    await viewer.open(`${view}&time=${soon}Z&between=60`);
+    expect((await shown(viewer)).endsWith(times[0]), await shown(viewer)).toBe(true);
+    await expect(viewer.byId('notice')).toContainText('the nearest');
+    await viewer.settled(() => viewer.press('later'));
+    expect((await shown(viewer)).endsWith(times[0]), await shown(viewer)).toBe(false);
+    await expect(viewer.byId('notice')).toHaveText('');
+  });
+});

@@ -1,0 +1,249 @@
+// Reads and works the viewer's page for checks and measurements: its address, its data attributes, mouse, keys and
+// fingers. Units: pixels of the page.
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { chromium, expect } from '@playwright/test';
+
+// Debian's Chromium. Its processor draws WebGL.
+export const chromiumOptions = {
+  executablePath: '/usr/bin/chromium',
+  args: ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic'],
+};
+
+// A picture may take so long on a machine that compiles beside.
+const patience = 120_000;
+
+export class ViewerPage {
+  // `page` is Playwright's, and `address` is the server's, without a slash at its end.
+  constructor(page, address) {
+    Object.assign(this, { page, address });
+    this.trouble = []; // errors of the page, and what the policy refused
+    this.requests = [];
+    page.on('pageerror', (error) => this.trouble.push(error.stack ?? error.message));
+    page.on('console', (message) => message.type() === 'error' && this.trouble.push(message.text()));
+    page.on('request', (request) => this.requests.push(request.url()));
+  }
+  // Adds to `bytes` what comes over the wire from now on.
+  async countBytes() {
+    this.bytes = 0;
+    const session = await this.protocol();
+    session.on('Network.loadingFinished', ({ encodedDataLength }) => (this.bytes += encodedDataLength));
+    await session.send('Network.enable');
+  }
+  asked(part) {
+    return this.requests.filter((url) => url.includes(part)).length;
+  }
+
+  goto(view = '') {
+    return this.page.goto(`${this.address}/view/#${view}`, { waitUntil: 'commit' });
+  }
+  // Opens the page anew, and waits for its picture.
+  async open(view = '') {
+    await this.page.goto('about:blank');
+    await this.goto(view);
+    await this.drawn();
+  }
+  // Changes the view, and waits for its fine picture. A picture that is drawn before the page has taken the address
+  // does not count.
+  async show(view) {
+    await this.page.evaluate(
+      (hash) =>
+        new Promise((done) => {
+          const take = () => {
+            delete document.documentElement.dataset.drawn;
+            done();
+          };
+          addEventListener('hashchange', take, { once: true });
+          location.hash = hash;
+        }),
+      view,
+    );
+    await this.drawn();
+  }
+  // Changes the address, and does not wait.
+  turnTo(view) {
+    return this.page.evaluate((hash) => void (location.hash = hash), view);
+  }
+  // Waits for the fine picture after an act.
+  async settled(act) {
+    await this.page.evaluate(() => void delete document.documentElement.dataset.drawn);
+    await act();
+    await this.drawn();
+  }
+  drawn() {
+    return this.until(() => document.documentElement.dataset.drawn, null, patience);
+  }
+  // Waits until a function of the page returns something, and returns it.
+  async until(condition, argument = null, timeout = 30_000) {
+    const found = await this.page.waitForFunction(condition, argument, { timeout, polling: 20 });
+    return found.jsonValue();
+  }
+  // Waits until the page has painted twice.
+  frames() {
+    return this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  }
+
+  // Returns what the address says.
+  told(name) {
+    return this.page.evaluate((name) => new URLSearchParams(location.hash.slice(1)).get(name), name);
+  }
+  async number(name) {
+    return Number(await this.told(name));
+  }
+  // Returns a data attribute of the document.
+  data(name) {
+    return this.page.evaluate((name) => document.documentElement.dataset[name], name);
+  }
+  text(id) {
+    return this.page.evaluate((id) => document.getElementById(id).textContent, id);
+  }
+  byId(id) {
+    return this.page.locator(`#${id}`);
+  }
+  // Checks what an act does to a number of the address.
+  async changes(what, name, act, holds) {
+    const before = await this.number(name);
+    await this.settled(act);
+    const after = await this.number(name);
+    expect(holds(before, after), `${what}: ${name} ${before} to ${after}`).toBe(true);
+  }
+
+  // Presses what need not be in sight.
+  press(id) {
+    return this.byId(id).evaluate((one) => one.click());
+  }
+  // Gives a control another value.
+  give(id, value, event = 'change') {
+    const set = (one, [value, event]) => {
+      one.value = value;
+      one.dispatchEvent(new Event(event));
+    };
+    return this.byId(id).evaluate(set, [String(value), event]);
+  }
+  key(key) {
+    return this.page.keyboard.press(key);
+  }
+  hover([x, y]) {
+    return this.page.mouse.move(x, y);
+  }
+  async drag([x, y], [dx, dy]) {
+    const { mouse } = this.page;
+    await mouse.move(x, y);
+    await mouse.down();
+    if (dx !== 0 || dy !== 0) await mouse.move(x + dx, y + dy, { steps: 4 });
+    await mouse.up();
+  }
+  async shiftDrag(from, by) {
+    await this.page.keyboard.down('Shift');
+    await this.drag(from, by);
+    await this.page.keyboard.up('Shift');
+  }
+  click(at) {
+    return this.drag(at, [0, 0]);
+  }
+  async wheel([x, y], deltaY) {
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.wheel(0, deltaY);
+  }
+  // Playwright has one finger, DevTools has more.
+  async protocol() {
+    return (this.session ??= await this.page.context().newCDPSession(this.page));
+  }
+  async touch(type, points) {
+    const session = await this.protocol();
+    await session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  }
+  async tap(at) {
+    await this.touch('touchStart', [at]);
+    await this.touch('touchEnd', []);
+  }
+  resize(width, height) {
+    return this.page.setViewportSize({ width, height });
+  }
+
+  // Keeps in window.copied what the page copies.
+  catchCopies() {
+    return this.page.evaluate(() => {
+      const writeText = (text) => {
+        window.copied = text;
+        return Promise.resolve();
+      };
+      Object.defineProperty(navigator, 'clipboard', { value: { writeText } });
+    });
+  }
+  // Presses a button that copies, and returns what it copied.
+  async copiedBy(id) {
+    await this.page.evaluate(() => void (window.copied = undefined));
+    await this.press(id);
+    return this.until(() => window.copied);
+  }
+  // Keeps in window.taken the links that the page clicks to save something, with the title at this moment.
+  catchLinks() {
+    return this.page.evaluate(() => {
+      HTMLAnchorElement.prototype.click = function () {
+        window.taken = { href: this.href, name: this.download, title: document.getElementById('title').textContent };
+      };
+    });
+  }
+  // Presses a button that saves, and returns what it saved.
+  async takenBy(id) {
+    await this.page.evaluate(() => void (window.taken = undefined));
+    await this.press(id);
+    return this.until(() => window.taken, null, 60_000);
+  }
+
+  // The pixels of the picture as bytes of a portable pixmap, in its own size or as large as the page shows it.
+  async pixels(width = 0, height = 0) {
+    const text = await this.page.evaluate(
+      ([width, height]) => {
+        const picture = document.getElementById('picture');
+        const copy = document.createElement('canvas');
+        [copy.width, copy.height] = [width || picture.width, height || picture.height];
+        const pen = copy.getContext('2d');
+        pen.drawImage(picture, 0, 0, copy.width, copy.height);
+        const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+        let text = '';
+        for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+        return `${copy.width} ${copy.height} ${btoa(text)}`;
+      },
+      [width, height],
+    );
+    const [w, h, bytes] = text.split(' ');
+    return Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(bytes, 'base64')]);
+  }
+  // Saves what the page shows, if somebody wants pictures.
+  async keep(name) {
+    const directory = process.env.STORMCELLAR_PICTURES;
+    if (!directory) return;
+    mkdirSync(directory, { recursive: true });
+    await this.page.screenshot({ path: join(directory, `${name}.png`) });
+  }
+}
+
+// The grids of some stations, once there are some; the server may still be making them.
+export async function gridsOf(address, stations) {
+  const all = [];
+  for (const domain of stations) {
+    const list = async () => (await (await fetch(`${address}/api/v1/grids?domain=${domain}&limit=10000`)).json()).grids;
+    let grids = [];
+    const hasSome = async () => (grids = await list()).some(({ moment }) => moment === 'REF');
+    await expect.poll(hasSome, { message: `there is a grid of ${domain}`, timeout: 60_000 }).toBe(true);
+    all.push(...grids);
+  }
+  return all;
+}
+
+// Runs a measurement in a browser.
+export async function withBrowser(run) {
+  const browser = await chromium.launch(chromiumOptions);
+  try {
+    await run(browser);
+  } finally {
+    await browser.close();
+  }
+}
+export async function openPage(browser, address, width, height) {
+  const context = await browser.newContext({ viewport: { width, height }, hasTouch: true });
+  return new ViewerPage(await context.newPage(), address);
+}

@@ -1,0 +1,59 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { Window, flown, speedOf, takenOff, turned, withEye } from './fly';
+import { Camera, Vec3, ViewGeometry, dot, minus, usualCamera } from './geometry';
+
+const view: Window = {
+    box: { halfXM: 230000, halfYM: 200000, bottomM: 250, topM: 16000 },
+    exaggeration: 3,
+    width: 796,
+    height: 532,
+};
+const geometryOf = (camera: Camera) => new ViewGeometry(view.box, camera, view.exaggeration, view.width, view.height);
+const apart = (a: Vec3, b: Vec3) => Math.hypot(...minus(a, b));
+const camera: Camera = { azimuthDeg: 200, tiltDeg: 70, zoom: 1, fieldOfViewDeg: 60, lookAtM: [12000, -5000, 3000] };
+
+test('the eye is where it shall be', () => {
+    const eye: Vec3 = [-40000, 10000, 9000];
+    assert.ok(apart(geometryOf(withEye(camera, view, eye)).eye, eye) < 1e-6);
+});
+
+test('turning leaves the eye where it is, and looks elsewhere', () => {
+    const next = turned(camera, view, 30, 10);
+    assert.ok(apart(geometryOf(next).eye, geometryOf(camera).eye) < 1e-6);
+    assert.deepEqual([next.azimuthDeg, next.tiltDeg], [230, 80]);
+    assert.equal(turned(camera, view, 0, 90).tiltDeg, 90);
+});
+
+test('moving goes along the view, and never below the ground', () => {
+    const before = geometryOf(camera);
+    const after = geometryOf(flown(camera, view, 1000, 0, 0));
+    assert.ok(Math.abs(dot(minus(after.eye, before.eye), before.forward) - 1000) < 1e-6);
+    const low = geometryOf(flown(camera, view, 0, 0, -1e7));
+    assert.ok(Math.abs(low.eye[2] - (low.groundM * view.exaggeration + 200)) < 1e-6);
+});
+
+test('a flight begins where the picture seems to be seen from', () => {
+    for (const from of [
+        usualCamera,
+        { ...camera, zoom: 6 },
+        { ...usualCamera, zoom: 4, lookAtM: [30000, 20000, 5000] as Vec3 },
+    ]) {
+        const off = takenOff(from, view);
+        assert.ok(off.fieldOfViewDeg > 0 && off.zoom === 1);
+        const [before, after] = [geometryOf(from), geometryOf(off)];
+        // The point in the middle stays there, and what surrounds it is as large.
+        const target: Vec3 = from.lookAtM
+            ? [from.lookAtM[0], from.lookAtM[1], from.lookAtM[2] * view.exaggeration]
+            : before.middle;
+        const pixel = after.project(target)!;
+        assert.ok(Math.abs(pixel[0] - 398) < 0.01 && Math.abs(pixel[1] - 266) < 0.01);
+        const aside = after.project([target[0] + 100 * before.right[0], target[1] + 100 * before.right[1], target[2]])!;
+        assert.ok(Math.abs(aside[0] - pixel[0] - 100 / before.metersPerPixel) < 0.02 * (100 / before.metersPerPixel));
+    }
+});
+
+test('high up a flight is fast, near the ground slow', () => {
+    assert.ok(speedOf(withEye(camera, view, [0, 0, 60000]), view) > speedOf(withEye(camera, view, [0, 0, 3000]), view));
+});

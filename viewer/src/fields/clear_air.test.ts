@@ -1,0 +1,50 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { isClearAir } from './clear_air';
+import { usualLayers, layersAddress, layersOf, toggledFolded, veilsFolded } from '../scene/layers';
+import { readPackedGrid } from '../wire/packed_grid';
+import { makeGrid } from '../testing/made_grid';
+
+test('weak echo is clear air, storms are not (2026-11-28: clear air looked as if nothing had come)', () => {
+    const grid = readPackedGrid(makeGrid(40, 36, 20).bytes);
+    assert.equal(isClearAir(grid), true); // at most 16 dBZ
+    assert.equal(isClearAir({ ...grid, firstValue: grid.firstValue + 30 }), false); // up to 46 dBZ
+});
+
+test('of a halved grid, the area of echo is an estimate (2026-11-28: grids in parts had no rule)', () => {
+    const grid = readPackedGrid(makeGrid(16, 16, 1).bytes);
+    const [few, many] = [60, 200].map((count) => ({
+        ...grid,
+        spacing: 2000,
+        firstValue: -12,
+        step: 1,
+        codes: grid.codes.map((_, i) => (i % 16 === 0 && i < 16 * count ? 40 : 1)),
+    }));
+    assert.equal(isClearAir({ ...few!, halvings: 1 }), true); // 60 to 240 km2
+    assert.equal(isClearAir({ ...few!, halvings: 0 }), false); // 240 km2
+    assert.equal(isClearAir({ ...many!, halvings: 1 }), false); // 200 to 800 km2
+});
+
+test('range folded air veils velocities unless it is told not to (2026-11-28: it looked clear)', () => {
+    for (const [moment, veils] of [
+        ['VEL', true],
+        ['SW', true],
+        ['REF', false],
+    ] as const)
+        assert.equal(veilsFolded(usualLayers, moment), veils);
+    assert.equal(veilsFolded({ ...usualLayers, hasVolume: false }, 'VEL'), false);
+    for (const hasFolded of [true, false, null]) {
+        const layers = layersOf(new URLSearchParams(layersAddress({ ...usualLayers, hasFolded })));
+        assert.equal(layers.hasFolded, hasFolded);
+    }
+    assert.equal(veilsFolded({ ...usualLayers, hasFolded: false }, 'VEL'), false);
+    assert.deepEqual(
+        [toggledFolded(usualLayers, 'REF'), toggledFolded({ ...usualLayers, hasFolded: true }, 'REF')],
+        [true, null],
+    );
+    assert.deepEqual(
+        [toggledFolded(usualLayers, 'VEL'), toggledFolded({ ...usualLayers, hasFolded: false }, 'VEL')],
+        [false, null],
+    );
+});

@@ -1,0 +1,34 @@
+// The page's facts of the grid that is shown.
+
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import type { App } from './app';
+
+let isWell = false;
+Object.assign(globalThis, {
+    document: { baseURI: 'http://localhost/view/' },
+    fetch: (): Promise<Response> =>
+        Promise.resolve(
+            new Response(JSON.stringify({ error: 'trouble', sites: [] }), {
+                status: isWell ? 200 : 500,
+                headers: { 'Stormcellar-Status': '' },
+            }),
+        ),
+});
+
+// 2026-11-28: after one failed answer the pointer had no beam, and a region no volumes, for good.
+test('what failed is asked for again', async () => {
+    const { FactsOfShown } = await import('./facts_of_shown');
+    for (const domain of ['KBGM', 'region:-100,33,-95,37']) {
+        const facts = new FactsOfShown({
+            shown: { loaded: {}, domain, moment: 'REF', time: '2005-08-22T02:44:14Z' },
+        } as unknown as App);
+        const ask = (): Promise<unknown> => (domain === 'KBGM' ? facts.ask() : facts.askSites());
+        isWell = false;
+        assert.equal(await ask().catch(String), 'Error: trouble');
+        isWell = true;
+        await ask();
+        assert((domain === 'KBGM' ? facts.known : facts.sites) !== null);
+    }
+});

@@ -1,0 +1,160 @@
+// Shows the wanted time of the domain and moment that are chosen: loads its grid, waits for what is drawn beside it,
+// and goes to another time if there is none.
+
+import { LoadedGrid } from '../atlas/loaded_grid';
+import { isClearAir } from '../fields/clear_air';
+import { at } from '../time/player';
+import { ApiError, times } from '../wire/api';
+import { Ahead } from './ahead';
+import { App, Shown } from './app';
+import { Loader } from './loader';
+import { texts } from './texts';
+
+export const soonTimes = 500; // of a domain, before all others
+export const mostTimes = 10000; // that the server tells at once
+
+export class Showing {
+    readonly ahead = new Ahead(this.app);
+    coming = 0; // times that are not shown yet
+    private turn = 0; // of what is to be shown
+
+    constructor(private app: App) {}
+
+    // If what failed is not wanted any more, the page says only that the server does not answer.
+    failed(error: unknown, isWanted: boolean): void {
+        if (isWanted || error instanceof TypeError) this.app.fail(error);
+    }
+
+    // Asks for the times of the domain and moment that were chosen, and shows the wanted one of them.
+    async showChosen(): Promise<void> {
+        const { app } = this;
+        app.tell('choices');
+        app.say(texts.loading);
+        this.stayWhoPaused();
+        const choice = ++app.choices;
+        try {
+            const soon = await times(app.state.domain, app.state.moment, soonTimes);
+            if (choice !== app.choices) return;
+            app.timeline.forget();
+            app.timeline.take(soon.times);
+            const { time } = app.state;
+            // A time before those of the first answer is looked for among all.
+            const isOlder = soon.more && !app.player.follows && Date.parse(time) < Date.parse(soon.times[0] ?? '');
+            if (isOlder) await this.findOlder();
+            if (!app.player.follows && !app.timeline.find(time)) app.missTime(time);
+            await this.showTime(app.player.follows ? undefined : time);
+            if (soon.more && !isOlder) await this.findOlder();
+        } catch (error) {
+            if (choice === app.choices) app.fail(error);
+        }
+    }
+    // If the user does not follow any more, but was shown no other time yet, keeps the time of the player.
+    private stayWhoPaused(): void {
+        const { app } = this;
+        if (app.player.follows || app.state.time !== 'latest') return;
+        const now = app.timeline.now;
+        if (now === undefined) app.player = { ...app.player, follows: true };
+        else app.state.time = now;
+    }
+
+    // The timeline has every grid; the older ones come after the first picture.
+    private async findOlder(): Promise<void> {
+        const { app } = this;
+        const { domain, moment } = app.state;
+        const isLeft = this.whetherLeft();
+        for (let more = true; more;) {
+            const older = await times(domain, moment, mostTimes, app.timeline.stored[0]);
+            if (isLeft()) return;
+            more = older.more && older.times.length > 1;
+            app.timeline.take([
+                ...older.times.filter((time) => time < app.timeline.stored[0]!),
+                ...app.timeline.stored,
+            ]);
+            app.tell('time');
+        }
+    }
+
+    // Tells later whether another domain or moment was chosen.
+    whetherLeft(): () => boolean {
+        const { app } = this;
+        const { domain, moment } = app.state;
+        return () => domain !== app.state.domain || moment !== app.state.moment;
+    }
+    // Shows the time of the timeline. If its grid is not there, a step goes on to the next time in the
+    // direction of `by`; else shows the time nearest to the wanted one.
+    async showTime(nearest?: string, by = 0): Promise<void> {
+        const { app } = this;
+        const time = app.timeline.now;
+        app.tell('time');
+        if (time === undefined) return app.say(texts.notFound);
+        const wanted = nearest ?? time;
+        const [turn, isLeft] = [++this.turn, this.whetherLeft()];
+        const isLate = () => turn !== this.turn || app.timeline.now !== time || isLeft();
+        ++this.coming;
+        try {
+            const loaded = await this.load(time);
+            // Another version of the same grid may be on its way.
+            if (isLate()) return;
+            const next = this.shownOf(time, loaded);
+            await app.alongside(next, false);
+            if (!isLate()) this.take(next);
+        } catch (error) {
+            const wasLate = isLate();
+            const index = app.player.at;
+            if (!this.leaveOut(time, error, isLeft)) return this.failed(error, !wasLate);
+            const stays = !wasLate && !app.player.follows && !app.player.isPlaying;
+            if (stays && by !== 0) app.player = at(app.player, by > 0 ? index : index - 1);
+            else if (stays) app.timeline.find(wanted);
+            if (stays && by === 0 && app.missedTime === '') app.missTime(time);
+            if (app.timeline.now !== undefined) await this.showTime(stays ? wanted : undefined, by);
+        } finally {
+            --this.coming;
+        }
+    }
+    shownOf(time: string, loaded: LoadedGrid): Shown {
+        const { domain, moment } = this.app.state;
+        return {
+            key: Loader.key(domain, moment, time),
+            loaded,
+            domain,
+            moment,
+            time,
+            isBetween: this.app.timeline.isBetween(time),
+        };
+    }
+    load(time: string): Promise<LoadedGrid> {
+        const { app } = this;
+        return app.loader.load(app.state.domain, app.state.moment, time, app.timeline.isBetween(time));
+    }
+    // Leaves out a time whose grid is gone. Returns false if the time stays, so that the caller tells the failure.
+    leaveOut(time: string, error: unknown, isLeft: () => boolean): boolean {
+        // The server also answers 410 for a grid in parts that was made again meanwhile.
+        const isGone =
+            error instanceof ApiError &&
+            (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
+        if (isLeft() || !isGone || !this.app.timeline.leaveOut(time)) return false;
+        this.app.tell('time');
+        return true;
+    }
+
+    private take(shown: Shown): void {
+        const { app } = this;
+        const { book } = app;
+        // The colors stay while a loop plays. The halved grid of a grid in parts tells whether it shows clear air.
+        const isOther = app.shown?.domain !== shown.domain || !app.player.isPlaying;
+        if (book && isOther)
+            book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
+        app.shown = shown;
+        app.unreadTime = '';
+        app.state.time = app.player.follows ? 'latest' : shown.time;
+        this.ahead.load();
+        app.tell('shown');
+        app.changed();
+    }
+
+    restore(): void {
+        const { app } = this;
+        app.tell('restored');
+        if (app.shown) this.take(app.shown);
+    }
+}

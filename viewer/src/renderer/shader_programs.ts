@@ -1,0 +1,120 @@
+// Puts the programs together from the files in shaders/. A variant is compiled for what a scene calls for: each of its
+// flags is a #define, and what it does not use is not in it.
+
+import { azimuthSteps, noRadial } from '../fields/sweep_cone';
+import { steepestFall } from '../fields/falls';
+import { lookColumns, lookCount } from '../tables/looks';
+import airFragment from 'shaders/air.fragment.glsl';
+import facing from 'shaders/facing.glsl';
+import fieldFragment from 'shaders/field.fragment.glsl';
+import field from 'shaders/field.glsl';
+import fullScreenVertex from 'shaders/full_screen.vertex.glsl';
+import grid from 'shaders/grid.glsl';
+import groundFragment from 'shaders/ground.fragment.glsl';
+import light from 'shaders/light.glsl';
+import lineFragment from 'shaders/line.fragment.glsl';
+import lineVertex from 'shaders/line.vertex.glsl';
+import litColor from 'shaders/lit_color.glsl';
+import looks from 'shaders/looks.glsl';
+import maximumFragment from 'shaders/maximum.fragment.glsl';
+import prelude from 'shaders/prelude.glsl';
+import rays from 'shaders/rays.glsl';
+import solidDepth from 'shaders/solid_depth.glsl';
+import solid from 'shaders/solid.glsl';
+import solidVertex from 'shaders/solid.vertex.glsl';
+import solidsShownFragment from 'shaders/solids_shown.fragment.glsl';
+import surfaceFragment from 'shaders/surface.fragment.glsl';
+import sweepFragment from 'shaders/sweep.fragment.glsl';
+import tileVertex from 'shaders/tile.vertex.glsl';
+import view from 'shaders/view.glsl';
+import volumeFragment from 'shaders/volume.fragment.glsl';
+
+// The files of a program, in the order in which they are read.
+export interface ShaderProgram {
+    name: string; // of the program and its variant
+    defines: string[];
+    vertex: string[];
+    fragment: string[];
+}
+
+type Flags = Record<string, boolean | undefined>;
+// eslint-disable-next-line @typescript-eslint/consistent-type-definitions -- an interface would not be Flags
+export type GridVariant = {
+    isPerspective: boolean;
+    hasUnevenLevels: boolean;
+    hasHalved?: boolean; // some bricks are those of halved grids
+};
+export type VolumeVariant = GridVariant & {
+    countsFetches?: boolean; // the picture is how many texels each pixel asked for
+    endsAtSolids?: boolean; // rays end at what is solid
+    isLit?: boolean;
+    measuresLight?: boolean; // the picture is lightness, factor of the light, and opacity
+};
+export type AirVariant = GridVariant & {
+    hasHaze: boolean; // of air that was not seen
+    hasFolded: boolean;
+};
+export type SurfaceVariant = GridVariant & {
+    isBelow: boolean; // it encloses what is at most the value
+    hasOther: boolean; // another moment colors it
+};
+
+export const radialsAcross = 1800; // in a row of the texture of radials
+const constants = [
+    `LOOK_COLUMNS ${lookColumns}`,
+    `LOOK_COUNT ${lookCount}`,
+    `AZIMUTH_STEPS ${azimuthSteps}`,
+    `RADIALS_ACROSS ${radialsAcross}`,
+    `NO_RADIAL ${noRadial}u`,
+    `STEEPEST_FALL ${steepestFall.toFixed(1)}`,
+];
+
+function program(name: string, flags: Flags, vertex: string[], fragment: string[]): ShaderProgram {
+    const defines = Object.keys(flags)
+        .filter((flag) => flags[flag])
+        .map((flag) => flag.replace(/[A-Z]/g, '_$&').toUpperCase());
+    const { isPerspective } = flags;
+    const parts = isPerspective === undefined ? [name] : [name, isPerspective ? 'perspective' : 'parallel'];
+    return {
+        name: [...parts, ...defines.filter((define) => define !== 'IS_PERSPECTIVE')].join(', '),
+        defines,
+        vertex,
+        fragment,
+    };
+}
+
+// Returns the text of a shader as WebGL takes it.
+export function shaderText(files: string[], defines: string[]): string {
+    const lines = [...constants, ...defines].map((define) => `#define ${define}`);
+    return ['#version 300 es', ...lines, prelude, view, ...files].join('\n');
+}
+
+export const volumeProgram = (variant: VolumeVariant): ShaderProgram =>
+    program(
+        'volume',
+        variant,
+        [tileVertex],
+        [
+            rays,
+            grid,
+            ...(variant.endsAtSolids ? [solidDepth] : []),
+            ...(variant.isLit ? [litColor, facing, light] : []),
+            volumeFragment,
+        ],
+    );
+export const groundProgram = (isPerspective: boolean): ShaderProgram =>
+    program('ground', { isPerspective }, [fullScreenVertex], [rays, groundFragment]);
+export const lineProgram: ShaderProgram = program('lines', {}, [lineVertex], [lineFragment]);
+
+export const fieldProgram = (isPerspective: boolean): ShaderProgram =>
+    program('field', { isPerspective }, [solidVertex], [rays, looks, solid, field, fieldFragment]);
+export const sweepProgram = (isPerspective: boolean): ShaderProgram =>
+    program('sweep', { isPerspective }, [solidVertex], [rays, looks, solid, sweepFragment]);
+export const surfaceProgram = (variant: SurfaceVariant): ShaderProgram =>
+    program('surface', variant, [fullScreenVertex], [rays, grid, looks, litColor, facing, surfaceFragment]);
+export const solidsShownProgram: ShaderProgram = program('solids shown', {}, [fullScreenVertex], [solidsShownFragment]);
+
+export const maximumProgram = (isPerspective: boolean): ShaderProgram =>
+    program('maximum', { isPerspective }, [fullScreenVertex], [rays, looks, field, maximumFragment]);
+export const airProgram = (variant: AirVariant): ShaderProgram =>
+    program('air', variant, [fullScreenVertex], [rays, grid, airFragment]);

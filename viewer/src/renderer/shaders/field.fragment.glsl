@@ -1,0 +1,12 @@
+// A plane or a section: a border of 1.25 pixels about a field.
+void main() {
+    vec2 extent = vec2(textureSize(field, 0));
+    vec2 border = min(at, extent - at) / fwidth(at);
+    if (min(border.x, border.y) < 1.25) {
+        put(borderColor);
+        return;
+    }
+    vec2 found = fieldAt(at);
+    if (found.y > 3.5) discard;
+    put(solidColor(int(found.y + 0.5), found.x));
+}

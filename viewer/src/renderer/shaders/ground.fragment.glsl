@@ -1,0 +1,52 @@
+// The ground as it was seen: light from low down, darker from high up only, hatched where it was not seen;
+// land and water each in their own shades.
+uniform usampler2D coverage;
+uniform vec2 columns; // of the grid
+uniform float columnsATexel; // along each side
+uniform vec2 halfSize; // of the grid, in meters
+uniform float ground; // drawn height
+uniform vec3 page, hatch;
+uniform vec3 landShades[4], waterShades[4]; // not seen, seen from high up only, seen from low down, beyond the grid
+uniform sampler2D water; // its share
+uniform vec2 waterHalf; // how far that reaches from the middle
+uniform float hatchScale;
+out vec4 color;
+
+// Returns the share of water at a place. A shore is as sharp as a pixel, however near it is.
+float waterAt(vec2 at) {
+    float share = texture(water, 0.5 + vec2(0.5, -0.5) * at / waterHalf).r - 0.5;
+    return clamp(0.5 + share / max(fwidth(share), 1e-3), 0.0, 1.0);
+}
+
+// Draws lines of one pixel from the lower left to the upper right over a shade.
+vec3 hatched(vec3 shade) {
+    vec2 p = floor(pixel());
+    float period = 9.0 * hatchScale;
+    float phase = mod(p.x + p.y, period);
+    float distance = min(phase, period - phase) / 1.41421356;
+    return mix(shade, hatch, clamp(0.5 * hatchScale + 0.5 - distance, 0.0, 1.0));
+}
+
+void main() {
+    // Leave the color of the page to rays that do not meet the ground.
+    vec3 start = rayStart(), along = rayStep();
+    float depth = (ground - start.z) / along.z;
+    if (missesGround(along, depth)) {
+        color = vec4(page, 1.0);
+        return;
+    }
+    // Find where the ray meets the ground, in meters and as a share of the grid's width and height.
+    vec2 at = (start + depth * along).xy;
+    vec2 place = (at + halfSize) / (2.0 * halfSize);
+    float isWater = waterAt(at);
+    // Fade what is beyond the grid into the page, because nothing is known there.
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) {
+        float away = length(max(abs(at) - halfSize, 0.0)) / max(halfSize.x, halfSize.y);
+        color = vec4(mix(mix(landShades[3], waterShades[3], isWater), page, clamp(away / 1.5, 0.0, 1.0)), 1.0);
+        return;
+    }
+    // Take the shade of the column's state.
+    uint state = texelFetch(coverage, ivec2(place * columns / columnsATexel), 0).r;
+    vec3 shade = mix(landShades[state], waterShades[state], isWater);
+    color = vec4(state == 0u ? hatched(shade) : shade, 1.0);
+}

@@ -1,0 +1,25 @@
+// The greatest values of the columns, on the ground.
+uniform vec3 seenColor, foldedColor;
+uniform vec2 halfSize; // of the grid
+uniform vec4 extent; // of the field: west, south, east, north
+uniform float ground;
+out vec4 color;
+void main() {
+    // Find where the ray meets the ground, and that place in the field.
+    vec3 start = rayStart(), along = rayStep();
+    float depth = (ground - start.z) / along.z;
+    if (missesGround(along, depth)) discard;
+    vec2 on = (start + depth * along).xy;
+    vec2 place = (on - extent.xy) / (extent.zw - extent.xy);
+    if (any(greaterThanEqual(abs(on), halfSize))) discard;
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) discard;
+    // Cover the ground where there is a value or a range folded one; leave it as it is elsewhere.
+    vec2 found = fieldAt(place * vec2(textureSize(field, 0)));
+    int state = int(found.y + 0.5);
+    if (state == 2) color = vec4(foldedColor, 1.0);
+    else if (state == 3) {
+        vec4 look = lookOf(found.x);
+        if (look.a == 0.0) discard;
+        color = vec4(mix(seenColor, look.rgb, look.a), 1.0);
+    } else discard;
+}

@@ -1,0 +1,7 @@
+// How far along the ray something solid is, which ends it.
+uniform sampler2D solidDepth; // as a share of depthRange
+uniform vec2 depthRange;
+float solidAt() {
+    float share = texelFetch(solidDepth, ivec2(pixel().x, size.y - pixel().y), 0).r;
+    return share < 1.0 ? mix(depthRange.x, depthRange.y, share) : 1e30;
+}

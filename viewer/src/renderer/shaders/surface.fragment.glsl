@@ -1,0 +1,120 @@
+// A surface that encloses where at least half of the cells about have values, and their mean is at least the one that
+// was chosen (at most, if it IS_BELOW). Where a crop cuts it open, its inside shows the values there.
+uniform float chosen; // shown code
+uniform vec2 depthRange;
+uniform vec3 cellM; // of drawn space
+
+const float surfaceExposure = 0.86; // by it the lightness of a surface is about that of its color
+const vec3 plainColor = vec3(0.62); // where the table has none
+
+// Returns the mean code at a place, and the share of cells with values.
+vec2 codeAt(vec3 p) {
+    vec3 cell = cellOf(p);
+    ivec3 brick = ivec3(cell / edge);
+    uint entry = texelFetch(indirection, brick, 0).r;
+    if (isEmpty(entry)) return vec2(0.0);
+    vec2 found = fetchAt(cell, placeOf(brick, entry, slots), perTexel);
+    return found.g < 0.002 ? vec2(0.0) : vec2(255.0 * found.r / found.g, found.g);
+}
+
+#ifdef HAS_OTHER
+uniform sampler3D otherAtlas;
+uniform usampler3D otherIndirection;
+uniform vec3 otherSlots;
+uniform vec3 otherPerTexel;
+// Returns the code of another moment's grid, by which the surface is colored; less than 0 where there is none.
+float coloringCode(vec3 p) {
+    vec3 cell = cellOf(p);
+    ivec3 brick = ivec3(cell / edge);
+    uint entry = texelFetch(otherIndirection, brick, 0).r;
+    if (isEmpty(entry)) return -1.0;
+    vec2 found = texture(otherAtlas, (cell + placeOf(brick, entry, otherSlots).xyz) * otherPerTexel).rg;
+    return found.g < 0.1 ? -1.0 : 255.0 * found.r / found.g;
+}
+#else
+float coloringCode(vec3 p) {
+    return codeAt(p).x;
+}
+#endif
+
+bool insideAt(vec3 p) {
+    vec2 found = codeAt(p);
+#ifdef IS_BELOW
+    return found.y >= 0.5 && found.x <= chosen;
+#else
+    return found.y >= 0.5 && found.x >= chosen;
+#endif
+}
+
+// Returns a measure that grows inward.
+float levelAt(vec3 p) {
+    vec2 found = codeAt(p);
+#ifdef IS_BELOW
+    return -found.x * found.y;
+#else
+    return found.x * found.y;
+#endif
+}
+
+// Returns how the measure falls, by the differences between the cells on both sides.
+vec3 outwardAt(vec3 p) {
+    vec3 x = vec3(cellM.x, 0.0, 0.0), y = vec3(0.0, cellM.y, 0.0), z = vec3(0.0, 0.0, cellM.z);
+    vec3 fall = vec3(
+        levelAt(p - x) - levelAt(p + x),
+        levelAt(p - y) - levelAt(p + y),
+        levelAt(p - z) - levelAt(p + z));
+    return fall / cellM;
+}
+
+// Steps along a ray until it is inside. Returns the depth of the last step outside and of the first one inside, which
+// is less than 0 if there is none.
+vec2 stepsAcross(vec3 start, vec3 along, float enter, float leave) {
+    float k = max(0.0, floor((enter - near) / stepM));
+    float last = min(slices, ceil((leave - near) / stepM));
+    Ray ray = rayOf(start, along);
+    float outside = enter;
+    for (int guard = 0; guard < 8192 && k < last; ++guard) {
+        float depth = min(near + (k + 1.0) * stepM, leave);
+        vec3 p = start + depth * along;
+        // Leave a brick at once in which nothing can be inside.
+        ivec3 brick = ivec3(cellOf(p) / edge);
+        uint entry = texelFetch(indirection, brick, 0).r;
+        if (isEmpty(entry) || (entry >> 24) < leastShown) {
+            outside = depth;
+            k = max(k + 1.0, floor((min(leaves(ray, brick, entry), leave) - near) / stepM));
+            continue;
+        }
+        if (insideAt(p)) return vec2(outside, depth);
+        outside = depth;
+        k += 1.0;
+    }
+    return vec2(outside, -1.0);
+}
+
+void main() {
+    vec3 start = rayStart(), along = rayStep();
+    vec2 depths = depthsInBox(start, along);
+    float enter = depths.x, leave = depths.y;
+    if (!(enter < leave)) discard;
+    // Find the step in which the ray gets inside; where a crop cuts the surface open it is there from the beginning.
+    bool isCut = insideAt(start + enter * along);
+    vec2 found = isCut ? vec2(enter) : stepsAcross(start, along, enter, leave);
+    float outside = found.x, hit = found.y;
+    if (hit < 0.0) discard;
+    // Halve that step ten times, so that the surface has no steps of slices.
+    if (!isCut) {
+        for (int i = 0; i < 10; ++i) {
+            float middle = 0.5 * (outside + hit);
+            if (insideAt(start + middle * along)) hit = middle;
+            else outside = middle;
+        }
+    }
+    // Color the place by its value, or by another moment's there, and light it as a surface unless it is cut.
+    vec3 p = start + hit * along;
+    float code = coloringCode(p);
+    vec4 look = lookOf(code);
+    vec3 rgb = code < 0.0 || look.a == 0.0 ? plainColor : look.rgb;
+    float factor = isCut ? 1.0 : surfaceExposure * facing(outwardAt(p), 1.0, normalize(along));
+    color = vec4(litColor(rgb, factor), 1.0);
+    gl_FragDepth = clamp((hit - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 0.999999);
+}

@@ -1,0 +1,169 @@
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import test from 'node:test';
+
+import { beyondCommand, usualLayers } from './layers';
+import { isPrintable } from './shell';
+import { isRegion, regionName } from '../wire/region';
+import { addressOf, commandOf, isBeyondLimits, isUsualGrid, stateOf, usualState } from './view_state';
+
+const chosen = {
+    ...usualState,
+    domain: 'north east&=#',
+    moment: 'VEL',
+    time: '2016-06-01T15:00:25.180Z',
+    camera: {
+        azimuthDeg: 217.25,
+        tiltDeg: 71.5,
+        zoom: 3.5,
+        fieldOfViewDeg: 0,
+        lookAtM: [12345, -6789, 4000] as [number, number, number],
+    },
+    hasGround: false,
+    exaggeration: 2.5,
+    opacity: 1.8,
+    least: -12.5,
+    colors: 'safe-velocity',
+};
+
+test('the address holds the whole view', () => {
+    const back = stateOf(`#${addressOf(chosen)}`);
+    assert.deepEqual({ ...back }, { ...chosen });
+});
+
+test('what makes no sense in an address is left at its usual value', () => {
+    const state = stateOf(
+        '#time=never&tilt=1e9&zoom=NaN&azimuth=&opacity=-1&least=weak&look-at-km=1,2&moment=<script>',
+    );
+    assert.deepEqual(state.camera, usualState.camera);
+    assert.equal(state.time, 'latest');
+    assert.equal(state.opacity, usualState.opacity);
+    assert.equal(state.least, null);
+    assert.equal(stateOf(`#domain=${'x'.repeat(5000)}`).domain.length, 100);
+});
+
+test('an empty address is the usual view', () => {
+    assert.deepEqual(stateOf(''), usualState);
+});
+
+test('the command names what stormcellar frame knows', () => {
+    const command = commandOf({ ...chosen, domain: 'KLBB' }, 796, 532, 'safe-velocity');
+    for (const part of [
+        'stormcellar frame KLBB',
+        '--moment VEL',
+        '--azimuth 217.25',
+        '--tilt 71.5',
+        '--zoom 3.5',
+        '--field-of-view 0',
+        '--look-at-km 12.345,-6.789,4',
+        '--exaggeration 2.5',
+        '--opacity 1.8',
+        '--colors safe-velocity',
+        '--width 796',
+        '--height 532',
+    ])
+        assert(command.includes(part), `${part} in ${command}`);
+});
+
+// Returns the words of a command as a shell takes them.
+const words = (command: string): string[] =>
+    execFileSync('sh', ['-c', `printf '%s\\0' ${command}`], { encoding: 'utf8' })
+        .split('\0')
+        .slice(0, -1);
+
+test('a shell takes each word of the command as it is (2026-11-28: names of others ran commands)', () => {
+    const names = [
+        'KLBB20160601_150025_V06;touch pwned;:',
+        'it\'s $(id) `id` "x" \\ * ~ # & | > <',
+        '!!',
+        ' ',
+        '$HOME',
+        '-o',
+    ];
+    for (const name of names) {
+        const read = words(commandOf({ ...chosen, domain: name }, 796, 532, name, name));
+        assert.deepEqual(read.slice(0, 5), ['stormcellar', 'frame', name.replace(/^-/, './-'), '--moment', 'VEL']);
+        assert.equal(read[read.indexOf('--colors') + 1], name);
+        assert.equal(read[read.length - 1], `${name}.png`);
+    }
+    assert.equal(words(commandOf({ ...chosen, domain: "x'y" }, 796, 532, '')).includes("x'y"), true);
+    for (const name of ['a\nb', 'a\u001b[201~b', 'a\u0003', 'a\u202eb']) assert.equal(isPrintable(name), false);
+    assert.equal(isPrintable("Zürich; it's"), true);
+});
+
+test('a region has four numbers, and nothing behind them (2026-11-28: the rest went into commands)', () => {
+    assert.equal(isRegion(regionName({ west: -100.25, south: -5, east: -95, north: 37.1234 })), true);
+    for (const name of [
+        'region:-100,33,-95,37,',
+        'region:-100,33,-95,37,/REF#;touch pwned;:',
+        'region:1,2,3',
+        'region:1,2,3,x',
+        'KLBB',
+        'region:1e9,2,3,4',
+    ])
+        assert.equal(isRegion(name), false, name);
+});
+
+test('the command is of one layer, and says none of what it cannot draw', () => {
+    const sweep = { ...usualLayers, hasVolume: false, sweepDeg: 0.5 };
+    assert.equal(beyondCommand(usualLayers, 1), null);
+    assert.equal(beyondCommand(sweep, 1), null);
+    assert.equal(
+        beyondCommand(sweep, 2),
+        'mosaic',
+        'frame refuses a sweep of several radars (2026-11-28: its command was copied)',
+    );
+    assert.equal(beyondCommand({ ...sweep, hasVolume: true }, 1), 'several');
+    assert.equal(beyondCommand({ ...sweep, sweepDeg: null }, 1), 'none');
+    assert.equal(beyondCommand({ ...sweep, hasHaze: true }, 1), 'haze');
+    assert.equal(beyondCommand({ ...sweep, hasFolded: true }, 1), 'haze');
+    assert.equal(beyondCommand({ ...usualLayers, surface: { value: 40, moment: '' } }, 1), 'surface');
+    assert.equal(
+        beyondCommand({ ...usualLayers, crop: { westM: 0, eastM: 1, southM: 0, northM: 1, bottomM: 0, topM: 1 } }, 1),
+        'box',
+    );
+});
+
+test('what the program refuses is not offered as a command (2026-11-28: the command ended with an error)', () => {
+    const is = (part: object, layers: object, width = 796): boolean =>
+        isBeyondLimits(
+            { ...chosen, camera: { ...chosen.camera, ...part }, layers: { ...usualLayers, ...layers } },
+            width,
+            532,
+        );
+    const section = (degrees: number) => ({
+        hasVolume: false,
+        section: [
+            { latitudeDeg: 35, longitudeDeg: -97 },
+            { latitudeDeg: 35 + degrees, longitudeDeg: -97 },
+        ],
+    });
+    assert.equal(is({}, {}), false);
+    assert.equal(is({ fieldOfViewDeg: 0 }, {}), false);
+    assert.equal(is({ fieldOfViewDeg: 0.5 }, {}), true);
+    assert.equal(is({}, {}, 9000), true);
+    assert.equal(is({}, { hasVolume: false, planeM: 61_000 }), true);
+    assert.equal(is({}, section(0.001)), true);
+    assert.equal(is({}, section(1)), false);
+});
+
+test('a time without a zone is UTC (2026-11-28: it was taken as that of the browser)', () => {
+    const read = (time: string): string => stateOf(`#time=${encodeURIComponent(time)}`).time;
+    for (const time of [
+        '2016-06-01T15:00:26',
+        '2016-06-01 15:00:26',
+        '2016-06-01T15:00:26Z',
+        '2016-06-01T10:00:26-05:00',
+    ])
+        assert.equal(Date.parse(read(time)), Date.UTC(2016, 5, 1, 15, 0, 26), time);
+    for (const time of ['latest', 'x', '2016-13-01T00:00:00Z', '']) assert.equal(read(time), 'latest', time);
+});
+
+// 2026-11-28: beside a service with another spacing, the command of a raw file drew another part of the country.
+test('of a grid that the program does not make by itself, no raw file is given', () => {
+    const levelsM = Float64Array.from({ length: 32 }, (_, level) => 500 * (level + 1));
+    const usual = { nx: 460, ny: 460, spacing: 1000, levelsM };
+    assert.equal(isUsualGrid(usual), true);
+    assert.equal(isUsualGrid({ ...usual, nx: 600, ny: 600, spacing: 500 }), false);
+    assert.equal(isUsualGrid({ ...usual, levelsM: levelsM.slice(1) }), false);
+});

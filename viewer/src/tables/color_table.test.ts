@@ -1,0 +1,38 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { colorOf, extinctionPerM } from './color_table';
+import { ColorTable } from '../wire/color_tables';
+
+const table: ColorTable = {
+    name: 'a',
+    moment: 'REF',
+    unit: 'dBZ',
+    stops: [
+        { from: 5, color: [0, 0, 0, 255], until: [100, 200, 40, 255] },
+        { from: 15, color: [9, 9, 9, 255], until: [9, 9, 9, 255] },
+    ],
+    end: 20,
+    bar_begin: 5,
+    range_folded: [1, 2, 3, 255],
+    extinction: [
+        { value: 5, per_km: 1 },
+        { value: 15, per_km: 3 },
+    ],
+};
+
+test('colors blend from stop to stop, begin with the first and go on with the last', () => {
+    assert.equal(colorOf(table, 4.99), null);
+    assert.equal(colorOf(table, NaN), null);
+    assert.deepEqual(colorOf(table, 5), [0, 0, 0, 255]);
+    assert.deepEqual(colorOf(table, 10), [50, 100, 20, 255]);
+    assert.deepEqual(colorOf(table, 15), [9, 9, 9, 255], 'a stop includes its lower bound');
+    assert.deepEqual(colorOf(table, 900), [9, 9, 9, 255]);
+});
+
+test('extinction is straight between points, none below the first, constant above the last', () => {
+    assert.equal(extinctionPerM(table, 4, 1), 0);
+    assert.equal(extinctionPerM(table, 10, 1), 0.002);
+    assert.equal(extinctionPerM(table, 10, 3), 0.006);
+    assert.equal(extinctionPerM(table, 90, 1), 0.003);
+});

@@ -1,0 +1,89 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { PackedError, codeAt, readPackedGrid, readPlace, valueOf } from './packed_grid';
+import { Made, evenLevels, packedGrid, scrambled } from '../testing/written_grid';
+
+// Bricks of each kind: values, mixed states, one state; edges that are no whole brick.
+const mixed: Made = {
+    nx: 49,
+    ny: 21,
+    levelsM: evenLevels(18),
+    codeOf(x, y, z) {
+        if (x < 16) return scrambled(x, y, z) % 256;
+        if (x < 32) return y < 16 ? scrambled(x, y, z) % 3 : 1;
+        return 2;
+    },
+};
+
+test('every cell comes back, in bricks of each kind', () => {
+    for (const codeBytes of [1, 2] as const) {
+        const grid = readPackedGrid(packedGrid({ ...mixed, codeBytes }));
+        assert.deepEqual([...new Set(grid.kind)].sort(), [0, 1, 2]);
+        for (let x = 0; x < 49; ++x)
+            for (let y = 0; y < 21; ++y)
+                for (let z = 0; z < 18; ++z)
+                    assert.equal(codeAt(grid, x, y, z), mixed.codeOf(x, y, z), `${x} ${y} ${z}`);
+    }
+});
+
+test('codes of two bytes reach beyond 255', () => {
+    const grid = readPackedGrid(packedGrid({ ...mixed, codeBytes: 2, codeOf: (x) => 300 + x }));
+    assert.equal(codeAt(grid, 48, 3, 3), 348);
+});
+
+test('the header says what and where the grid is', () => {
+    const grid = readPackedGrid(packedGrid(mixed));
+    assert.equal(grid.id, 'abc0123456789def');
+    assert.deepEqual([grid.nx, grid.ny, grid.nz], [49, 21, 18]);
+    assert.deepEqual([grid.timeMs, grid.startMs, grid.endMs], [1000, 500, 1500]);
+    assert.deepEqual(grid.sites, [{ latitudeDeg: 35.3331, longitudeDeg: -97.2777, altitudeM: 389, icao: 'KTLX' }]);
+    assert.equal(valueOf(grid, 3), -32);
+    assert.equal(valueOf(grid, 83), 8);
+});
+
+test('where a grid is stands in its header, before it is decoded', () => {
+    const bytes = packedGrid({ ...mixed, spacing: 500 });
+    const place = readPlace(bytes);
+    assert.deepEqual(place, {
+        projection: 0,
+        nx: 49,
+        ny: 21,
+        centerDeg: [35.3331, -97.2777],
+        spacing: 500,
+        parallelsDeg: [0, 0],
+        offsetCells: [0, 0],
+    });
+    const grid: Record<string, unknown> = { ...readPackedGrid(bytes) };
+    for (const [name, value] of Object.entries(place)) assert.deepEqual(grid[name], value, name);
+});
+
+test('a form that is cut or is something else is refused, wherever it is cut', () => {
+    const whole = packedGrid(mixed);
+    for (const size of [0, 8, 255, 256, 300, 800, whole.length - 1])
+        assert.throws(() => readPackedGrid(whole.slice(0, size)), PackedError, String(size));
+    const other = whole.slice();
+    other[1] = 0x54;
+    assert.throws(() => readPackedGrid(other), PackedError);
+});
+
+test('a table that names a block that is not there is refused', () => {
+    const bytes = packedGrid(mixed);
+    const view = new DataView(bytes.buffer);
+    const tableAt = Number(view.getBigUint64(224, true));
+    view.setUint32(tableAt + 8, 1e6, true); // the first brick has values
+    assert.throws(() => readPackedGrid(bytes), PackedError);
+});
+
+test('a brick of an unknown kind is refused', () => {
+    const bytes = packedGrid(mixed);
+    const view = new DataView(bytes.buffer);
+    view.setUint8(Number(view.getBigUint64(224, true)), 3);
+    assert.throws(() => readPackedGrid(bytes), /unknown kind/);
+});
+
+test('a count of rows that does not fit the bricks is refused', () => {
+    const bytes = packedGrid(mixed);
+    new DataView(bytes.buffer).setUint32(204, 7, true);
+    assert.throws(() => readPackedGrid(bytes), PackedError);
+});
