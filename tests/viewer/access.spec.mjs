@@ -120,27 +120,24 @@ test('each control has a name, and texts have contrast', async ({ near: viewer }
   }
 });
 
-test('so it is on the map of the stations', async ({ map: viewer }) => {
-  expect(await expectNames(viewer), 'controls').toBeGreaterThan(3);
-  await expectContrast(viewer);
-});
-
-for (const [width, height, least] of sizes) {
-  test(`everything is in its place at ${width} x ${height}`, async ({ near: viewer }) => {
-    // Large pictures take long: what is looked at here are panels.
-    await viewer.turnTo(viewer.page.url().split('#')[1].replace(/zoom=[^&]*/, 'zoom=0.01&ground=0'));
+test('everything is in its place in small and large windows', async ({ near: viewer }) => {
+  // Large pictures take long: what is looked at here are panels.
+  await viewer.turnTo(viewer.page.url().split('#')[1].replace(/zoom=[^&]*/, 'zoom=0.01&ground=0'));
+  for (const [width, height, least] of sizes) {
     await viewer.resize(width, height);
     for (const panel of panels) {
       await open(viewer, panel);
-      await expectInPlace(viewer, panel[1]);
+      await expectInPlace(viewer, `${width} x ${height} with ${panel[1]}`);
       await viewer.keep(`access-${width}-${panel[1]}`);
     }
     const size = await viewer.byId('title').evaluate((title) => parseFloat(getComputedStyle(title).fontSize));
-    expect(size, 'pixels of texts').toBeGreaterThanOrEqual(least);
-  });
-}
+    expect(size, `pixels of texts at ${width} x ${height}`).toBeGreaterThanOrEqual(least);
+  }
+});
 
-test('the map is in its place', async ({ map: viewer }) => {
+test('the map of the stations has names, contrast and everything in its place', async ({ map: viewer }) => {
+  expect(await expectNames(viewer), 'controls').toBeGreaterThan(3);
+  await expectContrast(viewer);
   // Painting it at 3840 x 2160 takes very long without a graphics processor.
   for (const [width, height] of sizes.slice(0, 3)) {
     await viewer.resize(width, height);
@@ -176,22 +173,16 @@ test('Tab comes to every control in the order of the page, and leaves it again',
   expect(visited.filter((id) => wanted.includes(id)), 'the order').toEqual(wanted);
 });
 
-test('Escape closes a panel and leads back', async ({ near: viewer }) => {
+test('keys are for the picture first, and Escape closes a panel and leads back', async ({ page, near: viewer }) => {
+  expect(await page.evaluate(() => matchMedia('(prefers-reduced-motion: reduce)').matches)).toBe(true);
+  expect(await page.evaluate(() => document.getAnimations().length), 'what moves by itself').toBe(0);
+  await page.evaluate(() => document.activeElement.blur());
+  await viewer.changes('before anything has the keyboard, T looks from above', 'tilt', () => viewer.key('t'), (_, after) => after === 0);
   await open(viewer, panels[0]);
   await viewer.byId('open').focus();
   for (const key of ['Tab', 'Tab', 'Escape']) await viewer.key(key);
   await expect(viewer.byId('open')).toBeFocused();
   await expect(viewer.byId('settings')).toBeHidden();
-});
-
-test('before anything has the keyboard, keys are for the picture', async ({ page, near: viewer }) => {
-  await page.evaluate(() => document.activeElement.blur());
-  await viewer.changes('T looks from above', 'tilt', () => viewer.key('t'), (_, after) => after === 0);
-});
-
-test('nothing moves by itself', async ({ page, near: viewer }) => {
-  expect(await page.evaluate(() => matchMedia('(prefers-reduced-motion: reduce)').matches)).toBe(true);
-  expect(await page.evaluate(() => document.getAnimations().length), 'animations').toBe(0);
 });
 
 test('units are chosen, told and remembered', async ({ viewer, server: { station } }) => {

@@ -35,6 +35,11 @@ async function openOnly(viewer, view) {
 }
 // Waits until the page has asked for something so many times.
 const expectAsked = (viewer, part, times) => expect.poll(() => viewer.asked(part), `requests for ${part}`).toBeGreaterThanOrEqual(times);
+// Tells the page of an event, once it listens.
+async function tell(relay, kind, data) {
+  await expect.poll(() => relay.streams.size, 'streams of events').toBeGreaterThan(0);
+  relay.tell(kind, data);
+}
 // Changes answers that are JSON and whose path begins so.
 const changing = (pattern, change) => (path, body) => {
   if (body.length === 0 || !pattern.test(path)) return body;
@@ -99,7 +104,7 @@ test('a radar that comes later is shown', async ({ viewer, relay, says, server }
   await viewer.goto(`domain=${other}&moment=REF&time=latest`);
   await expect(says.notice).toContainText(`No data for ${other}`);
   relay.listed = (path, body) => body;
-  relay.tell('volume_complete', { domain: other, station: other, moment: 'REF', grid: (await server.grid(other)).time });
+  await tell(relay, 'volume_complete', { domain: other, station: other, moment: 'REF', grid: (await server.grid(other)).time });
   await says.nothing();
 });
 
@@ -130,7 +135,7 @@ test.describe('a server that is gone', () => {
     await says.live();
     await expectAsked(viewer, '/api/v1/grids?', before + 1);
     const again = viewer.asked('/api/v1/grids?');
-    relay.tell('reset', { reason: 'events were lost' });
+    await tell(relay, 'reset', { reason: 'events were lost' });
     await expectAsked(viewer, '/api/v1/grids?', again + 1);
   });
 
@@ -217,9 +222,9 @@ test('a grid that was made again while another moment was shown is loaded again'
   await turn('VEL');
   expect(viewer.asked(velocities), 'what was loaded is not loaded again').toBe(loaded);
   await turn('REF');
-  relay.tell('sweep_gridded', { domain: station, station, moment: 'VEL', grid: time });
+  await tell(relay, 'sweep_gridded', { domain: station, station, moment: 'VEL', grid: time });
   // The page hears events in their order.
-  relay.tell('station_silent', { station, silent_s: 840 });
+  await tell(relay, 'station_silent', { station, silent_s: 840 });
   await expect(says.notice).toContainText('silent');
   await turn('VEL');
   expect(viewer.asked(velocities), 'what was made again is').toBeGreaterThan(loaded);
@@ -228,15 +233,15 @@ test('a grid that was made again while another moment was shown is loaded again'
 test.describe('a silent radar', () => {
   test('is told, until it speaks', async ({ viewer, relay, says, newest, server: { station } }) => {
     await viewer.open(newest);
-    relay.tell('station_silent', { station, silent_s: 840 });
+    await tell(relay, 'station_silent', { station, silent_s: 840 });
     await expect(says.notice).toContainText(`${station} is silent: nothing came for 14 min`);
     await says.live(false);
-    relay.tell('station_spoke', { station });
+    await tell(relay, 'station_spoke', { station });
     await says.nothing();
     // 2026-11-28: when the news that it speaks were lost, it stayed silent for good.
-    relay.tell('station_silent', { station, silent_s: 840 });
+    await tell(relay, 'station_silent', { station, silent_s: 840 });
     await expect(says.notice).toContainText('silent');
-    relay.tell('reset', { reason: 'events were lost' });
+    await tell(relay, 'reset', { reason: 'events were lost' });
     await says.nothing();
   });
 
@@ -339,13 +344,13 @@ test.describe('volumes that are listed and gone', () => {
     await expect(button).toHaveCount(0);
     let hasMore = true; // than those of a list
     relay.listed = changing(/^\/api\/v1\/grids\?/, (all) => ({ ...all, more: hasMore }));
-    relay.tell('volume_complete', { domain: station, station, moment: 'VEL', grid: time });
+    await tell(relay, 'volume_complete', { domain: station, station, moment: 'VEL', grid: time });
     await expect(button).toHaveCount(1);
-    const evict = (gone, oldest) => relay.tell('grid_evicted', { domain: station, moment: 'REF', count: 1, from: gone, to: gone, grids: [gone], oldest });
-    evict(old[0], old[1]);
+    const evict = (gone, oldest) => tell(relay, 'grid_evicted', { domain: station, moment: 'REF', count: 1, from: gone, to: gone, grids: [gone], oldest });
+    await evict(old[0], old[1]);
     await hasTimes(stored + 1);
     hasMore = false;
-    evict(old[1], time);
+    await evict(old[1], time);
     await hasTimes(stored);
   });
 });
