@@ -40,7 +40,7 @@ test('keys follow the newest, set a loop and step in it', async ({ viewer, newes
   await viewer.key('>');
   await viewer.settled(() => viewer.key(','));
   await viewer.key('<');
-  await expect(viewer.byId('loop-all')).toBeVisible();
+  await expect(viewer.byId('loop-all'), '< and > set a loop').toHaveJSProperty('hidden', false);
   expect(await shown(viewer)).toBe(third);
 });
 
