@@ -126,7 +126,8 @@ test.describe('layers', { tag: '@full' }, () => {
     }
     expect(inside, 'pixels where the column maximum reaches 45 dBZ').toBeGreaterThan(30);
     // A ray may step over a cell that just reaches the value.
-    expect(missing, 'those that are missing').toBeLessThanOrEqual(0.06 * inside);
+    // 2026-11-29: without perspective a surface lost what is between the eye and depth 0.
+    expect(missing, 'those that are missing').toBeLessThanOrEqual(0.04 * inside);
     expect(more, 'others').toBeLessThanOrEqual(0.005 * inside);
     expect(shape, 'pixels in the colors of VEL').toBeGreaterThan(30);
     expect(others, 'those that are not of the surface').toBe(0);

@@ -157,7 +157,7 @@ test('errors of TOML name the line', () => {
         ['a = 1\na = 2\n', "t.toml:2: trying to redefine an already defined table or value, in 'a = 2'"],
         ['a = "\\q"\n', 't.toml:1: unrecognised escape sequence'],
         ['[[point]\n', "t.toml:1: expected end of table array declaration, in '[[point]'"],
-        [`a = ${'['.repeat(100000)}`, 't.toml:1: document contains excessively nested structures'],
+        [`a = ${'['.repeat(100000)}`, 't.toml:1: the values are too deep'],
         ['<html>', "t.toml:1: illegal character in key, in '<html>'"],
     ] as const)
         assert(message(toml, text).startsWith(wanted), `${message(toml, text)} for ${text.slice(0, 60)}`);

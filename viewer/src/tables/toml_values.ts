@@ -155,7 +155,10 @@ export function readTomlValues(text: string, name: string): TomlTable {
         return new TomlTable(parse(text, { maxDepth: deepest }), new LineFinder(text).find());
     } catch (error) {
         if (!(error instanceof TomlError)) throw error;
-        const why = error.message.replace(/^Invalid TOML document: /, '').split('\n')[0]!;
+        const why = error.message
+            .split('\n')[0]!
+            .replace('Invalid TOML document: ', '')
+            .replace(/^document contains excessively nested structures.*/, 'the values are too deep');
         const line = text.split('\n')[error.line - 1]!.trim();
         throw new TableError(`${name}:${error.line}: ${why}, in '${shownWord(line)}'`);
     }

@@ -11,6 +11,7 @@ import { Keys } from '../keys';
 import { cutText } from '../layer_maker';
 import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_tools';
 import { Pointers } from '../pointers';
+import { isMoment } from '../../wire/moments';
 import { texts } from '../texts';
 import { openSettings } from './look';
 import { SectionPlot } from './section_plot';
@@ -185,11 +186,16 @@ export class LayersPanel {
 
     // -- what they do
 
+    // An address may name what is no moment, before the page has chosen another one.
+    private get momentOfVeils(): string {
+        const { moment } = this.app.state;
+        return isMoment(moment) ? moment : '';
+    }
     private get hasFolded(): boolean {
-        return veilsFolded(this.layers, this.app.state.moment);
+        return veilsFolded(this.layers, this.momentOfVeils);
     }
     private toggleFolded(): void {
-        this.set({ hasFolded: toggledFolded(this.layers, this.app.state.moment) });
+        this.set({ hasFolded: toggledFolded(this.layers, this.momentOfVeils) });
     }
     private get layers(): Layers {
         return this.app.state.layers;

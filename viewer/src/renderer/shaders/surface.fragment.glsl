@@ -6,6 +6,7 @@ uniform vec3 cellM; // of drawn space
 
 const float surfaceExposure = 0.86; // by it the lightness of a surface is about that of its color
 const vec3 plainColor = vec3(0.62); // where the table has none
+const float nowhere = 1e30; // the depth of what a ray does not meet; a depth may be less than 0
 
 // Returns the mean code at a place, and the share of cells with values.
 vec2 codeAt(vec3 p) {
@@ -66,8 +67,8 @@ vec3 outwardAt(vec3 p) {
     return fall / cellM;
 }
 
-// Steps along a ray until it is inside. Returns the depth of the last step outside and of the first one inside, which
-// is less than 0 if there is none.
+// Steps along a ray until it is inside. Returns the depths of the last step outside and of the first one inside, which
+// may be nowhere.
 vec2 stepsAcross(vec3 start, vec3 along, float enter, float leave) {
     float k = max(0.0, floor((enter - near) / stepM));
     float last = min(slices, ceil((leave - near) / stepM));
@@ -88,7 +89,7 @@ vec2 stepsAcross(vec3 start, vec3 along, float enter, float leave) {
         outside = depth;
         k += 1.0;
     }
-    return vec2(outside, -1.0);
+    return vec2(outside, nowhere);
 }
 
 void main() {
@@ -100,7 +101,7 @@ void main() {
     bool isCut = insideAt(start + enter * along);
     vec2 found = isCut ? vec2(enter) : stepsAcross(start, along, enter, leave);
     float outside = found.x, hit = found.y;
-    if (hit < 0.0) discard;
+    if (hit == nowhere) discard;
     // Halve that step ten times, so that the surface has no steps of slices.
     if (!isCut) {
         for (int i = 0; i < 10; ++i) {
