@@ -2,7 +2,8 @@
 //
 // Threads   Immutable.
 // Accuracy  The error is half the second derivative of the function times 250 m squared
-//           (tests/grid/sweep_mixture_test.cpp). The users of a table say what that amounts to.
+//           (tests/grid/sweep_mixture_test.cpp). Each user of a table states its own error in
+//           meters.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,7 @@ class ArcTable {
     static constexpr double step_m = 500;
 
     ArcTable() = default;
-    // at(arc) returns the value for an arc in meters.
+    // Calls at(arc) for each arc of the table, in meters, and keeps the values.
     template <class Function>
     ArcTable(std::size_t size, Function at) {
         values_.reserve(size);

@@ -113,8 +113,8 @@ AntennaPoint BeamModel::inverse(EarthPoint point) const {
     return traced_inverse(point);
 }
 
-// Iterates to the gate whose traced beam meets the point. The 4/3 earth's inverse says how far to
-// move the gate for the remaining error. The step shrinks if it did not help, because the two
+// Iterates to the gate whose traced beam meets the point. The inverse of the 4/3 earth gives the
+// next step from the remaining error. If a step did not help, it is made shorter, because the two
 // models respond differently near ducts.
 AntennaPoint BeamModel::traced_inverse(EarthPoint point) const {
     if (!std::isfinite(point.arc_m) || !std::isfinite(point.height_m)) return {nan, nan};
@@ -174,8 +174,8 @@ void raise(BeamDifference& greatest, const BeamDifference& by, double if_missing
     greatest.gate_m = greater(greatest.gate_m, by.gate_m);
 }
 
-// Raises `greatest` by samples at every step up to the limit and one step beyond. A sample next to
-// one that counts is taken too, so that the ends of the part that counts lie between samples.
+// Raises `greatest` by samples at every step up to the limit and one step beyond. A sample is taken
+// if it counts or a neighbor counts, so that both ends of the counted part lie between samples.
 template <class SampleAt>
 void raise_along(BeamDifference& greatest, double limit_m, SampleAt sample_at) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

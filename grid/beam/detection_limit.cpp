@@ -9,7 +9,7 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double nearest_range_m = 100;
-// A number beyond these is a damaged field, not a calibration.
+// A calibration beyond these limits comes from a damaged field.
 constexpr float weakest_calibration_dbz = -80;
 constexpr float strongest_calibration_dbz = 0;
 constexpr int largest_attenuation_thousandths = 100;

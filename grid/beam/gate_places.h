@@ -1,7 +1,7 @@
-// grid/beam/gate_places.h -- where the centers of a sweep's gates lie.
+// grid/beam/gate_places.h -- where the centers of a sweep's gates are.
 //
-// Each gate has a parabola through its places at the sweep's elevation and half a beam below and
-// above.
+// Each gate has a parabola through three places: at the sweep's elevation, half a beam below it and
+// half a beam above it.
 //
 // Accuracy  0.02 m of the beam model, for radials up to half a beam off, ranges to 470 km,
 //           elevations of -5 to 60 degrees and the 4/3 earth (enforced by
@@ -24,8 +24,9 @@ class GatePlaces {
     GatePlaces(const level2::SweepMoment& moment, const BeamModel& beam, double elevation_deg,
                double half_beam_deg);
 
-    // Returns the place of a gate of a radial that is higher than the sweep by `offset_deg`. The
-    // gate must be from 0 to below the moment's stride. Returns none where the beam does not go.
+    // Returns the place of a gate, for a radial that is higher than the sweep by `offset_deg`. The
+    // gate must be at least 0 and below the moment's stride. Returns none where the beam does not
+    // go.
     [[nodiscard]] std::optional<EarthPoint> at(std::int32_t gate, double offset_deg) const;
 
   private:

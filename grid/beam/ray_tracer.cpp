@@ -96,9 +96,9 @@ double Tracer::suitable_length_m(const State& state) const {
     return std::min(longest_step_m, share_of_scale / std::max(rate_per_m, 1e-9));
 }
 
-// Returns the length of a step from the state that makes value(state, rate) zero. The value rises
-// or falls, and has one zero up to length_m. Newton's steps start from a guess; a step that leaves
-// the bracket is replaced by halving it.
+// Returns the length of a step from the state that makes value(state, rate) zero. The value must be
+// monotonic and have one zero up to length_m. Newton's steps start from a guess. If a step leaves
+// the bracket, the bracket is halved instead.
 template <class Value>
 double Tracer::where_zero(const State& state, double length_m, double guess_m, bool rising,
                           Value value) const {
@@ -118,7 +118,8 @@ double Tracer::where_zero(const State& state, double length_m, double guess_m, b
     return length;
 }
 
-// Returns where a ray of constant curvature would have risen by `rise_m`; the nearer of two places.
+// Returns where a ray of constant curvature would have risen by `rise_m`; the nearer place if there
+// are two.
 double Tracer::parabola_m(const State& state, double rise_m) const {
     const State rates = rate(state);
     const double root = rates.height_m * rates.height_m + 2 * rates.sine * rise_m;
@@ -205,8 +206,8 @@ double hermite(double t, double length, double from, double from_slope, double t
     return from + t * (rise + (1 - t) * (a * (1 - t) + b * t));
 }
 
-// Returns the index of the node that begins the stretch holding x, which must lie between the first
-// and the last node.
+// Returns the index of the node at the start of the stretch that holds x. x must be between the
+// first and the last node.
 template <class Key>
 std::size_t stretch(const std::vector<RayNode>& nodes, double x, Key key) {
     const auto after =

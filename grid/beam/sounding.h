@@ -17,7 +17,7 @@
 // Source    N = 77.6 p / T + 3.73e5 e / T^2, and the saturation pressure over water: ITU-R P.453-7
 //           eqs 2-6 (within 0.5 % up to 100 GHz).
 // Threads   Pure functions; read_sounding() reads a file.
-// Errors    bad_argument, naming file, line and column; not_found, io and others from reading the
+// Errors    bad_argument, with the file, line and column; not_found, io and others from reading the
 //           file.
 #pragma once
 

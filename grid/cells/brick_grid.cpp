@@ -16,7 +16,8 @@ namespace {
 // There are several pieces for each thread, because storms make some bricks costlier than others.
 constexpr int pieces_a_thread = 4;
 
-// Returns the nearest code. A value beyond the range of codes takes its end and is counted.
+// Returns the nearest code. A value beyond the range of codes gets the code at that end and is
+// counted.
 std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
@@ -73,7 +74,7 @@ class BrickReader {
         }
     }
 
-    // Returns true if there is a value among them.
+    // Copies the states and returns true if one of them is a value.
     template <int count>
     static bool copy_states(const CellStatus* status, Code* to) {
         std::uint8_t largest = 0;
@@ -104,7 +105,7 @@ struct CodeCounts {
     }
 };
 
-// Returns how many of the codes are this one. A row of 128 fits into a counter of one byte.
+// Returns how many codes equal `wanted`. A row of 128 codes fits into a counter of one byte.
 template <class Code>
 std::size_t count_of(const Code* codes, Code wanted) {
     constexpr std::size_t row = 128;
@@ -118,16 +119,16 @@ std::size_t count_of(const Code* codes, Code wanted) {
     return count;
 }
 
-// Each figure has a loop of its own: the compiler vectorizes these, but not one loop with all of
-// them, which took ten times as many instructions.
+// Each count has its own loop. The compiler vectorizes these loops, but not a single loop for all
+// counts, which took ten times as many instructions.
 template <class Code>
 CodeCounts count_codes(const Code* codes) {
     CodeCounts counts;
     counts.not_seen = count_of(codes, Code{0});
     counts.no_echo = count_of(codes, Code{1});
     counts.range_folded = count_of(codes, Code{2});
-    // Makes the codes of values start at 0. The codes of states wrap around and become larger than
-    // any value.
+    // Subtracting makes the codes of values start at 0. The codes of states wrap around and become
+    // larger than any value.
     const auto wrapped = [](Code code) { return static_cast<Code>(code - first_value_code); };
     Code smallest = wrapped(0);
     for (std::size_t i = 0; i < brick_cells; ++i)
@@ -168,8 +169,8 @@ void read_columns(const Grid& grid, const BrickView& shape, int begin_x, int end
     writer.count_clamped(reader.clamped_count());
 }
 
-// Fills the grid in pieces along x, one after the other, so that the states of the writers are in
-// order.
+// Fills the grid in pieces along x. Each writer gets one piece, in order, so that the states of the
+// writers follow each other.
 template <class Code>
 void read_all(const Grid& grid, int threads, BrickGrid& made) {
     const BrickView shape = made.view();
@@ -254,8 +255,8 @@ void BrickGrid::finish_again(std::span<BricksWriter> writers) {
     std::size_t count = 0;
     for (const BricksWriter& writer : writers)
         count += writer.bricks_with_states_.size();
-    // Until all blocks stand in order, the status_index of a brick that was just written counts
-    // among the new blocks, and that of every other brick among the old ones.
+    // Until all blocks are in order, the status_index of a brick that was just written counts the
+    // new blocks, and the status_index of any other brick counts the old blocks.
     std::vector<const std::byte*> new_blocks;
     new_blocks.reserve(count);
     std::vector<bool> is_new(bricks_.size());
@@ -344,7 +345,7 @@ void BricksWriter::copy(std::size_t brick, const BrickView& from, std::size_t fr
         return add_states(brick, states, source.checksum);
     }
     grid_->bricks_[brick] = source;
-    // this size refers to the file that the brick came from
+    // packed_bytes describes the file that the brick came from, so it does not apply here
     grid_->bricks_[brick].packed_bytes = 0;
     if (source.kind == BrickKind::uniform) return;
     const std::size_t size = brick_cells * static_cast<std::size_t>(from.quantization.code_bytes);

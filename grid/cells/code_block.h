@@ -1,8 +1,8 @@
 // grid/cells/code_block.h -- the codes of a rectangle of columns and sixteen levels, unpacked.
 //
-// Whatever the kind of a brick (uniform, states, codes of one byte or two), a block holds its codes
-// with 16 bits each, states included. Places beyond the grid are not seen. It is for steps that
-// read about a cell, and used only inside the grid room.
+// A block holds 16-bit codes, states included, for every kind of brick (uniform, states, codes of
+// one or two bytes). Places beyond the grid are not seen. Only steps inside the grid room that read
+// the neighbors of a cell use it.
 //
 // Threads   One thread for each object.
 #pragma once

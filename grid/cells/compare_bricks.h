@@ -1,8 +1,8 @@
 // grid/cells/compare_bricks.h -- how two grids of the same cells differ, cell by cell.
 //
-// The grids may be made in different ways and have different quantizations, such as a mosaic by a
-// cheap chain and the same mosaic by the exact chain (pipeline/plan/mosaic_plan.h). This is not for
-// moments that wrap (VEL, PHI), because differences are taken as plain numbers.
+// The grids may be made in different ways and have different quantizations, for example a mosaic by
+// a cheap chain and the same mosaic by the exact chain (pipeline/plan/mosaic_plan.h). Do not
+// compare moments that wrap (VEL, PHI), because the differences are those of plain numbers.
 //
 // Threads   Pure; the result is the same for any number of threads.
 #pragma once
@@ -20,7 +20,7 @@ struct BrickDifferences {
     accuracy::StatusCounts status;  // of the cells that at least one of the two has seen
 
     // Returns the summary of the magnitudes of all differences, or none if no cell has a value in
-    // both.
+    // both grids.
     [[nodiscard]] std::optional<accuracy::ErrorSummary> summary() const;
 };
 

@@ -2,7 +2,7 @@
 //
 // Threads   Pure function.
 // Errors    None: the window must lie within the grid and hold whole bricks (is_whole_bricks).
-// Accuracy  State and code of every cell are those of the grid.
+// Accuracy  Every cell keeps its state and its code.
 #pragma once
 
 #include "stormcellar/grid/brick_grid.h"

@@ -15,7 +15,7 @@ struct Between {
 };
 
 std::optional<Between> between(double place, int cells) {
-    // The place may be NaN, which is nowhere.
+    // A place that is NaN also fails this test.
     if (!std::isgreaterequal(place, 0.0) || !std::islessequal(place, cells - 1.0)) {
         return std::nullopt;
     }

@@ -40,8 +40,8 @@ Status validate_levels(const GridSpec& spec) {
     return {};
 }
 
-// Checks the spacing. What a projection does not use must be 0; otherwise one grid could have two
-// specs.
+// Checks the spacing. A field that the projection does not use must be 0; otherwise one grid could
+// have two specs.
 Status validate_spacing(const GridSpec& spec) {
     const bool in_degrees = spec.in_degrees();
     const double spacing = in_degrees ? spec.spacing_deg : spec.spacing_m;

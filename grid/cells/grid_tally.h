@@ -1,9 +1,10 @@
 // grid/cells/grid_tally.h -- counts what many grids of one shape show, for statistics over months
-// and years: of each column its greatest value and its echo top, and, where asked, each cell.
+// and years: the greatest value and the echo top of each column and, if asked for, the values of
+// each cell.
 //
-// What was not seen is counted apart from what had no echo, so that a blind region is not taken for
-// a dry one. Tallies of parts of a time, added in any order, are to the bit the tally of the whole
-// (grid/cells/value_tally.h, with units and accuracy).
+// Places that were not seen are counted apart from places without echo, so that a blind region is
+// not taken for a dry one. The tallies of the parts of a period, added in any order, equal the
+// tally of the whole period bit for bit (grid/cells/value_tally.h, with units and accuracy).
 //
 // Range     2^32 grids.
 // Threads   Plain data; one thread at a time changes it.
@@ -31,22 +32,22 @@ class GridTally {
 
     GridTally(GridSpec spec, Quantization quantization, Tallied tallied = Tallied::columns);
 
-    // Counts one grid: of each column whether any cell was seen, its greatest value, and the
-    // highest level with 18.5 dBZ.
+    // Counts one grid. Each column counts whether any of its cells was seen, its greatest value,
+    // and the highest level with 18.5 dBZ.
     [[nodiscard]] Status add(const BrickView& grid);
     [[nodiscard]] Status add(const GridTally& more);
 
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
     [[nodiscard]] const Quantization& quantization() const { return quantization_; }
     [[nodiscard]] std::uint64_t grids() const { return grids_; }
-    // By iy * nx + ix.
+    // The greatest values of the columns; the index is iy * nx + ix.
     [[nodiscard]] const ValueTally& columns() const { return columns_; }
-    // By GridSpec::index(); none if they are not counted.
+    // The values of the cells; the index is GridSpec::index(). None if cells are not counted.
     [[nodiscard]] const std::optional<ValueTally>& cells() const { return cells_; }
     [[nodiscard]] std::uint32_t tops_from(std::size_t column, std::size_t level) const;
 
-    // Returns all counts and sums as bytes() bytes, and takes them back. Errors: truncated,
-    // corrupt.
+    // to_bytes() returns all counts and sums as bytes() bytes, and from_bytes() reads them back.
+    // Errors: truncated, corrupt.
     [[nodiscard]] std::vector<std::byte> to_bytes() const;
     [[nodiscard]] Status from_bytes(std::span<const std::byte> bytes);
     [[nodiscard]] std::uint64_t bytes() const { return bytes_of(spec_, tallied()); }
@@ -66,7 +67,7 @@ class GridTally {
     ValueTally columns_;
     std::optional<ValueTally> cells_;
     std::vector<std::uint32_t> tops_;  // by column, then level
-    std::uint16_t top_code_ = 0;       // the first that counts for the echo top
+    std::uint16_t top_code_ = 0;       // the first code that counts for the echo top
 };
 
 }  // namespace stormcellar::grid

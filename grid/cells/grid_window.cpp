@@ -14,7 +14,7 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int circle_points = 720;
-// Between two sampled points the circle bulges by 1e-5 of its radius; the rest is a margin for
+// Between two sampled points the circle bulges by 1e-5 of its radius. The rest is a margin for
 // projections.
 constexpr double bulge = 1.001;
 // If two neighboring points on the circle are farther apart in the plane than this many times their
@@ -73,7 +73,7 @@ Box box_in_degrees(const GridSpec& domain, const SitePosition& site, double radi
 
 // Returns the range for a grid in a plane, or none if the plane is torn inside the circle.
 std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site, double radius_m) {
-    const MaskedTraps masked;  // what a projection cannot show may be infinite
+    const MaskedTraps masked;  // places that a projection cannot show may be infinite
     const GridProjection projection(domain);
     const double step_m = 2 * 3.15 * radius_m / circle_points;
     const double longest = largest_stretch * step_m / domain.spacing_m;
@@ -109,8 +109,8 @@ Span whole_bricks(const Range& range, int count) {
             std::min(count, bricks_along(static_cast<int>(end)) * brick_edge)};
 }
 
-// Makes whole bricks around a range. In a grid in degrees, a column also stands a whole turn to the
-// west and to the east.
+// Makes whole bricks around a range. In a grid in degrees, a column has copies one whole turn to
+// the west and to the east.
 Span whole_bricks_around(const Range& range, const GridSpec& domain) {
     const double turn = 360 / domain.spacing_deg;
     Span all;

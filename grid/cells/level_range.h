@@ -1,5 +1,5 @@
-// grid/cells/level_range.h -- converts lengths as people write them, in kilometers, to those of
-// grids.
+// grid/cells/level_range.h -- converts lengths in kilometers, as people write them, to the lengths
+// of grids.
 //
 // The options of the command line and the keys of the daemon's configuration are parsed by the same
 // code, so the same text gives the same grid, bit for bit.

@@ -1,4 +1,4 @@
-// grid/cells/level_table.h -- the levels of a grid, and where a height lies among them.
+// grid/cells/level_table.h -- the levels of a grid, and the place of a height among them.
 //
 // A lookup is exact: it starts in a table of equal steps and ends on the levels themselves.
 //
@@ -25,7 +25,8 @@ class LevelTable {
         const std::size_t steps = steps_a_level * levels_m_.size();
         first_of_step_.reserve(steps + 1);
         for (std::size_t step = 0; step <= steps; ++step) {
-            // Half a step lower, so that rounding cannot make a lookup pass over a level.
+            // The start of a step is half a step lower, so that rounding cannot make a lookup pass
+            // over a level.
             const float begin = static_cast<float>(step) - 0.5F;
             while (level + 1 < levels_m_.size() && step_of(levels_m_[level]) < begin)
                 ++level;

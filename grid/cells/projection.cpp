@@ -75,16 +75,16 @@ Status validate_parallels(const GridSpec& spec) {
     return {};
 }
 
-// Checks a cone. It is cut open along the meridian opposite the center's. The wedge of the plane
-// behind the cut and the pole at the tip of the cone are not places on the earth, or are each place
-// twice; so the grid must not reach them.
+// Checks a cone. It is cut open along the meridian opposite its center. The wedge of the plane
+// behind the cut holds no places on the earth, or places that the map has already. The same is true
+// of the pole at the tip of the cone. So the grid must not reach them.
 Status validate_cone(const GridSpec& spec) {
     const Cone cone = cone_of(spec);
     const double side = cone.OriginLatitude() < 0 ? -1 : 1;  // the pole at the tip
     const double tip_m =
         side * (cone_northing_m(cone, side * 90) - cone_northing_m(cone, spec.center_latitude_deg));
     const double half_width_m = (std::abs(spec.offset_x_cells) + 0.5 * spec.nx) * spec.spacing_m;
-    // How far toward the tip the grid reaches.
+    // Distance that the grid reaches toward the tip.
     const double height_m = (side * spec.offset_y_cells + 0.5 * spec.ny) * spec.spacing_m;
     const double turn_deg = std::atan2(half_width_m, tip_m - height_m) * degrees_per_radian;
     const double cut_deg = 180 * std::sin(std::abs(cone.OriginLatitude()) / degrees_per_radian);

@@ -1,14 +1,14 @@
 // grid/cells/value_tally.h -- counts the values that places had in many grids.
 //
 // A place is a cell, or a column with its greatest value (grid/cells/grid_tally.h). All sums are
-// integers of codes and counts, so tallies of parts of a time, added in any order, are to the bit
-// the tally of the whole.
+// integers of codes and counts, so the tallies of the parts of a period, added in any order, equal
+// the tally of the whole period bit for bit.
 //
 // Units     Reflectivity in dBZ.
 // Range     2^32 grids.
 // Threads   Plain data; one thread at a time changes it.
-// Accuracy  Quantiles are the middles of bins of 5 dBZ: within 2.5 dBZ. Means and maxima are those
-//           of the codes. A sum of Z counts each value to 0.001 mm^6/m^3.
+// Accuracy  A quantile is the middle of a bin of 5 dBZ, so it is within 2.5 dBZ. Means and maxima
+//           are exact for the codes. A sum of Z counts each value to 0.001 mm^6/m^3.
 #pragma once
 
 #include <algorithm>
@@ -25,15 +25,15 @@ namespace stormcellar::grid {
 
 class ValueTally {
   public:
-    // Bin 0 has what is below -30 dBZ, the last one what is 75 dBZ or more.
+    // Bin 0 counts values below -30 dBZ, the last bin values of 75 dBZ and more.
     static constexpr std::size_t bins = 23;
     static constexpr double first_edge_dbz = -30, bin_width_db = 5;
     [[nodiscard]] static double edge_dbz(std::size_t bin);  // lower edge of bin 1 and above
 
     ValueTally(std::size_t places, Quantization quantization);
 
-    // Counts a place that was seen once more, with its code; a code that is no value means that
-    // there was none.
+    // Counts a place that was seen once more, with its code. A code below first_value_code means
+    // that the place had no value.
     void count(std::size_t place, std::uint16_t code) {
         ++seen_[place];
         if (code >= first_value_code) count_value(place, code);
@@ -48,15 +48,15 @@ class ValueTally {
         return in_bins_[place * bins + bin];
     }
     [[nodiscard]] std::uint32_t from_bin_on(std::size_t place, std::size_t bin) const;
-    // These are of places with a value.
+    // The following functions cover only the grids in which the place has a value.
     [[nodiscard]] double greatest_dbz(std::size_t place) const;
     [[nodiscard]] double mean_dbz(std::size_t place) const;       // of the values in dBZ
     [[nodiscard]] double mean_z_as_dbz(std::size_t place) const;  // of the values as Z
-    // The middle of the bin in which the share of the values is reached.
+    // Returns the middle of the bin in which the share of the values is reached.
     [[nodiscard]] double quantile_dbz(std::size_t place, double share) const;
 
-    // Appends all counts and sums as bytes, bytes_of() of them, or takes as many from the front.
-    // Errors: corrupt, for a greatest value that no grid can have.
+    // append_to() appends all counts and sums as bytes_of() bytes, and take_from() removes as many
+    // bytes from the front. Errors: corrupt, for a greatest value that no grid can have.
     void append_to(std::vector<std::byte>& bytes) const;
     [[nodiscard]] Status take_from(std::span<const std::byte>& bytes);
     [[nodiscard]] static std::uint64_t bytes_of(std::size_t places);
@@ -72,20 +72,20 @@ class ValueTally {
     std::vector<std::uint64_t> power_of_;        // by code
 };
 
-// Numbers as bytes, one after the other, for tallies.
+// Appends numbers as bytes, one after the other.
 template <class Number>
 void append_numbers(const std::vector<Number>& numbers, std::vector<std::byte>& bytes) {
     const auto more = std::as_bytes(std::span(numbers));
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
-// Fills `numbers` from the front of `bytes`, which must have as many.
+// Fills `numbers` from the front of `bytes`, which must hold enough bytes, and removes those.
 template <class Number>
 void take_numbers(std::span<const std::byte>& bytes, std::vector<Number>& numbers) {
     const auto target = std::as_writable_bytes(std::span(numbers));
     std::copy_n(bytes.begin(), target.size(), target.begin());
     bytes = bytes.subspan(target.size());
 }
-// Adds each number of `more` to the one at its place.
+// Adds each number of `more` to the number at the same index of `sums`.
 template <class Number>
 void add_numbers(const std::vector<Number>& more, std::vector<Number>& sums) {
     std::transform(more.begin(), more.end(), sums.begin(), sums.begin(), std::plus<>{});

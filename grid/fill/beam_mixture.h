@@ -1,4 +1,5 @@
-// grid/fill/beam_mixture.h -- one sweep over one column as a mixture of gates, by any method.
+// grid/fill/beam_mixture.h -- makes the mixture of gates of one sweep over one column, by any
+// method.
 //
 // Units     Meters above mean sea level for heights, degrees for angles.
 // Threads   Pure functions.
@@ -10,7 +11,7 @@
 
 namespace stormcellar::grid {
 
-// What one sweep contributes to a column. Within a column, heights rise or stay equal from each
+// The contribution of one sweep to a column. Within a column, heights rise or stay equal from each
 // sweep to the next.
 struct BeamMixture {
     Mixture mixture;

@@ -19,14 +19,14 @@ class Filler {
 
     // Below the lowest beam, cells are seen down to its lower edge.
     void below(const BeamSample& lowest) {
-        // Close to the antenna rounding may have the edge above the beam.
+        // Close to the antenna, rounding may put the edge above the beam.
         level_ = levels_.first_from(std::min(lowest.lower_edge_m, lowest.height_m));
         fill_to(levels_.first_from(lowest.height_m), lowest.sample);
     }
 
     // Fills the levels below `high`. The levels below `low` are done, or belong to the run of equal
-    // states that `low` continues. Such a run is only remembered here: between beams that all see
-    // no echo, or all see nothing, there is that state alone, so the whole run is filled at once
+    // states that `low` continues. Such a run is only remembered here. Between beams that all see
+    // no echo, or all see nothing, every level has that state, so the whole run is filled at once
     // when it ends.
     void between(const BeamSample& low, const BeamSample& high) {
         const bool same_state = low.sample.status == high.sample.status;

@@ -17,8 +17,8 @@
 
 namespace stormcellar::grid {
 
-// What one sweep gives to a column. Heights rise, or stay equal, from each sweep to the next. The
-// edges are read only for the first and the last beam and beside a lost cut.
+// The contribution of one sweep to a column. Heights rise, or stay equal, from each sweep to the
+// next. The edges are read only for the first and the last beam and beside a lost cut.
 struct BeamSample {
     Sample sample;
     float height_m = 0;
@@ -32,8 +32,8 @@ struct BeamSample {
 void fill_column(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                  ChosenInterpolation interpolation, std::span<CellStatus> status,
                  std::span<float> values);
-// The same, for callers that know for all columns whether the nearer beam is taken and whether the
-// moment wraps. The loops then hold no test of what is off.
+// Does the same for callers that know, for all columns, whether the nearer beam is taken and
+// whether the moment wraps. The loops then do not test for either.
 template <bool nearest, bool circular>
 void fill_column_as(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                     std::span<CellStatus> status, std::span<float> values);

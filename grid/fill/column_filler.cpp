@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t tiles_a_piece = 16;
 
-// This is never inlined, so that a step that is off by default does not make the usual loop larger.
+// The function is never inlined, so that a step that is off by default does not enlarge the usual
+// loop.
 [[gnu::noinline]] void to_db(const FillWork& work, std::span<const TileColumn> columns) {
     for (const TileColumn& column : columns) {
         const std::span status = status_of(work, column);
@@ -77,8 +78,8 @@ Fill sampled_fill(bool circular) {
                     : fill_tiles<SampledColumns<radial_elevations, nearest, false>>;
 }
 
-// Chooses the code for the method. Whatever is the same for all tiles is tested here once, and not
-// in the loops.
+// Chooses the code for the method. Conditions that are the same for all tiles are tested here once,
+// and not in the loops.
 Fill fill_by(const Method& method, Blending blending) {
     const bool nearest = method.interpolation == Interpolation::nearest;
     const bool sampled = facts_of(method.interpolation).takes_one_gate;

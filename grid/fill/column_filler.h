@@ -14,8 +14,8 @@
 
 namespace stormcellar::grid {
 
-// Writes status and value of every cell of the tiles that a sweep sees; the other cells stay as
-// they are. The tiles are those of the geometry, or others within it. `grid` must have the spec of
+// Writes the status and the value of every cell of the tiles that a sweep sees; the other cells
+// stay as they are. Pass the tiles of the geometry, or parts of them. `grid` must have the spec of
 // the geometry, arrays of its size, and not_seen in every cell of the tiles.
 void fill_grid(const SweepStack& stack, const ColumnGeometry& geometry, std::span<const Tile> tiles,
                const Method& method, int threads, Grid& grid);

@@ -14,10 +14,10 @@
 namespace stormcellar::grid {
 namespace {
 
-// What is known about one sweep beside its gates.
+// Facts about one sweep that its gates do not hold.
 struct SweepFacts {
     std::vector<std::optional<double>> ages_s;  // by position of the radial
-    // Where the gates of each kind are; empty unless distances are asked for.
+    // Places of the gates of each kind; empty unless distances are asked for.
     std::vector<std::pair<const level2::SweepMoment*, GatePlaces>> places;
 };
 
@@ -36,7 +36,7 @@ struct SeenBeam {
     std::optional<NearGate> gate;
 };
 
-// The sweeps that make up a height, and their weights. No sweep: the height is not seen.
+// The sweeps that make up a height, and their weights. If there is none, the height is not seen.
 struct Share {
     const SeenBeam* beam = nullptr;
     float weight = 0;
@@ -69,8 +69,8 @@ Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level
     return shares;
 }
 
-// Collects what does not depend on the column: the ages of the radials and, if distances are asked
-// for, the places of the gates.
+// Collects the facts that do not depend on the column: the ages of the radials and, if distances
+// are asked for, the places of the gates.
 std::vector<SweepFacts> facts_of(const DetailWork& work, std::optional<UtcTime> frame_time) {
     std::vector<SweepFacts> facts(work.chosen.size());
     const DetailSet asked = work.options.details;
@@ -198,8 +198,8 @@ class DetailColumns {
         return std::nullopt;
     }
 
-    // Writes age, height offset and distance of a cell: the mean age by weight, and the nearest
-    // beam and gate.
+    // Writes the age, the height offset and the distance of a cell. The age is the weighted mean;
+    // the other two are those of the nearest beam and the nearest gate.
     void describe(std::size_t cell, float level_m, const Shares& shares) {
         double age_s = 0;
         bool dated = true;
@@ -224,7 +224,7 @@ class DetailColumns {
         if (asked_.has(Detail::distance) && distance_m) put(Detail::distance, cell, *distance_m);
     }
 
-    // Makes the mixtures of gates from which a method with several gates makes the column.
+    // Makes the mixtures of gates from which a method with several gates fills the column.
     void mix(const ColumnPlace& column, int ix, int iy) {
         mixtures_.clear();
         const bool area = method_.cell == CellExtent::area;
@@ -243,7 +243,7 @@ class DetailColumns {
         if (!mixtures_.empty()) mixed_.start(mixtures_);
     }
 
-    // Returns the share of a level that is seen. Levels must be asked in rising order.
+    // Returns the share of a level that is seen. Call this in rising order of levels.
     [[nodiscard]] double seen_share(std::size_t level) {
         const std::size_t count = heights_m_.size() / levels_m_.size();
         float unseen = 0;

@@ -1,8 +1,8 @@
 // grid/fill/detail_filler.h -- fills in the details of the cells of a grid
 // (stormcellar/grid/cell_details.h).
 //
-// This is a pass of its own over a grid whose cells are filled, so a grid without details pays
-// nothing.
+// It is a separate pass over a grid whose cells are filled, so a grid without details costs nothing
+// extra.
 //
 // Threads   Pure; it uses `options.threads` threads of its own. The result has the same bits for
 //           any number of threads.

@@ -41,7 +41,8 @@ void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>
     grid.end_time = last.value_or(grid.time);
 }
 
-// Returns a note that says how many sweeps of an elevation were equally good, and which was taken.
+// Returns a note that says how many sweeps of an elevation were equally good, and which one was
+// used.
 std::string note_of_repeats(const ChosenSweep& sweep, std::optional<UtcTime> nearest_to) {
     const std::string rule =
         nearest_to ? fmt::format("the nearest to {}", format_utc(*nearest_to)) : "the newest";
@@ -115,7 +116,7 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
     return {};
 }
 
-// Returns the time to which sweeps should be near, or none if the newest are taken.
+// Returns the time to which the sweeps should be near, or none if the newest sweeps are used.
 std::optional<UtcTime> time_to_be_near(const level2::Volume& volume,
                                        const GridderOptions& options) {
     if (options.repeats == GridderOptions::Repeats::newest) return std::nullopt;

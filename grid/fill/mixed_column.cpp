@@ -69,8 +69,7 @@ void MixedColumn::start(std::span<const BeamMixture> beams) {
         steepest_m_per_deg_ = std::max(steepest_m_per_deg_, rise_of(beam));
 }
 
-// The heights are asked in rising order, so the beam above the next height is found in a step or
-// two.
+// Callers pass rising heights, so the beam above the next height is found in a step or two.
 void MixedColumn::find(float height_m) {
     while (above_ > 0 && beams_[above_ - 1].height_m > height_m)
         --above_;
@@ -85,7 +84,7 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
         return beam_pattern((height_m - beam.height_m) / rise_of(beam), width_deg);
     };
     const float reach_m = reach_m_of(width_deg);
-    // Only beams of the same run count, and of these only those in reach.
+    // Only beams of the same run count, and only if they are in reach.
     Run run = run_around(beams_, nearest);
     while (run.first < nearest && beams_[run.first].height_m < height_m - reach_m)
         ++run.first;
@@ -98,9 +97,9 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
         total += weights_.back();
     }
     if (!(total > 0)) return of_one(beams_[nearest], blending_);
-    // The first beam that is added must weigh most on the circle of a moment that wraps, which is
-    // usually the nearest. If neighbors are far apart and rise differently, the nearest may be out
-    // of reach; then the first beam with a weight takes its place.
+    // The first beam added fixes the circle of a moment that wraps, so it must weigh most. Usually
+    // that is the nearest beam. If neighbors are far apart and rise differently, the nearest may be
+    // out of reach; then the first beam with a weight takes its place.
     std::size_t first = nearest;
     if (!(weights_[nearest - run.first] > 0)) {
         const auto heavy =
@@ -124,7 +123,7 @@ float MixedColumn::width_between_deg() const {
     return std::max(beam_width_deg_, (high.height_m - low.height_m) / mean_rise);
 }
 
-// Returns true if all beams that may count around a height see no echo alone. Then the cell is no
+// Returns true if every beam that may count around a height sees only no echo. Then the cell is no
 // echo too, and need not be mixed.
 bool MixedColumn::is_quiet_around(float height_m) const {
     const bool by_pattern = interpolation_ == Interpolation::beam_weighted;
@@ -141,7 +140,7 @@ bool MixedColumn::is_quiet_around(float height_m) const {
 }
 
 // Makes the mixture between two adjacent beams. The beam with the larger weight is added first,
-// because a moment that wraps takes its circle from the first.
+// because the first beam fixes the circle of a moment that wraps.
 Mixture MixedColumn::between(float height_m) {
     const BeamMixture& low = beams_[above_ - 1];
     const BeamMixture& high = beams_[above_];
@@ -161,7 +160,8 @@ Mixture MixedColumn::between(float height_m) {
     return mixture;
 }
 
-// Makes the mixture of a height that is not between adjacent beams: the nearer beam that covers it.
+// Makes the mixture of a height that is not between adjacent beams, from the nearer beam that
+// covers it.
 Mixture MixedColumn::outside(float height_m) {
     const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
     const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;

@@ -24,12 +24,13 @@
 
 namespace stormcellar::grid {
 
-// Returns the heights at which a column is evaluated, level by level: one or four for each level.
+// Returns the heights at which a column is evaluated, level by level, with one or four for each
+// level.
 [[nodiscard]] std::vector<float> heights_of_levels(std::span<const float> levels_m,
                                                    CellExtent cell);
 
-// Evaluates one column after another. Each height is searched from the last one, so ask in rising
-// order.
+// Evaluates one column after another. Each search starts at the last height, so pass heights in
+// rising order.
 class MixedColumn {
   public:
     MixedColumn(Interpolation interpolation, float beam_width_deg, Blending blending)
@@ -39,7 +40,7 @@ class MixedColumn {
     void start(std::span<const BeamMixture> beams);
     // Returns the mixture of the beams at a height.
     [[nodiscard]] Mixture at(float height_m);
-    // Returns the same as a cell.
+    // Returns the mixture of the beams at a height, as a cell.
     [[nodiscard]] CellResult cell_at(float height_m);
     // Returns the mean over several heights, which rise by even steps, as a cell.
     [[nodiscard]] CellResult mean_at(std::span<const float> heights_m);

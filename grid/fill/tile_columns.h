@@ -1,5 +1,5 @@
-// grid/fill/tile_columns.h -- what the fillers of tiles share: the columns of a tile and their
-// beams.
+// grid/fill/tile_columns.h -- the columns of a tile and their beams, which the fillers of tiles
+// share.
 //
 // Threads   Plain values. All threads read one `FillWork`; each tile writes its own cells of the
 //           grid.
@@ -46,8 +46,8 @@ inline std::span<float> values_of(const FillWork& work, const TileColumn& column
 }
 
 // Sorts beams by height. Beams may change places if their radials were measured higher or lower
-// than their sweeps. A lost cut stays where it is: it belongs to the place in the order, not to the
-// beam.
+// than their sweeps. A lost cut belongs to a place in the order and not to a beam, so it stays
+// where it is.
 template <class Beam>
 void put_in_order(std::span<Beam> beams) {
     const auto lower = [](const Beam& a, const Beam& b) { return a.height_m < b.height_m; };

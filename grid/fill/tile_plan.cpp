@@ -24,8 +24,8 @@ void TilePlan::make(std::span<const PolarSweep> sweeps, const std::vector<bool>&
         uniform_.push_back(sweep.uniform_status(wider));
 
     // A sweep is dropped if it and all sweeps around it are uniform and equal, without a lost cut
-    // between them. It is kept but not sampled if no sweep around it is sampled: then it counts as
-    // a state, without a detection limit that a value could mix with.
+    // between them. It is kept but not sampled if no sweep around it is sampled. Then it counts as
+    // a state without a detection limit, because no value could mix with that limit.
     planned_.clear();
     const std::size_t count = sweeps.size();
     for (std::size_t at = 0; at < count; ++at) {

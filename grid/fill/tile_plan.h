@@ -1,8 +1,8 @@
 // grid/fill/tile_plan.h -- which sweeps must be sampled over a tile, and which can be skipped.
 //
 // A sweep that is no echo, or not seen, all over a tile needs no sampling. If the sweeps around it
-// are the same, it changes no cell at all, because everything between two equal states is that
-// state.
+// have the same state, it changes no cell at all, because everything between two equal states has
+// that state.
 //
 // Threads   One plan for each thread.
 // Accuracy  Exact: a grid has the same bits as if every sweep were sampled in every column.
@@ -22,7 +22,7 @@ struct PlannedSweep {
     bool adjacent_to_next = true;              // to the next sweep of the plan
 };
 
-// How far the samples of a column reach, and how many sweeps up and down make up a cell.
+// The reach of the samples of a column, and the number of sweeps up and down that make up a cell.
 struct SampleReach {
     float azimuth_deg = 0;
     float arc_m = 0;
@@ -32,7 +32,8 @@ struct SampleReach {
 
 class TilePlan {
   public:
-    // `adjacent_to_next` has one entry for each sweep. There is at least one sweep.
+    // Plans the sweeps of a tile. `adjacent_to_next` has one entry for each sweep. There is at
+    // least one sweep.
     void make(std::span<const PolarSweep> sweeps, const std::vector<bool>& adjacent_to_next,
               const PolarBounds& bounds, const SampleReach& reach);
     // Returns at least one sweep, in rising order.

@@ -2,10 +2,11 @@
 // used unchanged: the cheap rung of the site frame.
 //
 // Units     Meters along the sphere; degrees; azimuths are clockwise from north, [0, 360).
-// Accuracy  Against the same sphere in 113-bit floats: 1e-7 m on the sphere, up to the antipode. In
-//           the plane of azimuth and arc, which stretches the surroundings of the antipode, up to
-//           19,000 km. Nothing cancels close to the site (tests/grid/frame_ladder_test.cpp).
-//           Against WGS84 see sphere_error_bound_m() (stormcellar/grid/frame_ladder.h).
+// Accuracy  Against the same sphere in 113-bit floats, up to the antipode: 1e-7 m on the sphere. In
+//           the plane of azimuth and arc, which stretches the surroundings of the antipode, this
+//           holds up to 19,000 km. Nothing cancels close to the site
+//           (tests/grid/frame_ladder_test.cpp). Against WGS84, see sphere_error_bound_m()
+//           (stormcellar/grid/frame_ladder.h).
 // Threads   A SphereFrame is immutable.
 #pragma once
 

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::size_t classes = audit_range_borders_m.size() + 1;
 
-// Returns the state of a cell for that of a gate; none for no data, where the gate says nothing.
+// Returns the state of a cell that corresponds to the state of a gate; none for no data, where the
+// gate says nothing.
 std::optional<CellStatus> status_of(level2::GateStatus status) {
     switch (status) {
         case level2::GateStatus::valid:
@@ -40,17 +41,17 @@ float shorter_way(float difference, float period) {
     return period > 0 ? std::remainder(difference, period) : difference;
 }
 
-// What the virtual radar finds at a gate.
+// The result of the virtual radar at a gate.
 struct Finding {
     CellStatus status = CellStatus::not_seen;
     float difference = 0;  // grid minus gate, where both are values
 };
 
-// What is known about a gate beside its place.
+// Facts about a gate besides its place.
 struct Gate {
     float value = 0;
     float period = 0;
-    // the value that no echo stands for; NaN: none
+    // The detection limit, which no echo stands for; NaN if there is none.
     float limit = std::numeric_limits<float>::quiet_NaN();
 };
 
@@ -95,7 +96,7 @@ std::size_t class_of(double range_m) {
     return static_cast<std::size_t>(end - audit_range_borders_m.begin());
 }
 
-// What all sweeps share.
+// The data that all sweeps of an audit share.
 struct Scan {
     const level2::Volume& volume;
     const GridSampler& sampler;
@@ -151,8 +152,8 @@ class KindScan {
     }
 
   private:
-    // Returns the same gates without those between the sampled ones; the result is used for places
-    // alone.
+    // Returns a copy of the moment with only the sampled gates, which serves to compute places and
+    // nothing else.
     static level2::SweepMoment thinned(const level2::SweepMoment& moment, int gate_step) {
         level2::SweepMoment few;
         few.first_gate_m = moment.first_gate_m;

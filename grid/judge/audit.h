@@ -1,27 +1,28 @@
 // grid/judge/audit.h -- a virtual radar scans a finished grid and compares it with the gates.
 //
-// The audit takes gates of the sweeps that were gridded. For each it computes where the gate is,
-// with the beam that the grid was made with, the radial's own azimuth and elevation, and none of
-// the gridder's tables. It reads what the grid holds there, and takes the difference from the gate.
-// So it measures what cells, levels, quantization, the table of the beam, the frame and any mistake
-// in them do to the data together, and needs no exact form to compare with: a grid that is turned
-// or shifted disagrees with its own gates.
+// The audit takes gates of the sweeps that were gridded. It computes where each gate is from the
+// beam that the grid was made with and the radial's own azimuth and elevation, without the
+// gridder's tables. Then it reads the grid at that place and takes the difference from the gate. So
+// the audit measures the joint effect of cells, levels, quantization, beam table, frame and any
+// mistake in them. It needs no exact form to compare with: a grid that is turned or shifted
+// disagrees with its own gates.
 //
 // Grid      Between cells the grid is trilinear, by the status rule of docs/geometry.md over the
 //           eight cells around the gate. Values are in the unit of the moment (REF always in dB,
 //           with no echo at the gate's detection limit); VEL and PHI are taken around the gate's
 //           value on their circle. The nearest cell would be up to 0.9 km away in a grid of 1 km,
 //           which would count as an error of the grid.
-// Gates     Every n-th radial and gate, with n as the steps say, from the first; the same gates for
-//           any number of threads. Gates beyond the centers of the outermost cells are left out.
+// Gates     Every n-th radial and every n-th gate, from the first; the steps give n. The gates are
+//           the same for any number of threads. Gates beyond the centers of the outermost cells are
+//           left out.
 // Result    The RMS and the mean of grid minus gate in the unit of the moment, for each sweep and
-//           class of ranges, over gates that have a value where the grid has one; and, apart from
-//           that, how often the states agree. It is a measure of this grid against this volume and
-//           not a bound: gates between levels and columns are smoothed with their noise, and
+//           class of ranges, over gates that have a value where the grid has one. Separately, how
+//           often the states agree. The result measures this grid against this volume and is no
+//           bound: the grid smooths gates between levels and columns, noise included, and
 //           neighboring gates of a radar differ by 2.6 dB.
-// Cost      Half the time of gridding: 19 to 29 ms for 460 x 460 x 32 cells about the site with one
-//           thread of a busy machine, 24 to 39 ms away from the site; in proportion to the number
-//           of gates.
+// Cost      Half the time of gridding, in proportion to the number of gates. For 460 x 460 x 32
+//           cells with one thread of a busy machine it is 19 to 29 ms about the site, and 24 to 39
+//           ms away from the site.
 // Threads   A pure function, with the same bits for any number of threads.
 #pragma once
 
@@ -56,13 +57,13 @@ inline constexpr std::array audit_range_borders_m = {60e3, 120e3, 180e3, 240e3};
 struct Audit {
     // by rising elevation and range; classes without gates are left out
     std::vector<AuditRow> rows;
-    // How many gates of one status (first index, a CellStatus) lie where the grid has another.
+    // Number of gates by their status (first index, a CellStatus) and the status of the grid there.
     std::array<std::array<std::uint64_t, 4>, 4> states{};
 };
 
-// Audits a grid. `gridded` says how the grid was made: its moment, beam, profile and choice of
-// sweeps count. Errors: not_found if the volume has no sweep with the moment; bad_argument for
-// steps or threads that are not positive.
+// Audits a grid. The moment, beam, profile and choice of sweeps in `gridded` say how the grid was
+// made. Errors: not_found if the volume has no sweep with the moment; bad_argument for steps or
+// threads that are not positive.
 [[nodiscard]] Result<Audit> audit(const BrickView& grid, const level2::Volume& volume,
                                   const SitePosition& site, const GridderOptions& gridded,
                                   const AuditOptions& options = {});

@@ -100,8 +100,8 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
         InstantOptions options;
         options.instant = held_out.middle;
         options.method = method;
-        // The held-out volume was not seen in one instant either: its cells are each as late as the
-        // cells of the other two volumes.
+        // The held-out volume also took minutes, so its cells are compared without sweep times:
+        // they are as late in their volume as the cells of the other two.
         options.sweep_times = false;
         options.threads = threads;
         std::optional<MotionField> motion;

@@ -1,12 +1,13 @@
-// grid/judge/held_out.h -- how close a grid for an instant comes to what the radar saw then, scored
+// grid/judge/held_out.h -- scores how close a grid for an instant comes to what the radar saw then,
 // on a volume that was held out.
 //
-// Of three volumes the middle one is held out, and made again from the two others by every rung of
-// time (grid/mosaic/time_interpolation.h). Errors are thus against what the radar saw. They include
-// the growth and decay of the echo and the noise of the gates, in the same way for each rung.
+// The middle one of three volumes is held out, and every rung of time
+// (grid/mosaic/time_interpolation.h) makes it again from the other two. So the errors are relative
+// to what the radar saw. They include the growth and decay of the echo and the noise of the gates,
+// in the same way for each rung.
 //
-// Units     Errors of REF in dB, over cells that both have seen (value or no echo), one of which
-//           shows 5 dBZ or more. Anything below 0 dBZ, and no echo, counts as 0 dBZ.
+// Units     Errors of REF in dB, over cells that both grids have seen (value or no echo) and that
+//           have 5 dBZ or more in at least one. No echo, and anything below 0 dBZ, counts as 0 dBZ.
 // Threads   Pure functions.
 #pragma once
 
@@ -30,7 +31,7 @@ struct HeldOutScore {
 
 struct HeldOut {
     std::vector<HeldOutScore> scores;  // nearest, blend, advected
-    // The motion of all echo together in m/s; none if it was not known.
+    // The motion of all echo together in m/s; none if it is not known.
     std::optional<CellMotion> motion_mps;
 };
 

@@ -1,7 +1,7 @@
 // grid/judge/held_out_sequence.h -- a sequence of volumes, each held out in turn and made again
 // from its neighbors (grid/judge/held_out.h).
 //
-// Thread contract: each call works alone; it starts up to `threads` threads of its own.
+// Threads   Each call works alone and starts up to `threads` threads of its own.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct TimedVolume {
     std::string name;
 };
 
-// Holding a volume out takes a neighbor before it and one after it.
+// A volume can be held out only if it has a neighbor before it and one after it.
 inline constexpr std::size_t least_sequence = 3;
 
 // Returns the repeated cuts (SAILS, MRLE) of a volume's lowest elevation, each as a volume of its
@@ -33,15 +33,14 @@ inline constexpr std::size_t least_sequence = 3;
                                                           level2::Moment moment);
 
 struct HeldOutRow {
-    std::string name;                  // of what was held out
-    double before_s = 0, after_s = 0;  // from the neighbors' middles to its own
+    std::string name;                  // the held-out volume
+    double before_s = 0, after_s = 0;  // from the middles of the neighbors to its own middle
     HeldOut held_out;
 };
 
-// One row for each volume that has two neighbors. All volumes are of one site, in order of time.
-// `progress`, if there is one, is called from the calling thread after each piece of work: a grid
-// of each volume, then a score of each held-out one. Errors name the volume: those of make_grid()
-// and score_held_out().
+// Returns one row for each volume that has two neighbors. All volumes are of one site, in order of
+// time. The calling thread calls `progress`, if it is set, after each grid and after each score.
+// Errors are those of make_grid() and score_held_out(), and name the volume.
 [[nodiscard]] Result<std::vector<HeldOutRow>> score_sequence(
     const std::vector<TimedVolume>& sequence, const GridSpec& spec, const GridderOptions& options,
     const std::function<void(std::size_t done, std::size_t total)>& progress = {});

@@ -1,14 +1,13 @@
 // grid/judge/oracle.h -- the gridder's oracle: one cell at a time, with nothing shared, nothing
 // tabulated, and long double where it matters.
 //
-// It is slow and obvious, and written from docs/geometry.md and not from the gridder. Tests and the
-// accuracy ladder compare the gridder with it. For each column it solves the geodesic and the beams
-// anew, it searches every radial, and a cell keeps the list of all gates that make it up, each with
-// its weight.
+// It is slow and obvious, and follows docs/geometry.md and not the gridder. Tests and the accuracy
+// ladder compare the gridder with it. For each column it solves the geodesic and the beams anew and
+// searches every radial. A cell lists all gates that make it up, each with its weight.
 //
-// The stated accuracies of the gridder allow another gate to be the nearest. A column says when its
-// result depends on less than doubt_range_m or doubt_azimuth_deg, or when two beams are equally
-// high within doubt_height_m.
+// Within its stated accuracy the gridder may take another gate as the nearest. A column says so
+// when its result depends on less than doubt_range_m or doubt_azimuth_deg, or when two beams are
+// equally high within doubt_height_m.
 //
 // Threads   One thread for each object.
 #pragma once
@@ -24,10 +23,10 @@ struct OracleCell {
     CellStatus status = CellStatus::not_seen;
     double value = 0;
     double unseen = 1;  // share of the weight
-    // How far the status rule was from another outcome, as a weight.
+    // Distance of the status rule from another outcome, as a weight.
     double margin = 1;
-    // The values cover more than a quarter of their circle, or their circles differ, so the mean
-    // depends on the value from which the differences are taken.
+    // True if the values cover more than a quarter of their circle, or if their circles differ.
+    // Then the mean depends on the value from which the differences are taken.
     bool wide_on_circle = false;
 };
 

@@ -15,7 +15,7 @@ double turn_to(double from_deg, double to_deg) {
     return turn > 180 ? turn - 360 : turn;
 }
 
-// Returns how far apart two azimuths are; either may be up to two turns off.
+// Returns the angle between two azimuths; either may be up to two turns off.
 double apart_deg(double a_deg, double b_deg) {
     double apart = std::abs(a_deg - b_deg);
     while (apart > 360)
@@ -183,7 +183,7 @@ void OracleSweep::add_radials(double azimuth_deg, std::size_t nearest, double ra
         for (const std::size_t at : joined)
             weights.push_back(oracle_pattern(offset(at), width_deg));
     } else {
-        // Finds the nearest radial on either side.
+        // Finds the nearest radial on the other side.
         double other_deg = 1e9;
         for (const std::size_t at : joined) {
             const bool other_side = at != nearest && (offset(at) > 0) != (offset(nearest) > 0);

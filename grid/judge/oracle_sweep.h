@@ -21,7 +21,7 @@ struct OracleSetting {
     double beam_width_deg = 0.95;
     bool is_tdwr = false;
     Method method;
-    // The profile for traced beams; none: the exponential reference atmosphere.
+    // The profile for traced beams; if none, the exponential reference atmosphere is used.
     std::optional<RefractivityProfile> profile;
 };
 
@@ -32,12 +32,13 @@ struct WeightedGate {
 
 class OracleSweep {
   public:
-    // All three must outlive the object.
+    // The sweep, the choice and the setting must outlive the object.
     OracleSweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
                 const OracleSetting& setting);
 
-    // Returns the measured elevation of the radial that sees the azimuth, or that of the sweep if
-    // none does. Sets `doubtful` if another radial is as near within OracleColumn's margins.
+    // Returns the measured elevation of the radial that sees the azimuth, or the elevation of the
+    // sweep if no radial does. Sets `doubtful` if another radial is as near within OracleColumn's
+    // margins.
     [[nodiscard]] double elevation_deg(double azimuth_deg, bool& doubtful) const;
 
     // Returns the gates that make up a point by the interpolation of the setting. Their weights add
@@ -45,9 +46,9 @@ class OracleSweep {
     [[nodiscard]] std::vector<WeightedGate> point(double azimuth_deg, double range_m,
                                                   bool& doubtful) const;
 
-    // Returns all gates for which `is_inside(azimuth_deg, range_m)` is true, with equal weights. A
-    // place where a gate would lie beyond the last gate of a radial is not seen. The result is
-    // empty if there is no gate. The search is limited to `near_deg` about the azimuth.
+    // Returns all gates for which `is_inside(azimuth_deg, range_m)` is true, with equal weights.
+    // Places beyond the last gate of a radial count as not seen. The result is empty if there is no
+    // gate. The search is limited to `near_deg` about the azimuth.
     using Inside = std::function<bool(double azimuth_deg, double range_m)>;
     [[nodiscard]] std::vector<WeightedGate> inside(const Inside& is_inside, double azimuth_deg,
                                                    double near_deg, double nearest_m,

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double huber_limit = 1.345;
 constexpr double deviations_a_median = 1.4826;
-// A number is not determined if the others explain all but this share of its square.
+// If the other numbers explain all but this share of the square of a number, the rows do not
+// determine it.
 constexpr double least_pivot = 1e-4;
 
 using Numbers = std::array<double, fit_size>;
@@ -39,8 +40,8 @@ struct Equations {
     }
 };
 
-// Solves the equations by Gauss's elimination, in place. A number that is not sought has a row of
-// its own.
+// Solves the equations by Gauss's elimination, in place. A number that is not sought has an
+// equation of its own.
 std::optional<Numbers> solve(Equations of, FitChoice sought, std::size_t* unclear) {
     for (std::size_t i = 0; i < fit_size; ++i) {
         if (sought[i]) continue;
@@ -94,7 +95,8 @@ std::vector<Equations> equations_of_blocks(std::span<const FitRow> rows, double 
     return blocks;
 }
 
-// Computes the numbers without each block in turn, and from their scatter the errors.
+// Solves without each block in turn, and returns the errors that follow from the scatter of the
+// solutions.
 Numbers jackknife(const std::vector<Equations>& blocks, const Equations& all, FitChoice sought) {
     Numbers errors;
     errors.fill(std::numeric_limits<double>::infinity());
@@ -105,7 +107,7 @@ Numbers jackknife(const std::vector<Equations>& blocks, const Equations& all, Fi
         Equations others = all;
         others.add(block, -1);
         const auto without = solve(others, sought, nullptr);
-        if (!without) return errors;  // one block alone determines a number
+        if (!without) return errors;  // only this block determines a number
         for (std::size_t i = 0; i < fit_size; ++i) {
             sum[i] += (*without)[i];
             squares[i] += (*without)[i] * (*without)[i];

@@ -4,9 +4,9 @@
 // Method    One step of Gauss and Newton with iterated weights (Huber 1964): squares within 1.345
 //           deviations, linear beyond. The deviation is 1.4826 times the median of the magnitudes
 //           of the residuals.
-// Errors    Cells beside each other have similar errors, so their number says little. Rows belong
-//           to blocks, and the errors are the jackknife's over blocks (each left out in turn; Efron
-//           and Stein 1981). They hold whatever the rows of a block have in common.
+// Errors    Neighboring cells have similar errors, so their number says little. Each row belongs to
+//           a block. The errors are the jackknife's over blocks (each left out in turn; Efron and
+//           Stein 1981). They hold whatever the rows of a block have in common.
 // Threads   Pure functions, with the same bits every time.
 #pragma once
 
@@ -26,7 +26,7 @@ struct FitRow {
     std::uint32_t block = 0;                  // 0, 1, ...
 };
 
-// Which of the numbers are sought. The others stay as they are.
+// The numbers that are sought. The others stay as they are.
 using FitChoice = std::array<bool, fit_size>;
 
 struct Fit {
@@ -36,8 +36,8 @@ struct Fit {
     double deviation = 0;                           // deviation of the residuals, from their median
 };
 
-// Fits the numbers. Returns none if the rows cannot tell the sought numbers apart; `unclear`, if
-// given, is then the first number that they do not determine.
+// Fits the numbers. Returns none if the rows cannot tell the sought numbers apart. Then `unclear`,
+// if given, is the first number that the rows do not determine.
 [[nodiscard]] std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought,
                                      std::size_t* unclear = nullptr);
 

@@ -18,13 +18,13 @@ constexpr std::array<const char*, fit_size> fault_names = {"bias", "azimuth", "e
 constexpr std::size_t fewest_blocks = 8;
 constexpr std::size_t fewest_cells = 400;
 constexpr double slowest_mps = 2;
-// Without a motion, the two looks may be at most this far apart: later, the echo has moved by as
-// much as a fault would move it.
+// If the motion is not known, the two looks may be at most this far apart. In a longer time the
+// echo moves as far as a fault would move it.
 constexpr double longest_apart_s = 90;
 constexpr int most_rounds = 12;
 // A step is never longer than this: dB, degrees, degrees, seconds.
 constexpr std::array<double, fit_size> longest_step = {10, 0.5, 0.5, 60};
-// A step below this part of the errors, or of the limit above, changes nothing.
+// A step below this share of the errors, or of the limit above, changes nothing.
 constexpr double settled = 0.02;
 
 using Numbers = std::array<double, fit_size>;
@@ -74,8 +74,8 @@ double correlation_of(const std::vector<double>& a, const std::vector<double>& b
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-// Makes a row for each cell: A minus B as B's faults explain it, and how alike the two grids then
-// are.
+// Makes a row for each cell, with A minus B after B's faults are applied. Also computes how alike
+// the two grids then are.
 std::vector<FitRow> rows_of(const std::vector<SitePair>& pairs, const GridSampler& b,
                             const Numbers& numbers, double least_dbz, double& correlation) {
     std::vector<FitRow> rows;
@@ -154,7 +154,7 @@ double median_apart_s(const std::vector<SitePair>& pairs) {
     return *middle;
 }
 
-// Chooses what can be sought, as far as that is known beforehand.
+// Chooses the faults that can be sought, as far as this is known beforehand.
 FitChoice choose_faults(const ComparisonOptions& options, SiteComparison& comparison) {
     FitChoice sought{true, true, true, true};
     const auto give_up = [&](Fault fault, std::string why) {

@@ -1,5 +1,5 @@
-// grid/judge/site_comparison.h -- compares two sites over the same weather, and finds the faults by
-// which they differ.
+// grid/judge/site_comparison.h -- compares two sites over the same weather, and finds the faults
+// that make them differ.
 //
 // Both grids hold the weather at one instant, each from its own site. Where both have echo, the
 // four faults of B that make it differ from A are estimated together:
@@ -8,23 +8,24 @@
 //   elevation_deg  B's echo is raised, by range times this angle: its elevations are too large.
 //   time_s         B's clock is late: it stamps what it sees too early by this much, so its echo is
 //                  displaced along the motion. This needs a motion.
-// Two sites cannot tell which of them is at fault. With three sites, it is the one that is in both
-// faults.
+// Two sites cannot tell which of them is at fault. With three sites, the site that appears in both
+// faulty pairs is at fault.
 //
-// Method    Least squares of A's cells minus B, taken where the faults have moved it (trilinear),
-//           over the derivatives of the cells by each fault. Gauss and Newton with B evaluated
-//           anew, Huber's weights, errors by the jackknife over blocks of 24 km
-//           (grid/judge/robust_fit.h). docs/geometry.md has the formulas.
-// Cells     Every n-th column, at all levels, where A and the six neighbors of B have values whose
-//           mean is at least `least_dbz`, so that no detection limit selects for one site; from
-//           `least_range_m` (clutter) to `greatest_range_m` of both sites.
-// Untold    What these cells do not determine is not guessed: with too few cells, with sites that
-//           hardly see the same (correlation), and for faults that look alike there; for the time
-//           without a motion; and, without a motion, also for azimuth and elevation if the sites
-//           looked minutes apart.
-// Grids     They may be windows of one domain or differ altogether: places are compared through the
-//           earth, and columns through each grid's own projection. Reflectivity only.
-// Limits    It finds faults that displace the echo by up to some 2 km.
+// Method    Least squares of A's cells minus B, where B is read at the places to which the faults
+//           move the cells (trilinear), over the derivatives of the cells by each fault. Gauss and
+//           Newton with B evaluated anew, Huber's weights, errors by the jackknife over blocks of
+//           24 km (grid/judge/robust_fit.h). docs/geometry.md has the formulas.
+// Cells     Every n-th column, at all levels, from `least_range_m` (clutter) to `greatest_range_m`
+//           of both sites. A cell counts if A and the six neighbors of B have values. Their mean
+//           must be at least `least_dbz`, so that no detection limit selects for one site.
+// Untold    A fault that these cells do not determine is not guessed. This happens if there are too
+//           few cells, if the sites hardly see the same (correlation), and if faults look alike
+//           there. Without a motion it happens to the time, and also to azimuth and elevation if
+//           the sites looked minutes apart.
+// Grids     The grids may be windows of one domain or differ altogether, because places are
+//           compared through the earth and columns through each grid's own projection. Reflectivity
+//           only.
+// Limits    Only faults that displace the echo by up to about 2 km are found.
 // Accuracy  Enforced by tests/grid/site_comparison_test.cpp (synthetic weather seen by two sites
 //           110 km apart, noise of 1 dB, storms at 25 m/s): 0.4 dB, 0.12 degrees of azimuth, 0.15
 //           of elevation, 12 s.
@@ -44,12 +45,12 @@ namespace stormcellar::grid {
 struct SiteGrid {
     BrickView view;
     SitePosition site;
-    // Detail::age of the cells of the grid, in seconds after the instant; null: all cells are of
-    // the instant. It counts if the motion is known.
+    // Detail::age of the cells of the grid, in seconds after the instant; null if all cells are of
+    // the instant. Ages count only if the motion is known.
     const CellDetails* details = nullptr;
 };
 
-// Where all the weather moves.
+// The motion of all the weather.
 struct UniformMotion {
     double east_mps = 0;
     double north_mps = 0;
@@ -67,7 +68,7 @@ struct ComparisonOptions {
 struct Estimate {
     double value = 0;
     double standard_error = 0;
-    std::string untold;  // why there is no estimate; empty: there is one
+    std::string untold;  // why there is no estimate; empty if there is one
 };
 
 struct SiteComparison {
@@ -80,7 +81,7 @@ struct SiteComparison {
     double apart_s = 0;       // median time between the two looks at a cell
 };
 
-// Compares two sites. Too little echo is not an error: the estimates then say so. Errors:
+// Compares two sites. Too little echo is not an error; then the estimates are untold. Errors:
 // bad_argument for options that are not finite and positive, or details of another size.
 [[nodiscard]] Result<SiteComparison> compare_sites(const SiteGrid& a, const SiteGrid& b,
                                                    const ComparisonOptions& options = {});
@@ -99,8 +100,9 @@ struct FaultLimits {
 // fault.
 [[nodiscard]] std::vector<std::string> faults(const SiteComparison& comparison,
                                               const FaultLimits& limits = {});
-// Returns sentences such as "KB against KA: time not told: the motion is not known", about whatever
-// could not be determined, or only so coarsely that a fault of twice its limit would not be named.
+// Returns sentences such as "KB against KA: time not told: the motion is not known". They cover
+// each fault that could not be determined, or whose error is so large that a fault of twice its
+// limit would not be named.
 [[nodiscard]] std::vector<std::string> untold(const SiteComparison& comparison,
                                               const FaultLimits& limits = {});
 

@@ -83,8 +83,8 @@ class Matcher {
         SitePair pair;
         pair.column = b_plane_.to_column(place);
         pair.block = block_of(spec, column);
-        // The shift for a degree about B, and for a meter away from it, from differences over a
-        // tenth of a degree and 100 m.
+        // Computes the shift for a degree about B and for a meter away from it, from differences
+        // over a tenth of a degree and over 100 m.
         const ColumnPoint turned =
             b_plane_.to_column(b_frame_.to_geo({from_b.azimuth_deg + 0.1, from_b.arc_m}));
         const ColumnPoint farther =
@@ -114,13 +114,13 @@ class Matcher {
         const double farther_m = (raised.arc_m - arc_m) * 10;
         pair.by_elevation = {away.x * farther_m, away.y * farther_m,
                              (raised.height_m - pair.height_m) * 10};
-        // B has seen there, so much later, what A saw.
+        // B saw this echo `apart_s` later than A, so it is farther along the motion.
         pair.column = moved(pair.column, pair.by_time, *apart_s);
         found.push_back(pair);
     }
 
-    // Returns how much later B's cell was seen than A's; 0 if ages are not known. Returns none if
-    // one of the two was not seen at a known time.
+    // Returns how much later B's cell was seen than A's; 0 if no ages are given. Returns none if
+    // one of the two cells has no known time.
     [[nodiscard]] std::optional<double> ages_apart_s(ColumnPoint in_a, ColumnPoint in_b,
                                                      int iz) const {
         const double height_m = a_.view.spec->levels_m[static_cast<std::size_t>(iz)];

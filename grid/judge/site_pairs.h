@@ -1,7 +1,7 @@
-// grid/judge/site_pairs.h -- cells of one site's grid, and where the faults of another site would
-// show them.
+// grid/judge/site_pairs.h -- cells of one site's grid, and the places where the faults of another
+// site would show them.
 //
-// This is used only inside grid/judge/site_comparison.cpp; its header says which cells are taken.
+// Only grid/judge/site_comparison.cpp uses this; its header says which cells are taken.
 //
 // Units     Columns of B's grid, meters up, degrees, seconds.
 // Threads   Pure functions.
@@ -22,7 +22,7 @@ struct SiteShift {
     double up_m = 0;
 };
 
-// A cell of A, and how the faults of B move the place where B shows the same.
+// A cell of A, and how the faults of B move the place where B shows the same echo.
 struct SitePair {
     double a_dbz = 0;
     ColumnPoint column;  // in B's grid, without any fault
@@ -36,8 +36,8 @@ struct SitePair {
     return {column.x + shift.x * times, column.y + shift.y * times};
 }
 
-// Returns cells of A that have a value: columns brick by brick, each from the bottom up. B need not
-// have a value there.
+// Returns cells of A that have a value, brick by brick, and each column from the bottom up. B need
+// not have a value there.
 [[nodiscard]] std::vector<SitePair> pairs_of(const SiteGrid& a, const SiteGrid& b,
                                              const ComparisonOptions& options);
 

@@ -16,8 +16,8 @@ constexpr double nearest_range_m2 = 100.0 * 100.0;  // as in grid/beam/detection
 // The last bricks of a grid often hold only a few levels; for these the loops are shorter.
 constexpr int few = 4;
 
-// The states that occur in the sixteen codes of a column, as bits. Since the codes of no echo (1)
-// and range folded (2) are bits themselves, one "or" over the column finds the states without a
+// The states that occur in the sixteen codes of a column, as bits. The codes of no echo (1) and
+// range folded (2) are bits themselves, so one "or" over the column finds the states without a
 // branch.
 constexpr unsigned has_no_echo = 1;
 constexpr unsigned has_folded = 2;
@@ -84,9 +84,9 @@ BrickMerger<Code>::BrickMerger(const MosaicOptions& options, const Quantization&
     }
 }
 
-// Finds the codes of each layer, whatever the kind of its brick: stored codes are used where they
-// lie, packed states are unpacked, and a uniform brick gets one constant column. After this, all
-// rules can treat all layers alike.
+// Finds the codes of each layer for every kind of brick. Stored codes are used in place, packed
+// states are unpacked, and a uniform brick gets one constant column. After this, all rules can
+// treat all layers alike.
 template <class Code>
 void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExtent& extent) {
     codes_.resize(layers.size());
@@ -107,7 +107,7 @@ void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExte
             codes_[i] = {columns_of_states<Code>[state].data(), 0};
         }
     }
-    // No rule writes the columns and cells beyond the extent, so they are cleared here.
+    // No rule writes the columns and cells beyond the extent, so clear them here.
     if (extent.cells() == static_cast<int>(brick_cells)) return;
     merged_.codes.fill(0);
     merged_.counts.fill(0);
@@ -132,8 +132,8 @@ void BrickMerger<Code>::open_limits(std::span<const BrickLayer> layers,
     }
 }
 
-// Finds the layers that see anything in this column. Most layers do not, because a site sees little
-// of the domain, and the cost of a column should depend on the others alone.
+// Finds the layers that see anything in this column. Most layers see nothing, because a site covers
+// little of the domain, and only the others should cost time.
 template <class Code>
 void BrickMerger<Code>::find_active(std::size_t column) {
     active_.clear();
@@ -148,7 +148,7 @@ void BrickMerger<Code>::find_active(std::size_t column) {
 }
 
 // Merges a column by the weighted mean. Three frequent cases need no sums: no layer sees anything,
-// one layer alone does, or all layers together see nothing but no echo.
+// only one layer does, or every layer that does sees only no echo.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size_t column,
@@ -188,8 +188,8 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
     for (std::size_t z = 0; z < size; ++z)
         codes[z] = active.codes[z];
     const auto weight = static_cast<Real>(layer.columns->weights[column]);
-    // No echo adds its weight. In a mean it also counts as a value, the detection limit, but this
-    // matters only if some layer has a value in this column.
+    // No echo adds its weight. In a mean its detection limit also counts as a value, but only if
+    // some layer has a value in this column.
     if ((active.states & has_no_echo) != 0) {
         for (std::size_t z = 0; z < size; ++z)
             sums.no_echo[z] += codes[z] == 1 ? weight : 0;
@@ -265,7 +265,7 @@ void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height
 
 // Merges a column by the maximum. A value ranks above no echo, no echo above range folded, and
 // range folded above not seen. If the codes 1 and 2 change places, the larger code ranks higher, so
-// that one maximum over all codes decides; afterward they change back.
+// one maximum over all codes decides. Afterward the two codes change back.
 template <class Code>
 void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
     alignas(64) std::array<Code, brick_edge> most{};
@@ -282,13 +282,13 @@ void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
         to[z] = ranked(most[static_cast<std::size_t>(z)]);
 }
 
-// Merges a column by the nearest site that sees each cell: from the nearest layer to the farthest,
-// each layer fills the cells that are still empty, until none is.
+// Merges a column by the nearest site that sees each cell. From the nearest layer to the farthest,
+// each layer fills the cells that are still empty, until no cell is empty.
 template <class Code>
 void BrickMerger<Code>::merge_nearest(std::span<const BrickLayer> layers, std::size_t column,
                                       int height) {
-    // The layers are sorted by distance, by insertion into the order of the column before.
-    // Neighboring columns have almost the same order, so this takes few steps.
+    // Sorts the layers by distance, by insertion into the order of the previous column. Neighboring
+    // columns have almost the same order, so this takes few steps.
     const auto nearer = [&](std::size_t a, std::size_t b) {
         const float arc_a = layers[a].columns->squared_arcs_m2[column];
         const float arc_b = layers[b].columns->squared_arcs_m2[column];

@@ -1,9 +1,9 @@
 // grid/mosaic/brick_merge.h -- merges one brick of several sites, by the rules of
 // stormcellar/grid/mosaic.h.
 //
-// The merger goes through the brick column by column. A column is 16 codes that lie one after the
-// other, so every step is a loop over 16 numbers that the compiler turns into vector instructions.
-// The weights of a site depend on the column alone.
+// The merger goes through the brick column by column. The 16 codes of a column are contiguous, so
+// every step is a loop over 16 numbers that the compiler turns into vector instructions. The
+// weights of a site depend on the column alone.
 //
 // Threads   A BrickMerger may be used by one thread at a time.
 #pragma once
@@ -20,13 +20,13 @@
 
 namespace stormcellar::grid {
 
-// How much each site counts in the columns of one brick, and how far it is.
+// The weight and the distance of a site in each column of one brick.
 struct LayerColumns {
     ColumnValues weights{};
     ColumnValues squared_arcs_m2{};
 };
 
-// The brick of one site at the place that is merged.
+// The brick of one site at the place of the merged brick.
 struct BrickLayer {
     const BrickView* view = nullptr;
     std::size_t brick = 0;  // number of the brick in that view
@@ -60,14 +60,14 @@ class BrickMerger {
   public:
     BrickMerger(const MosaicOptions& options, const Quantization& quantization);
 
-    // Merges the layers, which are summed in the given order. No layer may be uniformly not seen.
+    // Merges the layers and sums them in the given order. No layer may be uniformly not seen.
     // `levels_m` are the levels of the brick. The result is valid until the next call.
     const MergedBrick<Code>& merge(std::span<const BrickLayer> layers, const BrickExtent& extent,
                                    std::span<const double> levels_m);
     // Computes the counts and the weights alone.
     const MergedBrick<Code>& count(std::span<const BrickLayer> layers, const BrickExtent& extent);
 
-    // Returns how many means were below the least code so far.
+    // Returns how many means have been below the least code so far.
     [[nodiscard]] std::uint64_t clamped_count() const { return clamped_; }
 
   private:
@@ -76,8 +76,8 @@ class BrickMerger {
     // an integer of the same size
     using Word = std::conditional_t<sizeof(Code) == 1, std::int32_t, std::int64_t>;
 
-    // What "no echo" of a layer stands for: scale * (arc^2 + (height - altitude)^2) is the Z of its
-    // detection limit.
+    // The detection limit of a layer, which its "no echo" counts as. The limit's Z is scale *
+    // (arc^2 + (height - altitude)^2).
     struct Limit {
         Real scale = 0;
         std::array<Real, brick_edge> squared_heights_m2{};

@@ -45,8 +45,8 @@ Correlation correlate(const EchoImage& before, const EchoImage& after, const Pix
     return {(n * sum_ab - sum_a * sum_b) / std::sqrt(spread_a * spread_b), echoes};
 }
 
-// Returns where the parabola through three values at -1, 0 and 1, the middle one the greatest, has
-// its top.
+// Returns the top of the parabola through three values at -1, 0 and 1, of which the middle one is
+// the greatest.
 double top_of_parabola(double before, double middle, double after) {
     const double curvature = before - 2 * middle + after;
     if (!(curvature < 0)) return 0;
@@ -66,8 +66,8 @@ class Search {
         }
     }
 
-    // Returns the shortest of the equally good shifts, because an image that does not change has
-    // not moved.
+    // Returns the best shift. If several are equally good, returns the shortest, because an image
+    // that does not change has not moved.
     [[nodiscard]] std::optional<Shift> best() const {
         std::optional<Shift> best;
         for (int dy = -search_.reach_y; dy <= search_.reach_y; ++dy) {

@@ -1,4 +1,4 @@
-// grid/mosaic/image_match.h -- by how many pixels a part of one image must be moved to look like
+// grid/mosaic/image_match.h -- finds by how many pixels a part of one image must move to look like
 // another image.
 //
 // This is used only inside the grid room.
@@ -23,10 +23,10 @@ struct Shift {
     std::size_t pixels = 0;  // pixels with echo in one of the two images
 };
 
-// The shifts within +-reach_x and +-reach_y of (around_x, around_y). Half of a shift is applied to
-// either image, so that the motion belongs to the box at the middle time. The correlation is over
-// the pixels that both images have seen. A parabola through the best shift and its neighbors gives
-// the fraction of a pixel. The result is none if no shift leaves echo in both images.
+// Searches the shifts within +-reach_x and +-reach_y of (around_x, around_y). Each image is moved
+// by half of the shift, so that the motion belongs to the box at the middle time. The correlation
+// covers the pixels that both images have seen. A parabola through the best shift and its neighbors
+// gives the fraction of a pixel. The result is none if no shift leaves echo in both images.
 struct ShiftSearch {
     int around_x = 0, around_y = 0;
     int reach_x = 0, reach_y = 0;

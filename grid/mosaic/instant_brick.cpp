@@ -19,7 +19,7 @@ std::size_t cell_in_brick(int x, int y, int z) {
     return static_cast<std::size_t>(cell);
 }
 
-// Returns the nearest code; a value beyond the range of codes takes its end.
+// Returns the nearest code. A value beyond the range of codes gets the code at that end.
 std::uint16_t nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
@@ -32,7 +32,7 @@ std::uint16_t nearest_code(float value, const Quantization& quantization) {
                                                  static_cast<double>(quantization.largest_code())));
 }
 
-// Joins two ends without any value: the state of both, or that of the end that sees.
+// Joins two ends that have no value: their common state, or the state of the end that sees.
 std::optional<CellStatus> joined(CellStatus a, CellStatus b) {
     if (a == b || b == CellStatus::not_seen) return a;
     if (a == CellStatus::not_seen) return b;
@@ -121,7 +121,7 @@ void InstantBrick::take_times(std::size_t end, int bz) {
     }
 }
 
-// Finds the columns from which any cell of the brick may be made.
+// Finds the columns from which the cells of the brick may be made.
 void InstantBrick::find_box(std::size_t end) {
     const GridSpec& spec = maker_.geometry_->spec();
     Source& source = sources_[end];
@@ -150,7 +150,7 @@ void InstantBrick::find_box(std::size_t end) {
             }
         }
     }
-    // No volume is that long. Without this bound a frame could take minutes.
+    // No volume lasts long enough to need more. Without this bound a frame could take minutes.
     constexpr float most_columns = 256;
     const bool is_too_wide = east - west > most_columns || north - south > most_columns;
     if (is_too_wide && *early != *late) {
@@ -166,7 +166,7 @@ Sample InstantBrick::sample_of(std::uint16_t code) const {
     return {CellStatus::value, maker_.ends_[0].timed.view.quantization.value_of(code), 0, 0};
 }
 
-// Adds the detection limit, which no echo stands for when it is mixed with echo.
+// Adds the detection limit to a sample, for a mixture of no echo and echo.
 Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     const bool counts =
         sample.status == CellStatus::no_echo && maker_.blending_ == Blending::with_detection_limit;
@@ -207,8 +207,8 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     return {mixed.status, mixed.value, 0, 0};
 }
 
-// Returns what one end has for a cell: the cell itself, or the place from which the echo has moved
-// there.
+// Returns the sample of one end for a cell: the cell itself, or the place from which the echo moved
+// to the cell.
 Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     const Source& source = sources_[end];
     const std::size_t column = cell / brick_edge;
@@ -221,8 +221,8 @@ Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     return mix(source, x, y, cell);
 }
 
-// Returns the weight of the later end. It is linear between the times of the two ends; the instant
-// is at 0.
+// Returns the weight of the later end. The weight is linear between the times of the two ends; the
+// instant is at 0.
 float InstantBrick::weight_of_after(std::size_t cell) const {
     const float before = sources_[0].seconds[cell], after = sources_[1].seconds[cell];
     if (!(after > before)) return 0.5F;
@@ -253,7 +253,7 @@ void InstantBrick::write(int bz, BricksWriter& writer) {
 }
 
 // Makes the codes of the brick at this height. If all cells that may contribute have one state at
-// each end, the state of the brick is known without looking at any cell.
+// each end, this gives the state of the brick without reading any cell.
 std::optional<CellStatus> InstantBrick::make(int bz) {
     bz_ = bz;
     const std::size_t ends = maker_.ends_.size();
@@ -276,8 +276,8 @@ std::optional<CellStatus> InstantBrick::make(int bz) {
     return std::nullopt;
 }
 
-// Mixes the two ends cell by cell. If both have the same state, or one has not seen the cell, no
-// mixing is needed.
+// Mixes the two ends cell by cell. A cell needs no mixing if both ends have the same state, or if
+// one end has not seen it.
 void InstantBrick::fill() {
     codes_.fill(0);
     limits_.fill(std::numeric_limits<float>::quiet_NaN());

@@ -1,6 +1,6 @@
 // grid/mosaic/instant_brick.h -- makes one brick of a grid for an instant between two volumes.
 //
-// This is used only inside the grid room; grid/mosaic/time_interpolation.h says what it does.
+// Only the grid room uses this; grid/mosaic/time_interpolation.h says what it does.
 //
 // Threads   An InstantMaker is immutable and shared; an InstantBrick may be used by one thread at a
 //           time.
@@ -19,7 +19,7 @@
 
 namespace stormcellar::grid {
 
-// What all bricks share.
+// The data that all bricks share.
 class InstantMaker {
   public:
     InstantMaker(const TimedView& before, const std::optional<TimedView>& after,
@@ -63,7 +63,7 @@ class InstantBrick {
         bool is_still = true;  // no column has moved
     };
 
-    // Returns the state of all cells if it is known without looking at any of them; otherwise
+    // Returns the common state of all cells if it is known without reading any of them; otherwise
     // codes_ holds the cells.
     std::optional<CellStatus> make(int bz);
     void read_times(std::size_t end);

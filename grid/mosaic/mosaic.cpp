@@ -77,7 +77,7 @@ std::vector<bool> changed_columns(const BrickView& shape, std::span<const GridWi
     return changed;
 }
 
-// Drops the sites whose windows hold nothing that changed.
+// Drops the sites whose windows hold no changed bricks.
 void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
                     std::vector<PlacedSite>& sites) {
     std::erase_if(sites, [&](const PlacedSite& site) {
@@ -96,7 +96,8 @@ void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
     });
 }
 
-// What an update has to merge: the columns of bricks that changed, and the sites that reach them.
+// The part that an update has to merge: the columns of bricks that changed, and the sites that
+// reach them.
 struct ChangedPart {
     std::vector<bool> columns;
     std::vector<PlacedSite> sites;

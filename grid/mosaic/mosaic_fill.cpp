@@ -57,8 +57,8 @@ class Slab {
         }
     }
 
-    // Merges all bricks above each other. Only the sites whose windows cover this column of bricks
-    // matter, and their distances are computed once for all of these bricks.
+    // Merges all bricks of a column of bricks. Only the sites whose windows cover this column
+    // matter, and their distances are computed once for all of its bricks.
     void merge_column(int by) {
         here_.clear();
         for (const PlacedSite& site : work_.sites) {
@@ -104,8 +104,9 @@ class Slab {
         if (weights_) weights_->put_codes(to, counted.weights.data(), extent);
     }
 
-    // Merges bricks that need no weights, whatever the rule: one site alone; and sites without a
-    // value or a folded cell, where a cell is no echo if any of them sees no echo.
+    // Merges bricks that need no weights, whatever the rule. These are the bricks that one site
+    // alone sees, and those without a value or a folded cell. In the latter, a cell is no echo if
+    // any site sees no echo there.
     bool merge_by_rule_of_thumb(std::size_t to, const BrickExtent& extent) {
         if (layers_.size() == 1) {
             cells_.copy(to, *layers_[0].view, layers_[0].brick);
@@ -145,7 +146,7 @@ class Slab {
         return true;
     }
 
-    // Computes distances and weights of the layers, once for all bricks above each other.
+    // Computes distances and weights of the layers, once for all bricks of the column.
     void measure(int by) {
         const bool by_distance = work_.options.overlap == Overlap::distance_weighted;
         const auto log2_per_m2 = static_cast<float>(
@@ -180,10 +181,10 @@ class Slab {
     std::vector<LayerColumns> columns_;  // for the sites of this column of bricks
     std::vector<bool> is_measured_;
     std::vector<BrickLayer> layers_;
-    std::vector<std::size_t> layer_sites_;  // index among these sites
+    std::vector<std::size_t> layer_sites_;  // index into columns_
 };
 
-// Puts together what the writers of all slabs hold, in the order of the bricks.
+// Collects one kind of writer from all slabs, in the order of the bricks.
 template <class Code, class Pick>
 std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& slabs, Pick pick) {
     std::vector<BricksWriter> writers;
@@ -193,8 +194,8 @@ std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& sla
     return writers;
 }
 
-// Calls finish(grid, writers) for each grid of the mosaic, so that it takes over what the writers
-// hold.
+// Calls finish(grid, writers) for each grid of the mosaic, so that the grid takes over the bricks
+// of the writers.
 template <class Code, class Finish>
 void fill(const MosaicWork& work, Finish finish) {
     const int count = work.made.cells.view().bricks_x;

@@ -1,7 +1,7 @@
 // grid/mosaic/mosaic_fill.h -- fills the bricks of a mosaic.
 //
-// Threads   The threads share the columns of bricks among them. The result has the same bits for
-//           any number of threads.
+// Threads   The threads divide the columns of bricks among themselves. The result has the same bits
+//           for any number of threads.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace stormcellar::grid {
 
-// What is merged, and into which mosaic.
+// The sites to merge, and the mosaic that they go into.
 struct MosaicWork {
     const GridSpec& domain;
     const MosaicOptions& options;
@@ -24,7 +24,7 @@ struct MosaicWork {
 
 // Fills a mosaic in which nothing has been seen so far.
 void fill_mosaic(const MosaicWork& work);
-// Fills the changed columns of a mosaic anew and leaves the rest. There is no previous mosaic.
+// Fills the changed columns of a mosaic anew and leaves the rest as it is. `previous` must be null.
 void refill_mosaic(const MosaicWork& work);
 
 }  // namespace stormcellar::grid

@@ -1,4 +1,5 @@
-// grid/mosaic/mosaic_sites.h -- the partials of a mosaic, checked and in the order of their sums.
+// grid/mosaic/mosaic_sites.h -- checks the partials of a mosaic and puts them in the order of their
+// sums.
 //
 // Threads   Plain values and functions.
 #pragma once
@@ -34,13 +35,13 @@ struct PlacedSite {
 
 [[nodiscard]] bool has_shape_of(const BrickView& view, const GridSpec& spec);
 
-// Sorts by ICAO, then position, whatever the order in which the partials came. Returns bad_argument
-// as merge() says.
+// Sorts by ICAO, then position, whatever order the partials came in. Errors: bad_argument, as
+// merge() says.
 [[nodiscard]] Result<std::vector<PlacedSite>> place_sites(const GridSpec& domain,
                                                           std::span<const Partial> partials,
                                                           const Quantization& quantization);
 
-// Makes the distances that are missing.
+// Computes the distances that are missing.
 void measure_distances(const GridSpec& domain, int threads, std::vector<PlacedSite>& sites);
 
 }  // namespace stormcellar::grid

@@ -15,7 +15,7 @@ constexpr std::size_t fewest_pixels = 200;  // pixels of 4 km, for the motion of
 constexpr std::size_t fewest_in_block = 40;
 constexpr double worthless_correlation = 0.3;
 
-// What a block, or the whole image, says about the motion.
+// The motion that a block, or the whole image, suggests.
 struct Vote {
     double x = 0, y = 0;  // pixels
     double weight = 0;
@@ -94,8 +94,8 @@ Vote vote_of_block(const Images& images, const Blocks& blocks, int column, int r
     return {shift->x, shift->y, worth * worth * std::sqrt(static_cast<double>(shift->pixels))};
 }
 
-// Returns the mean of what the blocks say, weighted by a Gaussian of one step about the node, and a
-// little of the whole motion, which decides where no block says anything.
+// Returns the weighted mean of the votes of the blocks, by a Gaussian of one step about the node.
+// The whole motion enters with a small weight, so it decides where no block has a vote.
 Vote smoothed(const std::vector<Vote>& votes, const Blocks& blocks, int column, int row,
               const Vote& whole) {
     constexpr double weight_of_whole = 0.02;
@@ -173,7 +173,7 @@ Result<std::optional<MotionField>> estimate_motion(const BrickView& before, cons
                            1 + reach_of(options.block_differs_mps, seconds, images.pixel_height_m)};
     const std::vector<Vote> votes = votes_of(images, blocks, near, options.threads);
     const int cells = images.before.cells;
-    // The search ends at whole pixels, which may be far for the time between the grids.
+    // The search ends at whole pixels, which may be too coarse for the time between the grids.
     const double fastest_mps = options.greatest_mps + options.block_differs_mps;
     const auto columns_per_s = [&](double pixels, double pixel_m) {
         const double most = fastest_mps * cells / pixel_m;

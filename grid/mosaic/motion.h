@@ -1,10 +1,10 @@
 // grid/mosaic/motion.h -- estimates how echo moved from one grid to a later one.
 //
 // Model     Echo moves in the plane of the grid, by the same motion at all heights; it may grow and
-//           decay. The motion is the one for which parts of the two column-maximum images
-//           (grid/mosaic/echo_image.h) correlate best: first for the whole image, then for
+//           decay. The estimate is the motion that makes parts of the two column-maximum images
+//           (grid/mosaic/echo_image.h) correlate best, first for the whole image, then for
 //           overlapping blocks, near the motion of the whole. Each block counts by its correlation.
-//           The result is smoothed, and where there is no echo the motion of the whole holds.
+//           The result is smoothed. Where there is no echo, the motion of the whole applies.
 // Units     Columns of the grid for each second, east (x) and north (y), so that a grid in degrees
 //           needs no conversion. GridSpec::cell_width_m() and cell_height_m() give m/s.
 // Accuracy  1.5 m/s for a pattern that moves rigidly, with pixels of 2 km and 300 s (enforced by
@@ -44,7 +44,7 @@ class MotionField {
 
     [[nodiscard]] CellMotion at(double ix, double iy) const;
     [[nodiscard]] CellMotion whole() const { return whole_; }
-    // Returns the greatest components of the nodes. No place moves faster along either axis.
+    // Returns the greatest components of the nodes. Nothing moves faster along either axis.
     [[nodiscard]] CellMotion greatest() const { return greatest_; }
 
   private:
@@ -64,7 +64,7 @@ struct MotionOptions {
 
 // Estimates the motion. Returns none if both grids have too little echo (less than 200 pixels of 4
 // km) for a motion to be known. Errors: bad_argument for views with different specs, or seconds
-// that are not positive. The caller must not pass a moment in other units than dBZ.
+// that are not positive. The moment must be in dBZ; this is not checked.
 [[nodiscard]] Result<std::optional<MotionField>> estimate_motion(const BrickView& before,
                                                                  const BrickView& after,
                                                                  double seconds,

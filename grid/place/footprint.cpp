@@ -20,8 +20,8 @@ Vector place_of(const ColumnGeometry& geometry, int ix, int iy) {
     return {arc_m * std::sin(azimuth), arc_m * std::cos(azimuth)};
 }
 
-// Returns the step from one column to the next; at the edge of the spec, the step from the column
-// before.
+// Returns the step from one column to the next. At the edge of the spec, returns the step from the
+// previous column instead.
 Vector step(const ColumnGeometry& geometry, int ix, int iy, int dx, int dy) {
     const GridSpec& spec = geometry.spec();
     const int from_x = std::max(0, ix - dx);

@@ -1,8 +1,8 @@
 // grid/place/footprint.h -- the outline of a cell as the site sees it.
 //
-// A cell is taken as a parallelogram, whose sides reach half way to the neighboring columns as they
-// lie in the plane of azimuth and arc about the site. In a grid of one column or one row, the
-// missing side follows from the other, or from the spacing of the spec.
+// A cell is taken as a parallelogram in the plane of azimuth and arc about the site. Its sides
+// reach half way to the neighboring columns. In a grid of one column or one row, the missing side
+// follows from the other, or from the spacing of the spec.
 //
 // Accuracy  Within 460 km, for cells of 500 m to 10 km, the outlines of neighboring cells leave or
 //           share less than 0.1 % of a cell. The rows of a latitude-longitude grid shorten toward

@@ -17,7 +17,8 @@ constexpr double geodesic_error_m = 1e-6;
 constexpr double half_meridian_m = 20003931.5;  // of WGS84: no two points are farther apart
 constexpr double quarter_meridian_m = 10001965.7;
 
-// How much longer the sphere is than the ellipsoid, along the meridian and along the parallel.
+// Relative excess of a length on the sphere over the ellipsoid, along the meridian and along the
+// parallel.
 struct ScaleError {
     double north = 0;
     double east = 0;
@@ -41,7 +42,7 @@ double largest_scale_error(double latitude_deg, double width_deg) {
         {std::abs(low.north), std::abs(low.east), std::abs(high.north), std::abs(high.east)});
 }
 
-// Returns columns along the border of a grid, at most some 256 on each side, with its corners.
+// Returns columns along the border of a grid, at most about 256 on each side, with its corners.
 std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     std::vector<ColumnPoint> border;
     const auto along = [](int count, auto add) {
@@ -56,8 +57,8 @@ std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     return border;
 }
 
-// Returns true if the region holds the site's antipode. Nowhere else inside a region does the arc
-// from the site have a maximum.
+// Returns true if the region holds the site's antipode. The arc from the site has no other maximum
+// inside a region.
 bool holds_antipode(const SitePosition& site, const GridSpec& spec,
                     const GridProjection& projection) {
     const ColumnPoint at = projection.to_column({-site.latitude_deg, site.longitude_deg + 180});
@@ -106,8 +107,8 @@ double reach_m(const SitePosition& site, const GridSpec& spec) {
         last = point;
         first = false;
     }
-    // A column of the border is at most half a gap from one that was computed. A tenth more is
-    // added because the border may be curved between them.
+    // Every column of the border is at most half a gap from a computed one. A tenth more is added
+    // because the border may be curved in between.
     return std::min(farthest_m + 0.55 * widest_gap_m, half_meridian_m);
 }
 
@@ -120,11 +121,11 @@ double storage_error_bound_m(double reach_m) noexcept {
 }
 
 // Consider a step ds along a geodesic from the site. On the sphere its image is stretched by (1 +
-// north) along the meridian and by (1 + east) along the parallel, both for the latitude there.
-// These stretches also turn the image against a great circle, and by nothing else, because latitude
-// and azimuth change alike on both. So the end of the image is off by at most the integral of the
-// larger error; in the equidistant plane, by theta / sin(theta) more. 1 % is added for the products
-// of errors.
+// north) along the meridian and by (1 + east) along the parallel, both for the latitude there. Only
+// these stretches turn the image against a great circle, because latitude and azimuth change alike
+// on both. So the end of the image is off by at most the integral of the larger error. In the
+// equidistant plane, theta / sin(theta) multiplies this error. 1 % is added for the products of
+// errors.
 double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept {
     if (!(reach_m > 0)) return 0;
     // Two points of the disc cannot be farther apart than the disc is wide.

@@ -21,7 +21,7 @@ struct Block {
     int x, y, width, height;  // in columns
 };
 
-// Return, on a side from -1 to 1, Chebyshev's nodes, where T6 is 0, and the peaks of T6.
+// Returns Chebyshev's nodes, where T6 is 0, and the peaks of T6, on a side from -1 to 1.
 double node(std::size_t i) {
     return std::cos((2.0 * static_cast<double>(i) + 1) * std::numbers::pi / (2 * order));
 }

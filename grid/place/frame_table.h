@@ -1,4 +1,5 @@
-// grid/place/frame_table.h -- azimuth and arc of a grid's columns from few exact geodesics.
+// grid/place/frame_table.h -- computes azimuth and arc of a grid's columns from few exact
+// geodesics.
 //
 // The grid is cut into blocks of at most 128 x 128 columns. In each block, the place of a column in
 // the azimuthal equidistant plane about the site is a polynomial of degree 5 in both directions,
@@ -7,8 +8,8 @@
 //
 // The polynomial is compared with exact geodesics where its error peaks, at the extremes of the
 // polynomial of the nodes. A block that is off by more than half of frame_table_error_m is cut into
-// four; one of 128 columns or fewer is solved exactly. In the worst case this costs half as much
-// again as solving each column. As a rule it solves one column in 200.
+// four; one of 128 columns or fewer is solved exactly. In the worst case this costs one and a half
+// times as much as solving each column. Usually it solves one column in 200.
 //
 // Accuracy  frame_table_error_m from the exact place, before it is stored as floats. Enforced by
 //           tests/grid/frame_table_test.cpp for every column of grids of all projections, from pole

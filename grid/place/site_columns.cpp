@@ -14,8 +14,7 @@ constexpr double widest_deg = 350;
 
 SiteColumns::Way SiteColumns::way_for(const SitePosition& site, const GridSpec& spec) {
     if (spec.in_degrees()) {
-        // Near a pole, where meridians meet, and where the grid meets itself, columns are not
-        // smooth.
+        // Columns are not smooth near a pole, where meridians meet, or where the grid meets itself.
         const bool smooth = std::abs(site.latitude_deg) <= highest_latitude_deg &&
                             spec.nx * spec.spacing_deg < widest_deg;
         return smooth ? Way::table : Way::exact;

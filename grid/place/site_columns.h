@@ -1,6 +1,6 @@
 // grid/place/site_columns.h -- finds the columns of a grid for places around a site, such as gates.
 //
-// This is the opposite of stormcellar/grid/column_geometry.h, for many places at once. Columns are
+// This is the inverse of stormcellar/grid/column_geometry.h, for many places at once. Columns are
 // smooth in the plane about the site (arc times sine and cosine of the azimuth), so they are
 // tabulated there every 25 km, and linear in between. For a grid in the azimuthal equidistant
 // projection about the site itself, a formula gives them.

@@ -62,7 +62,7 @@ struct Lattice {
 };
 
 Lattice solve_nodes(const Solver& solver, const GridWindow& window, int step) {
-    // One node for each column; or nodes up to both ends of whole bricks.
+    // Counts one node for each column, or nodes up to both ends of whole bricks.
     const auto along = [&](int cells) {
         return step == 1 ? cells : bricks_along(cells) * brick_edge / step + 1;
     };

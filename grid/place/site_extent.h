@@ -1,7 +1,7 @@
-// grid/place/site_extent.h -- where sites stand, and a grid's place from the sites that it shall
-// hold.
+// grid/place/site_extent.h -- checks where sites are, and finds the center and the extent of a grid
+// that holds them.
 //
-// Thread contract: pure functions.
+// Threads   Pure functions.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@
 
 namespace stormcellar::grid {
 
-// bad_argument unless the site has a latitude, a longitude and an altitude that the earth has.
+// Returns bad_argument unless the site has a possible latitude, longitude and altitude.
 [[nodiscard]] Status check_on_earth(const SitePosition& site);
 
-// The middle of the box of latitudes and longitudes that holds the sites, by the shorter way round
-// the earth. There must be one site at least.
+// Returns the middle of the box of latitudes and longitudes that holds the sites, the shorter way
+// round the earth. There must be at least one site.
 [[nodiscard]] GeoPoint middle_of(std::span<const SitePosition> sites);
 
-// How far the outermost sites lie from the center, east or west and north or south, in the plane
-// about it; 0 of no site.
+// The distance from the center to the outermost sites, east or west and north or south, in the
+// plane about the center. Both are 0 if there is no site.
 struct HalfExtent {
     double x_m = 0, y_m = 0;
 };

@@ -19,8 +19,8 @@ bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& 
         moments, [&](level2::Moment moment) { return level2::holds(volume, moment); });
 }
 
-// Decodes the metadata, so that the pattern says which cuts are needed. Returns none if it does
-// not.
+// Decodes the metadata, chooses cuts by its pattern and decodes those. Returns none if there is no
+// pattern, or if the cuts are all cuts or do not hold the moments.
 std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
                                            level2::DecodeOptions options,
                                            const ChooseCuts& choose_cuts) {
@@ -37,7 +37,7 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
     return std::move(*decoded);
 }
 
-// If the file has several volumes, a note says so.
+// Takes one volume of the file. If the file has several, adds a note that says so.
 Result<level2::Volume> take_volume(level2::Decoded decoded, const SourceWish& wish,
                                    SourceVolume& source) {
     const bool damaged = decoded.report.damaged;

@@ -1,10 +1,11 @@
-// grid/plan/cell_circle.h -- how far apart two values of a cell are if the moment may wrap.
+// grid/plan/cell_circle.h -- the difference between two values of a cell, for moments that may
+// wrap.
 //
-// VEL lies on a circle of twice the Nyquist velocity and PHI on one of 360 degrees, so their values
-// differ by the shorter way round. Sweeps may have different Nyquist velocities. The circle of a
-// cell is that of the two sweeps whose beams (4/3 earth) pass next above and below it. If these
-// have different circles, the longer of both ways is taken, so that no difference looks smaller
-// than it is. If a circle is not known, and for all other moments, values differ as plain numbers.
+// VEL is on a circle of twice the Nyquist velocity and PHI on one of 360 degrees, so their values
+// differ by the shorter way round. Sweeps may have different Nyquist velocities. A cell uses the
+// circle of the two sweeps whose beams (4/3 earth) pass next above and below it. If these have
+// different circles, the longer of both ways is taken, so that no difference looks smaller than it
+// is. If a circle is not known, and for all other moments, values differ as plain numbers.
 //
 // Threads   One thread for each object.
 #pragma once

@@ -9,7 +9,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The beam is bent more or less by other models, which moves a gate along the ground.
+// Other beam models bend the beam more or less, which moves a gate along the ground.
 constexpr float bent_by_m = 500;
 
 std::vector<std::uint16_t> valued_cells(const Grid& base) {
@@ -23,7 +23,7 @@ std::vector<std::uint16_t> valued_cells(const Grid& base) {
     return valued;
 }
 
-// The most valued cells of a column and the eight beside it.
+// Returns the greatest number of valued cells in a column and the eight beside it.
 std::uint16_t most_beside(const std::vector<std::uint16_t>& valued, const GridSpec& spec, int ix,
                           int iy) {
     std::uint16_t most = 0;
@@ -87,7 +87,8 @@ class NearGates {
 
   private:
     [[nodiscard]] float reach_m() const { return half_cell_m_ + stack_.gate_spacing_m + bent_by_m; }
-    // A radial and the one beside it, and half a cell.
+    // Returns the angle of half a cell plus one radial spacing or one beam width, whichever is
+    // wider.
     [[nodiscard]] float reach_deg(std::size_t sweep, float arc_m) const {
         const float cell_deg =
             arc_m > half_cell_m_

@@ -1,8 +1,8 @@
 // grid/plan/column_sizes.h -- how many cells of each column may hold a value, by any method.
 //
 // Columns are sampled in proportion to these sizes, and a column of size 0 is never compared. So a
-// size must not be 0 where any method finds a value: the default method looks at one point of a
-// cell, and a single gate between two points is seen only by methods that take all gates of a cell.
+// size must not be 0 where any method finds a value. The default method looks at one point of a
+// cell; a gate between two points is seen only by methods that take all gates of a cell.
 //
 // Threads   Pure.
 // Accuracy  tests/grid/column_sizes_test.cpp compares with the exact form on real volumes with
@@ -18,10 +18,11 @@
 
 namespace stormcellar::grid {
 
-// `base` is the grid by the default method, `stack` has its sweeps, and `geometry` its columns.
-// Where a column or one beside it holds values, the size is twice as many and four, at most all
-// levels: other methods bring values in from beside. Where none does but a gate with a value lies
-// near, the size is the number of levels from the sweep below that gate to the one above it.
+// `base` is the grid by the default method, `stack` has its sweeps, and `geometry` its columns. If
+// a column or one beside it holds values, its size is twice their number plus four, at most all
+// levels, because other methods bring in values from neighboring columns. If none holds values but
+// a gate with a value is near, the size is the number of levels from the sweep below that gate to
+// the one above it.
 [[nodiscard]] std::vector<std::uint16_t> column_sizes(const Grid& base, const SweepStack& stack,
                                                       const ColumnGeometry& geometry);
 

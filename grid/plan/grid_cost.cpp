@@ -14,7 +14,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Threads share tiles in pieces of 16.
+// Number of tiles in a piece that a thread takes.
 constexpr std::size_t tiles_a_piece = 16;
 constexpr std::size_t fewest_pieces = 2;
 constexpr std::size_t most_pieces = 8;
@@ -45,7 +45,8 @@ TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     return stratum;
 }
 
-// Times a stratum, and once more if it was short: the smaller time has less of the machine's noise.
+// Times a stratum. A short time is measured again and the smaller one counts, because it holds less
+// of the machine's noise.
 Result<double> stratum_s(GridScene& scene, const Method& method,
                          const TileSample::Stratum& stratum) {
     if (stratum.tiles.empty()) return 0.0;
@@ -126,7 +127,8 @@ void set_joint_costs(const Fills& fills, std::size_t interpolation, std::size_t 
     }
 }
 
-// A grid's chain has each of these steps but the circle.
+// Returns the step of that name. Only the circle may be missing in a grid's chain, and no caller
+// asks for it.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
@@ -138,7 +140,7 @@ TileSample draw_tiles(GridScene& scene, std::size_t of_each) {
     std::vector<Tile> without;
     const auto reach_m = static_cast<float>(scene.reach_m());
     for (const Tile& tile : scene.tiles()) {
-        // such tiles are filled with nothing at once
+        // beyond the reach, tiles are done at once because nothing is there
         if (!(tile.bounds.least_arc_m < reach_m)) continue;
         (may_hold_values(scene, tile) ? with_echo : without).push_back(tile);
     }
@@ -161,7 +163,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     const std::size_t cell = accuracy::find_step(chain, step::cell).value();
     accuracy::Choice cheapest;
     cheapest.rungs.resize(chain.steps.size());
-    Method usual;  // except for the averaging, which is not a choice
+    Method usual;  // all rungs but the averaging, which is not a choice
     usual.averaging = scene_choice(chain, cheapest).method.averaging;
     const auto fills = predicted_fills(scene, usual, sample);
     if (!fills) return pass_on(fills);
@@ -194,7 +196,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     step_named(chain, step::beam).effects[1].cost_s = more(traced_s, tables_s);
     step_named(chain, step::frame).effects[1].cost_s = geodesics_s(scene);
 
-    // The base is the default chain in the moment's own unit.
+    // The base was made by the default chain in the moment's own unit.
     const auto base_fill_s = predicted_fill_s(scene, Method{}, sample);
     if (!base_fill_s) return pass_on(base_fill_s);
     const double rest_s = more(scene.base_seconds(), *base_fill_s + scene.stack_seconds(Method{}));

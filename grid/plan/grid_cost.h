@@ -1,20 +1,19 @@
 // grid/plan/grid_cost.h -- predicts how long the grid of a scene takes with any choice of rungs, by
 // timing parts of it.
 //
-// The time of a grid is that of its tiles, of the tables of its sweeps, of its geometry if that
-// uses exact geodesics, and of a rest that is the same for all choices and known from the base of
-// the scene. Tiles differ: with echo they take longer than in clear air, and cells with an extent
-// take longest near the radar, where gates are dense. So tiles are drawn in two strata, those where
-// a cell may hold a value and those within reach that hold none, each evenly along the arc. Each
-// stratum is timed by itself and scaled by its own number of tiles. Interpolation and extent
-// together do not take the sum of what each takes, so every pair of them is timed
-// (accuracy::JointCost).
+// The time of a grid is the sum of four parts: its tiles, the tables of its sweeps, its geometry if
+// that uses exact geodesics, and a rest that is the same for all choices and known from the base of
+// the scene. Tiles differ. With echo they take longer than in clear air, and cells with an extent
+// take longest near the radar, where gates are dense. So tiles are drawn in two strata, each evenly
+// along the arc: tiles where a cell may hold a value, and tiles within reach that hold none. Each
+// stratum is timed by itself and scaled by its own number of tiles. The times of interpolation and
+// extent do not add up, so every pair of them is timed (accuracy::JointCost).
 //
-// Accuracy  Meant to be within a factor of 1.5 of the time that gridding then takes.
-//           bench/bench_plan.cpp measures it over real volumes (docs/performance.md). No test
-//           enforces it, because it depends on a clock. For one thread it is processor time, as it
-//           passes if nobody else needs the processor.
-// Threads   Those of the scene (grid/plan/grid_scene.h).
+// Accuracy  The aim is a factor of 1.5 of the time that gridding then takes. bench/bench_plan.cpp
+//           measures it over real volumes (docs/performance.md). No test enforces it, because it
+//           depends on a clock. For one thread the prediction is processor time, which equals the
+//           time by the clock if nobody else needs the processor.
+// Threads   As for the scene (grid/plan/grid_scene.h).
 #pragma once
 
 #include "grid/plan/grid_scene.h"
@@ -37,8 +36,8 @@ struct TileSample {
 [[nodiscard]] Result<double> predicted_fill_s(GridScene& scene, const Method& method,
                                               const TileSample& sample);
 
-// Sets all costs of a chain that effects_of() made for the moment of the scene: those of its
-// effects, the joint costs, and that of the cheapest choice.
+// Sets all costs of a chain that effects_of() made for the moment of the scene: the costs of its
+// effects, the joint costs, and the cost of the cheapest choice.
 [[nodiscard]] Status predict_costs(GridScene& scene, accuracy::Chain& chain);
 
 }  // namespace stormcellar::grid

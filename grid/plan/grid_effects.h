@@ -11,8 +11,8 @@
 //   averaging      in dB or, for REF, in Z                         none: the user defines it
 //   circle         (VEL, PHI) as numbers, on the circle            velocity_folding, phase_folding
 // The exact form of the chain is the last rung of every step. A budget bounds the difference from
-// it on the same gates. Which of two forms is nearer to the truth is another question; see
-// docs/accuracy.md.
+// the exact form on the same gates. docs/accuracy.md discusses which of two forms is nearer to the
+// truth.
 //
 // Threads   Pure functions, except those that take a scene (grid/plan/grid_scene.h).
 #pragma once
@@ -27,7 +27,8 @@
 
 namespace stormcellar::grid {
 
-// The steps by name. A step is found by these, so that a misspelled one does not compile.
+// The steps by name. Code finds a step by these constants, so that a misspelled name does not
+// compile.
 namespace step {
 inline constexpr std::string_view frame = "frame";
 inline constexpr std::string_view beam = "beam";
@@ -38,8 +39,8 @@ inline constexpr std::string_view averaging = "averaging";
 inline constexpr std::string_view circle = "circle";
 }  // namespace step
 
-// Returns the chain with names, rungs and sentences; sizes and costs are 0 and all settings
-// automatic. The exact form averages as stated too, because neither dB nor Z approximates the
+// Returns the chain with names, rungs and sentences. All sizes and costs are 0 and all settings are
+// automatic. The exact form also averages by `averaging`, because neither dB nor Z approximates the
 // other.
 [[nodiscard]] accuracy::Chain effects_of(level2::Moment moment,
                                          Averaging averaging = Averaging::in_db);
@@ -52,20 +53,22 @@ inline constexpr std::string_view circle = "circle";
 // it.
 [[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
 
-// What choices are measured against: the last rung of every step, but for the frame's, which is the
-// table. A geodesic for each column differs from it by a millimeter and takes half a second.
+// Returns the choice that others are measured against: the last rung of every step, except that the
+// frame uses the table. A geodesic for each column differs from the table by a millimeter and takes
+// half a second.
 [[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
 
-// The same choice as it is measured: by the table in place of geodesics.
+// Returns the choice as it is measured: with the table in place of geodesics.
 [[nodiscard]] SceneChoice as_measured(SceneChoice choice);
 
-// Returns the effort (stormcellar/accuracy/effect.h) that these two rungs take together beyond what
-// each takes alone.
+// Returns the extra effort (stormcellar/accuracy/effect.h) that these two rungs take together,
+// beyond the sum of what each takes alone.
 [[nodiscard]] double joint_effort(Interpolation interpolation, CellExtent cell);
 
-// The default without a budget is the usual choice. But if cells are wider than the beam is at 160
-// km (2.7 km for a WSR-88D), it is area, because point samples would alias. The extent of the grid
-// does not matter, because a part of a grid must hold what the whole grid holds.
+// The default without a budget is the usual choice, with one exception. If cells are wider than the
+// beam is at 160 km (2.7 km for a WSR-88D), the default is area, because point samples would alias.
+// The extent of the grid does not matter, because a part of a grid must hold what the whole grid
+// holds.
 inline constexpr double wide_cells_arc_m = 160e3;
 [[nodiscard]] accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
                                               double beam_width_deg);
@@ -75,7 +78,7 @@ inline constexpr double wide_cells_arc_m = 160e3;
 
 struct PlanOptions {
     std::size_t predict_columns = 500;  // for estimates of the size and cost of each effect
-    // for bounds of what is chosen: so many, or as many as a bound needs
+    // for bounds on the chosen form; more columns are drawn if a bound needs them
     std::size_t measure_columns = 2500;
     std::uint64_t seed = 1;
 };

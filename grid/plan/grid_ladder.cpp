@@ -111,8 +111,8 @@ Result<Position> position_of(GridScene& scene, const std::string& name, std::siz
     return Position{};
 }
 
-// Returns the position error of the whole chain: the largest of each step, and the root of the sum
-// of squares.
+// Returns the position error of the whole chain: the sum of the largest errors of its steps, and
+// the root of the sum of squares of their RMS errors.
 Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
     auto frame = frame_position(scene, choice.frame);
     if (!frame) return frame;
@@ -123,7 +123,7 @@ Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
                     std::hypot(frame->rms_m, beam.rms_m, jitter.rms_m)};
 }
 
-// Times the grid, first with geometry and everything else, then with whatever can be kept.
+// Times the grid, first with geometry and everything else, then with the parts that can be kept.
 Status time_grid(GridScene& scene, const SceneChoice& choice, int rounds,
                  accuracy::LadderRow& row) {
     const GridderOptions options{scene.options().moment, scene.options().beam_width_deg,

@@ -1,16 +1,16 @@
 // grid/plan/grid_ladder.h -- what accuracy costs in time, rung by rung, on one scene.
 //
-// For each step there is a row for each rung. It has the error of the rung with every other step
-// exact, against the exact form of the chain, over sampled columns. It also has the time of a whole
-// grid with the other steps at their default, because that is what changes when a user goes up or
-// down this ladder. Rows of the step "chain" are whole chains, including the default methods, with
-// their own times and errors.
+// Each rung of each step has a row. It has the error of the rung with every other step exact,
+// against the exact form of the chain, over sampled columns. It also has the time of a whole grid
+// with the other steps at their default, because that is what changes when a user goes up or down
+// this ladder. Rows of the step "chain" are whole chains, including the default methods, with their
+// own times and errors.
 //
-// Position errors of the frame are over the sampled columns, of the beam over gates of the sweeps,
-// and of the elevation over the radials. Times are single-threaded unless the scene has more
-// threads.
+// Position errors of the frame cover the sampled columns, those of the beam the gates of the
+// sweeps, and those of the elevation the radials. Times are single-threaded unless the scene has
+// more threads.
 //
-// Threads   Those of the scene (grid/plan/scene.h).
+// Threads   As for the scene (grid/plan/grid_scene.h).
 #pragma once
 
 #include <functional>
@@ -28,7 +28,7 @@ struct LadderOptions {
     int rounds = 3;  // rounds of timing; the least time counts
     std::uint64_t seed = 1;
     Averaging averaging = Averaging::in_db;  // of all chains, the exact form too
-    // Is told how many of how many rows are done; null: nobody is.
+    // Receives the number of rows that are done and the number in all; may be null.
     std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 

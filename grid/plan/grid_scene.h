@@ -1,10 +1,9 @@
 // grid/plan/grid_scene.h -- one volume over one grid spec, gridded by any method, whole or in
-// sampled columns: the accuracy planner measures on it.
+// sampled columns. The accuracy planner measures on it.
 //
-// What several methods share (geometries, prepared sweeps) is made once and kept as long as the
-// scene. The columns of a sample are drawn in proportion to the number of their cells that may hold
-// a value, so that few are wasted on clear air. If there are few enough such columns, all of them
-// are taken.
+// Geometries and prepared sweeps serve several methods, so they are made once and kept as long as
+// the scene. Columns are drawn in proportion to the number of their cells that may hold a value, so
+// that few are wasted on clear air. If there are few enough such columns, all of them are taken.
 //
 // Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
@@ -38,7 +37,7 @@ struct SceneOptions {
     double beam_width_deg = 0;  // 0: that of the site's radar
     RefractivityProfile profile = RefractivityProfile::reference();
     int threads = 1;
-    // The nearest of repeated sweeps to this time is used; none: the newest.
+    // Of repeated sweeps, the nearest to this time is used; none: the newest.
     std::optional<UtcTime> nearest_to = std::nullopt;
 };
 
@@ -73,9 +72,10 @@ struct SampledErrors {
     // Returns an upper bound of the 99th percentile of the magnitudes of all errors, at 99.9 %
     // confidence (for a census, the figure itself), or none if the sample is too small.
     [[nodiscard]] std::optional<double> p99_bound() const;
-    // Returns the mean, from 0 to 1, of how much a column holds of the most that it may hold.
+    // Returns the mean ratio, from 0 to 1, of what a sampled column holds to the most that it may
+    // hold.
     [[nodiscard]] double mean_load() const;
-    // Returns the 99th percentile of the sample itself; 0 if no cell has a value in both.
+    // Returns the 99th percentile of the sample itself; 0 if no cell has a value in both grids.
     [[nodiscard]] double p99_estimate() const;
 };
 
@@ -89,8 +89,9 @@ class GridScene {
 
     // Returns the grid made by the default method, whose values say where to sample.
     [[nodiscard]] const Grid& base() const { return base_; }
-    // Returns the seconds that making it took: for one thread processor time, whatever else the
-    // machine does; for several threads time by the clock. This holds for all seconds of a scene.
+    // Returns the seconds that making the base took. For one thread this is processor time,
+    // whatever else the machine does; for several threads it is time by the clock. This holds for
+    // all seconds of a scene.
     [[nodiscard]] double base_seconds() const { return base_seconds_; }
 
     // Draws about `count` columns with a generator of this seed.
@@ -105,8 +106,8 @@ class GridScene {
         return sizes_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(spec_.nx) +
                       static_cast<std::size_t>(ix)] > 0;
     }
-    // Return all tiles of the grid, and the seconds that filling some of them takes (with the table
-    // as frame).
+    // tiles() returns all tiles of the grid; fill() returns the seconds that filling some of them
+    // takes (with the table as frame).
     [[nodiscard]] std::span<const Tile> tiles() const;
     [[nodiscard]] Result<double> fill(const Method& method, std::span<const Tile> tiles);
 
@@ -119,7 +120,7 @@ class GridScene {
     [[nodiscard]] double reach_m() const;
     [[nodiscard]] Result<std::shared_ptr<const ColumnGeometry>> geometry(FrameKind kind);
     [[nodiscard]] const SweepStack& stack(const Method& method) { return *kept(method).stack; }
-    // Returns the seconds that making it took.
+    // Returns the seconds that making the sweeps for the method took.
     [[nodiscard]] double stack_seconds(const Method& method) { return kept(method).seconds; }
 
   private:
@@ -134,7 +135,7 @@ class GridScene {
     [[nodiscard]] const KeptStack& kept(const Method& method);
     // Returns processor time for one thread, and time by the clock for several.
     [[nodiscard]] double now_s() const;
-    // A grid for filling columns that nobody asked to keep.
+    // Returns a grid for filled columns that nobody keeps.
     [[nodiscard]] Grid& scratch();
 
     const level2::Volume* volume_ = nullptr;

@@ -54,7 +54,7 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     for (accuracy::Effect& effect : step.effects) {
         effect.predicted.position_m = effect_position_m(position_scene(scene), effect.name);
         effect.evidence = accuracy::Evidence::sample;
-        // About its site a grid is the same in every frame.
+        // A grid about its own site is the same in every frame.
         if (step.name == step::frame && centered)
             effect.evidence = accuracy::Evidence::proven_bound;
         if (effect.name == "exact_geodesic") effect.evidence = accuracy::Evidence::proven_bound;
@@ -67,7 +67,7 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
 
 // Returns how many columns are needed to bound the 99th percentile, and not only the greatest error
 // near it. 900 columns that hold as many errors as they may are just enough for a bound to exist
-// (accuracy/quantile_bound.h); three times as many give a good one. How much columns hold is
+// (accuracy/quantile_bound.h); three times as many give a good bound. How much a column holds is
 // estimated from a sample that is not used again.
 Result<std::size_t> columns_for_a_bound(GridScene& scene, const SceneChoice& exact,
                                         const PlanOptions& options) {
@@ -97,7 +97,8 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                            const std::optional<accuracy::Budget>& budget,
                            const PlanOptions& options) {
     if (auto done = predict(scene, options, chain); !done) return pass_on(done);
-    // The columns are drawn anew, so that a prediction from the first sample is checked on another.
+    // The columns are drawn anew, so that a prediction from the first sample is checked on a second
+    // one.
     std::optional<ColumnSample> sample;
     std::optional<SampledCells> exact;
     const auto measure = [&](const accuracy::Choice& choice) -> Result<accuracy::Measured> {

@@ -1,12 +1,12 @@
-// grid/plan/position_error.h -- how far each effect of geometry moves what a grid samples: bounds
+// grid/plan/position_error.h -- bounds how far each effect of geometry moves the samples of a grid,
 // for a volume over a grid.
 //
 //   ellipsoid        the bound of the sphere in stormcellar/grid/frame_ladder.h within the reach
 //   exact_geodesic   1 mm, the bound of the table
 //   earth_curvature, refraction   the greatest distance between the places of a gate by both beams,
 //                                 over the elevations of the sweeps, arcs within the reach and
-//                                 heights of the grid (beam_model.h)
-//   antenna_jitter   the farthest that a radial was measured off its sweep, times the range at
+//                                 heights of the grid (stormcellar/grid/beam_model.h)
+//   antenna_jitter   the largest offset of a radial from its sweep's elevation, times the range at
 //                    which it leaves the grid
 // The other effects move nothing, so their size is 0.
 //
@@ -27,7 +27,7 @@
 
 namespace stormcellar::grid {
 
-// Refers to the objects that it is made of, which must outlive it.
+// A scene refers to the objects that it is made of; they must outlive it.
 struct PositionScene {
     const level2::Volume& volume;
     const SitePosition& site;
@@ -42,7 +42,7 @@ struct PositionScene {
 
 [[nodiscard]] double effect_position_m(const PositionScene& scene, std::string_view effect);
 
-// Returns the sum over everything that a method and a frame leave off.
+// Returns the sum of the bounds of all effects that the method and the frame leave off.
 [[nodiscard]] double position_error_bound_m(const PositionScene& scene, FrameKind frame,
                                             const Method& method);
 

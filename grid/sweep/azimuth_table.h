@@ -2,9 +2,9 @@
 //
 // The table finds the nearest radial, the two on either side of an azimuth, or all within a reach.
 // Where neighboring radials are more than one and a half spacings apart, there is a gap. Each of
-// the two then reaches half a spacing into the gap, and no radial sees the rest of it; no pair and
-// no neighborhood reaches across. Of radials at the same azimuth the later one, in the given order,
-// counts. Radials may come in any order and any number, and wrap around north.
+// the two then reaches half a spacing into the gap, and no radial sees the rest of it. No pair and
+// no neighborhood reaches across a gap. If radials have the same azimuth, the later one in the
+// given order counts. Radials may come in any order and any number, and wrap around north.
 //
 // A lookup is exact: a table of quarter degrees gives the sector, within a step or two along sorted
 // boundaries.
@@ -27,7 +27,7 @@ class AzimuthTable {
   public:
     static constexpr int none = -1;
 
-    // Azimuths are in [0, 360), one for each radial; the spacing is above 0.
+    // There must be one azimuth in [0, 360) for each radial. The spacing is above 0.
     AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg);
 
     // Returns the position in the given list, or none. The azimuth must be in [0, 360).
@@ -48,7 +48,7 @@ class AzimuthTable {
     template <class Visit>
     void visit(float azimuth_deg, float reach_deg, Visit visit) const;
 
-    // The same, but across gaps too. With a reach of 180 all radials are visited.
+    // Does the same, but across gaps too. With a reach of 180 it visits all radials.
     template <class Visit>
     void visit_all(float azimuth_deg, float reach_deg, Visit visit) const;
 

@@ -1,7 +1,8 @@
-// grid/sweep/busy_blocks.h -- where along the radials of a sweep there is anything but no echo.
+// grid/sweep/busy_blocks.h -- marks where along the radials of a sweep there is anything but no
+// echo.
 //
-// There is a bit for each block of 32 gates of each radial. It is exact: a quiet stretch holds code
-// 0 alone.
+// There is a bit for each block of 32 gates of each radial. The marks are exact: a quiet stretch
+// holds only code 0.
 //
 // Threads   Immutable after the last mark().
 #pragma once

@@ -32,8 +32,8 @@ float half_period_of(level2::Moment moment, float nyquist_mps) {
 }
 
 // Adds a value by its difference from the reference, the shorter way round. The reference is the
-// first value, because the caller adds the one that weighs most first. A value on another circle is
-// left out.
+// first value; the caller adds the value that weighs most first. A value on another circle is left
+// out.
 void Mixture::add_on_circle(float value, float half_period, float weight) {
     const bool is_first = sum_weight_ == 0 && !(half_period_ > 0);
     if (is_first) {

@@ -1,5 +1,5 @@
-// grid/sweep/mixture.h -- what a gate holds, and what a cell holds that mixes several gates: the
-// status rule.
+// grid/sweep/mixture.h -- the status rule: the content of a gate, and of a cell that mixes several
+// gates.
 //
 // The rule (docs/geometry.md): the gates give a cell the weights v (valued), n (no echo), f (range
 // folded) and u (not seen). If u is over one half, the cell is not seen; else if f is the largest,
@@ -35,8 +35,8 @@ enum class Blending {
 }
 [[nodiscard]] Blending blending_of(level2::Moment moment);
 
-// Half of the circle on which a moment's values lie; 0 where they do not wrap and where a radial's
-// Nyquist velocity is not known (0 or not finite).
+// Returns half of the circle of a moment's values; 0 if they do not wrap, or if a radial's Nyquist
+// velocity is not known (0 or not finite).
 [[nodiscard]] float half_period_of(level2::Moment moment, float nyquist_mps);
 
 // One gate.
@@ -60,7 +60,7 @@ struct CellResult {
 
 // Blends two samples; `weight_b`, in [0, 1], is the share of the second.
 [[nodiscard]] CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blending);
-// The same, for callers that know is_circular(blending).
+// Does the same for callers that know is_circular(blending).
 template <bool circular>
 [[nodiscard]] CellResult blend_as(const Sample& a, const Sample& b, float weight_b,
                                   Blending blending);
@@ -78,11 +78,11 @@ class Mixture {
         is_circular(blending) ? add_as<true>(sample, weight, blending)
                               : add_as<false>(sample, weight, blending);
     }
-    // The same, for callers that know is_circular(blending).
+    // Does the same for callers that know is_circular(blending).
     template <bool circular>
     void add_as(const Sample& sample, float weight, Blending blending);
-    // Adds `count` samples of one status, each with weight 1, whose values add up to `sum`; for no
-    // echo, their limits add up to it. This is not for moments that wrap.
+    // Adds `count` samples of one status, each with weight 1, whose values (for no echo, their
+    // limits) add up to `sum`. Do not use it for moments that wrap.
     void add_counted(CellStatus status, int count, float sum, Blending blending);
     // Adds all samples of another mixture, each with `weight` times its own weight.
     void add(const Mixture& other, float weight, Blending blending);
@@ -95,7 +95,7 @@ class Mixture {
     [[nodiscard]] CellResult result_as(Blending blending) const;
     [[nodiscard]] float weight() const { return valued_ + quiet_ + folded_ + unseen_; }
     [[nodiscard]] float unseen() const { return unseen_; }
-    // These return true if the mixture holds nothing but no echo, or nothing but not seen.
+    // These return true if the mixture holds only no echo, or only not seen.
     [[nodiscard]] bool is_all_quiet() const { return valued_ + folded_ + unseen_ == 0; }
     [[nodiscard]] bool is_all_unseen() const { return valued_ + quiet_ + folded_ == 0; }
 

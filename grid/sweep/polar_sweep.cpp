@@ -28,7 +28,7 @@ PolarSweep::PolarSweep(const level2::Sweep& sweep, const ChosenSweep& chosen, co
             gates_.first_table()),
       azimuths_(azimuth_table(sweep, chosen)) {}
 
-// Decides for a whole tile: first by the gates at its nearest and its farthest arc, then by the
+// Decides for a whole tile, first by the gates at its nearest and its farthest arc, then by the
 // blocks between them in every radial that passes the tile.
 std::optional<CellStatus> PolarSweep::uniform_status(const PolarBounds& bounds) const {
     return gates_.uniform_status(bounds.least_arc_m, bounds.greatest_arc_m, [&](const auto& visit) {

@@ -1,8 +1,8 @@
 // grid/sweep/polar_sweep.h -- one sweep of a moment, prepared for being sampled at many columns.
 //
-// What depends on the arc alone (the number of the gate, the height of the beam) is in tables with
-// a step of 500 m along the arc, and linear in between. The gates of a radial are those of the
-// sweep's elevation, wherever the radial itself was measured.
+// Numbers that depend on the arc alone (the number of the gate, the height of the beam) are in
+// tables with a step of 500 m along the arc, and linear in between. The gates of a radial are
+// placed by the sweep's elevation, whatever elevation the radial itself had.
 //
 // Units     Values are in the unit of the moment, or in mm^6/m^3 (Averaging::in_z, reflectivity
 //           only).
@@ -35,8 +35,8 @@ class PolarSweep {
 
     // Returns the position of the nearest radial among the radials used, or AzimuthTable::none.
     [[nodiscard]] int radial_at(float azimuth_deg) const { return azimuths_.find(azimuth_deg); }
-    // Returns the heights of the beam of the radial at that position, or those of the sweep's
-    // elevation for AzimuthTable::none.
+    // Returns the heights of the beam of the radial at that position. For AzimuthTable::none,
+    // returns the heights at the sweep's elevation.
     [[nodiscard]] BeamHeights heights_at(int position, ArcPlace place) const {
         const BeamHeights sweep = beam_.heights(place);
         if (position == AzimuthTable::none) return sweep;
@@ -49,13 +49,13 @@ class PolarSweep {
     [[nodiscard]] Sample sample(float azimuth_deg, ArcPlace place) const {
         return sample(radial_at(azimuth_deg), place);
     }
-    // The same, for callers that have beam().at(place) already.
+    // Does the same for callers that already have beam().at(place).
     [[nodiscard]] Sample sample(int position, ArcPlace place, const BeamAtArc& beam) const {
         return gates_.sample(position, place, beam.gate_and_half);
     }
-    // Returns the status that every sample within the bounds has, if they are all no echo or all
-    // not seen. This also holds for mixtures, which take in one more gate and one more radial.
-    // Returns none if the samples may differ.
+    // Returns the common status of all samples within the bounds if they are all no echo or all not
+    // seen. This also holds for mixtures, which take in one more gate and one more radial. Returns
+    // none if the samples may differ.
     [[nodiscard]] std::optional<CellStatus> uniform_status(const PolarBounds& bounds) const;
 
   private:

@@ -8,12 +8,12 @@
 namespace stormcellar::grid {
 namespace {
 
-// This stands for a beam that never passes over an arc: it is above everything, so far that the
-// line from the arc before does not pass any height that could be meant.
+// Height of a beam that never passes over an arc. It is so high that the line from the previous arc
+// passes none of the heights that matter.
 constexpr float above_everything_m = 1e30F;
 
-// An edge is lost if it is on the wrong side of the beam's center. NaN: it never passes over the
-// arc.
+// An edge is lost if it is on the wrong side of the beam's center, or NaN because it never passes
+// over the arc.
 bool is_lost_lower(double edge_m, double center_m) {
     return std::isnan(edge_m) || edge_m > center_m;
 }

@@ -3,12 +3,12 @@
 // The heights of the beam's center and edges are in a table with a step of 500 m along the arc, and
 // linear in between.
 //
-// A radial that was measured higher or lower than its sweep has its beam on the parabola through
-// the beam's center and edges. An edge of the beam is lost if it never passes over an arc, or if it
-// passes on the other side of the beam's center; ducts and the ground do that. A missing edge is
-// mirrored from the other edge; if both are missing, half the beam width at the range of the center
-// replaces them. So the rise for each degree is that of the half that exists. Nothing is seen
-// between the center and a lost edge.
+// The beam of a radial that was measured higher or lower than its sweep is on the parabola through
+// the sweep beam's center and edges. An edge of the beam is lost if it never passes over an arc, or
+// if it passes on the other side of the beam's center; ducts and the ground do that. A missing edge
+// is mirrored from the other edge. If both are missing, half the beam width at the range of the
+// center replaces them. So the rise for each degree is that of the half that exists. Nothing is
+// seen between the center and a lost edge.
 //
 // Threads   Immutable; many threads may use one object.
 // Accuracy  grid/sweep/polar_sweep.h.
@@ -23,7 +23,7 @@
 
 namespace stormcellar::grid {
 
-// Where the center of a beam never passes over an arc, the beam counts as higher than this.
+// If the center of a beam never passes over an arc, the beam counts as higher than this.
 inline constexpr float highest_beam_m = 1e8F;
 
 // The heights of a beam's center and of its edges, half a beam width off, lost edges included.
@@ -31,7 +31,7 @@ struct BeamHeights {
     float center_m = 0, lower_m = 0, upper_m = 0;
 };
 
-// What the table holds for an arc.
+// The entry of the table for an arc.
 struct BeamAtArc {
     BeamHeights heights;
     float gate_and_half = 0;  // GatePlace::number_and_half for the first kind of radials
@@ -39,8 +39,8 @@ struct BeamAtArc {
 
 class SweepBeam {
   public:
-    // For arcs from 0 to (table_size - 1) * ArcTable::step_m. `gates` has the gate's number plus
-    // one half for each arc of the table, or is null for a sweep without gates.
+    // The table covers arcs from 0 to (table_size - 1) * ArcTable::step_m. `gates` holds the gate's
+    // number plus one half for each arc of the table, or is null for a sweep without gates.
     SweepBeam(const BeamModel& beam, double elevation_deg, double half_beam_deg,
               std::size_t table_size, const ArcTable* gates);
 
@@ -53,7 +53,7 @@ class SweepBeam {
         return {{both[0], both[1], both[2]}, both[3]};
     }
     [[nodiscard]] BeamHeights heights(ArcPlace place) const { return at(place).heights; }
-    // The same for a beam that is higher than the sweep's elevation by `offset_deg`.
+    // Does the same for a beam that is higher than the sweep's elevation by `offset_deg`.
     [[nodiscard]] BeamHeights heights(ArcPlace place, float offset_deg) const {
         return offset(heights(place), offset_deg);
     }
@@ -69,7 +69,7 @@ class SweepBeam {
     [[nodiscard]] float rise_m_per_deg(const BeamHeights& heights) const {
         return (heights.upper_m - heights.lower_m) / 2 * halves_per_deg_;
     }
-    // Returns the part of the beam that is seen: lost edges are moved to the center.
+    // Returns the part of the beam that is seen, with lost edges moved to the center.
     [[nodiscard]] BeamHeights without_lost_edges(ArcPlace place, BeamHeights heights) const {
         if (lost_edges_.empty()) return heights;
         const unsigned lost = lost_edges_[place.index] | lost_edges_[place.index + 1];

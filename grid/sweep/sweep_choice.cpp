@@ -9,8 +9,8 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double same_elevation_deg = 0.2;
-// A sweep is good enough with this share of the fullest sweep's azimuths, of the farthest range,
-// and of the longest unambiguous range.
+// A sweep is good enough if it has this share of the fullest sweep's azimuths, of the farthest
+// range, and of the longest unambiguous range.
 constexpr double full_enough = 0.9;
 constexpr double widest_spacing_deg = 2;
 constexpr double believable_vcp_error_deg = 0.5;
@@ -78,9 +78,9 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
     return reach_m;
 }
 
-// Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond it is lost, or
-// a surveillance sweep sorts it out. It is short by nature for Doppler moments, so it does not
-// count there.
+// Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond it is lost,
+// unless a surveillance sweep sorts it out. For Doppler moments it is short by nature, so it does
+// not count there.
 double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
                            std::span<const std::uint32_t> radials) {
     if (level2::facts_of(moment).is_doppler) return 0;
@@ -152,7 +152,7 @@ std::optional<Candidate> candidate_of(const level2::Volume& volume, std::size_t 
     return candidate;
 }
 
-// Keeps the candidates that come near the largest of them in one respect.
+// Keeps the candidates that come near the largest in one member.
 void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respect) {
     double largest = 0;
     for (const Candidate* candidate : group)
@@ -162,7 +162,7 @@ void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respec
     });
 }
 
-// Returns true if `later`, which comes later in the file, is the better one of the two.
+// Returns true if `later`, which comes later in the file, is better than `other`.
 bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
                std::optional<UtcTime> nearest_to) {
     if (!nearest_to) return true;

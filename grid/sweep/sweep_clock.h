@@ -3,9 +3,9 @@
 // A volume takes minutes: its sweeps follow each other, and each turns once. A grid keeps a
 // SweepTime for each sweep, and from these the clock computes the time of any cell.
 //
-// Model     The antenna turns clockwise at constant speed. A cell is made of the two sweeps whose
-//           beams (4/3 earth) pass next below and above it, with weights linear in height; above
-//           and below all beams, of the nearest sweep.
+// Model     The antenna turns clockwise at constant speed. The two sweeps whose beams (4/3 earth)
+//           pass next below and above a cell make its time, with weights linear in height. Above
+//           and below all beams, the nearest sweep makes it.
 // Accuracy  For real volumes, at the 95th percentile of cells: the larger of 2 s and 6 % of the
 //           longest time from one sweep to the next, compared with the mean time of the cell's
 //           gates (Detail::age). Radials lie higher or lower than the median of their sweep, and a
@@ -35,9 +35,9 @@ inline constexpr double fastest_turn_deg_per_s = 360;
 
 class SweepClock {
   public:
-    // Returns none where there are no sweeps, and where one lies further than 10 minutes from the
-    // middle of its volume: such times are wrong, and what moves with them would go too far. The
-    // volume is then taken as if it had one time.
+    // Returns none if there are no sweeps, or if a sweep is more than 10 minutes from the middle of
+    // its volume. Such times are wrong, and echo that moves with them would go too far. The volume
+    // is then taken as if it had one time.
     [[nodiscard]] static std::optional<SweepClock> of_volume(std::span<const SweepTime> sweeps,
                                                              BeamGeometry beam, UtcTime origin,
                                                              UtcTime middle);

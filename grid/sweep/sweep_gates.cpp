@@ -8,7 +8,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The gate of a beam that never passes over an arc: there is none.
+// The gate of a beam that never passes over an arc, where there is none.
 constexpr double no_gate = -1e9;
 
 ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std::size_t size) {
@@ -21,7 +21,7 @@ ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std
 
 float in_unit(float value, Averaging averaging) {
     if (averaging == Averaging::in_db) return value;
-    // Nobody has measured more, and floats end at 385 dBZ.
+    // No radar measures values outside these limits, and floats end at 385 dBZ.
     return std::pow(10.0F, std::clamp(value, -300.0F, 300.0F) / 10);
 }
 
@@ -79,9 +79,8 @@ void SweepGates::add_kind(const level2::SweepMoment& moment, const BeamPath& pat
     kinds_.push_back(std::move(kind));
 }
 
-// Tabulates, for each gate, what its range adds to the detection limit. The attenuation is that of
-// the radial that comes first; as a rule all radials share it, and detection_limit_of() corrects
-// those that do not.
+// Tabulates, for each gate, what its range adds to the detection limit. The first radial gives the
+// attenuation. Usually all radials share it, and detection_limit_of() corrects those that do not.
 void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
     const DetectionLimit at_zero_dbz{0, 0};
     kind.attenuation_db_per_m = attenuation_db_per_m;
@@ -106,8 +105,8 @@ void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
         loss = {in_unit(loss.spreading, averaging_), in_unit(loss.attenuation, averaging_)};
 }
 
-// Prepares one row for each radial that is used: where its codes are, and what its limits and its
-// circle are. A radial belongs to the first kind in which it has gates.
+// Prepares one row for each radial that is used, with its codes, its limits and its circle. A
+// radial belongs to the first kind in which it has gates.
 void SweepGates::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
                           const PolarSweepOptions& options) {
     for (const std::uint32_t radial : chosen.radials) {
@@ -170,7 +169,7 @@ SweepGates::Between SweepGates::between(float least_arc_m, float greatest_arc_m)
     };
     const float nearest = number_at(least_arc_m);
     const float farthest = number_at(greatest_arc_m);
-    // The gate's number rises with the arc, until the beam passes over no more.
+    // The gate's number rises with the arc up to the end of the beam.
     if (nearest >= static_cast<float>(most_gates_)) return {CellStatus::not_seen, {}};
     const bool within = nearest >= static_cast<float>(kind.first_gate) && farthest >= nearest &&
                         farthest < static_cast<float>(fewest_gates_);
@@ -303,7 +302,7 @@ void SweepGates::add_along_radial(int position, ArcPlace place, float weight,
     if (!within) return mixture.add_unseen(weight);
     const Kind& kind = kinds_[row.kind];
     const auto nearest = static_cast<std::int32_t>(at.number_and_half);
-    // How far the place lies beyond the center of the nearest gate, from -1/2 to 1/2 of a gate.
+    // Offset of the place from the center of the nearest gate, from -1/2 to 1/2 of a gate.
     const float beyond = at.number_and_half - static_cast<float>(nearest) - 0.5F;
     const std::int32_t other = beyond < 0 ? nearest - 1 : nearest + 1;
     const bool alone = other < at.first || other >= at.end;

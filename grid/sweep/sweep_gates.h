@@ -39,27 +39,26 @@ class SweepGates {
     SweepGates(const level2::Sweep& sweep, const ChosenSweep& chosen, const BeamModel& beam,
                const PolarSweepOptions& options);
 
-    // Returns the number plus one half of the gate over each arc, for the first kind of radials;
-    // null if the sweep has no gates of the moment.
+    // Returns the table of gate numbers plus one half by arc, for the first kind of radials; null
+    // if the sweep has no gates of the moment.
     [[nodiscard]] const ArcTable* first_table() const {
         return kinds_.empty() ? nullptr : &kinds_[0].gate;
     }
-    // Returns the nearest gate of the radial at that position. `gate_and_half` is first_table() at
-    // the place.
+    // Returns the nearest gate of the radial at that position. `gate_and_half` is the entry of
+    // first_table() at the place.
     [[nodiscard]] Sample sample(int position, ArcPlace place, float gate_and_half) const;
-    // Adds two gates of that radial, linear in range. Half a gate beyond the first and the last
-    // gate, that gate alone counts.
+    // Adds two gates of that radial, linear in range. Within half a gate beyond the first or the
+    // last gate, only that gate counts.
     void add_along_radial(int position, ArcPlace place, float weight, Mixture& mixture) const;
-    // The gate of a radial as a number, which is a whole number and a half at the centers of gates.
+    // The gate of a radial as a number, which is n + 1/2 at the center of gate n.
     struct GatePlace {
         float number_and_half = 0;  // its floor is the nearest gate
         std::int32_t first = 0;     // the first gate that is not at negative range
         std::int32_t end = 0;
     };
     [[nodiscard]] GatePlace gate_place(int position, ArcPlace place) const;
-    // Returns how many gates the beam passes for each meter of arc; 0 where the beam does not pass
-    // any farther. All radials of one kind share it. If there are several kinds, the result is that
-    // of the first.
+    // Returns how many gates the beam passes for each meter of arc; 0 beyond the end of the beam.
+    // All radials of one kind share it. If there are several kinds, the first one gives the result.
     [[nodiscard]] float gates_per_m_of_arc(ArcPlace place) const;
     // Returns a gate within the range of GatePlace.
     [[nodiscard]] Sample gate(int position, std::int32_t gate) const;
@@ -84,8 +83,8 @@ class SweepGates {
         return row.gate_count > 0 ? kinds_[row.kind].moment : nullptr;
     }
 
-    // Returns the status that every gate of these radials has between two arcs, if they are all no
-    // echo or all not seen, and one more gate to each side has it too; none if they may differ.
+    // Returns the common status of all gates of these radials between two arcs, with one more gate
+    // to each side, if they are all no echo or all not seen. Returns none if they may differ.
     // `visit_radials(visit)` calls visit(position) for each radial until that returns false;
     // AzimuthTable::none stands for a gap.
     template <class VisitRadials>
@@ -100,11 +99,11 @@ class SweepGates {
         std::int32_t first_gate = 0;  // the first that is not at negative range
         std::uint16_t first_valid_code = 2;
         std::vector<float> values;  // by code, for 8-bit codes
-        // By gate, for moments with a detection limit: what the range adds to the limit in dB, or
-        // the factor by which it multiplies the limit in Z.
+        // By gate, for moments with a detection limit: the number that the range adds to the limit
+        // in dB, or the factor by which it multiplies the limit in Z.
         struct Loss {
             float spreading;    // 20 log10 of the range in km, or its power
-            float attenuation;  // for radials whose attenuation_db_per_m is that of the kind
+            float attenuation;  // if the radial's attenuation_db_per_m is that of the kind
         };
         std::vector<Loss> losses;
         // sums of both over all earlier gates; only for cells with an extent
@@ -125,9 +124,9 @@ class SweepGates {
         bool has_simple_limit = false;
     };
 
-    // The blocks of gates between two arcs, or what every radial has there.
+    // The blocks of gates between two arcs, or the common status of every radial there.
     struct Between {
-        std::optional<CellStatus> status;  // no radial has a gate there
+        std::optional<CellStatus> status;  // set if no radial has a gate there
         std::optional<BusyBlocks::Stretch> blocks;
     };
     [[nodiscard]] Between between(float least_arc_m, float greatest_arc_m) const;
@@ -141,7 +140,7 @@ class SweepGates {
     [[nodiscard]] Sample wide_gate_of(const Row& row, const Kind& kind, std::int32_t gate) const;
     [[nodiscard]] Sample without_value(const Row& row, const Kind& kind, std::int32_t gate,
                                        std::uint16_t code) const;
-    // These gates are values, no echo or range folded, and have simple limits if they have limits.
+    // Adds gates that are values, no echo or range folded, with simple limits if they have limits.
     template <class CodeAt, class ValueOf>
     void add_plain_gates(const Row& row, const Kind& kind, std::int32_t first, std::int32_t end,
                          const CodeAt& code_at, const ValueOf& value_of, Mixture& mixture) const;

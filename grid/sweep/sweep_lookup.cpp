@@ -58,7 +58,7 @@ Result<ChosenSweep> wanted_sweep(const level2::Volume& volume, level2::Moment mo
                 fmt::join(angles, ", "));
 }
 
-// Notes the times of the radials, where they have any.
+// Notes the times of the radials that have one.
 void note_times(const level2::Sweep& sweep, const ChosenSweep& chosen, SweepFacts& facts) {
     bool is_first = true;
     for (const std::uint32_t radial : chosen.radials) {

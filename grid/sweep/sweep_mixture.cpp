@@ -71,8 +71,8 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
     });
     if (count == 0) return unseen();
     Mixture mixture;
-    // All radials may lie where the pattern is 0; then the first, which is the nearest, counts
-    // alone.
+    // All radials may be where the pattern is 0. Then only the first one counts, which is the
+    // nearest.
     if (!(total > 0)) {
         sweep.gates().add_along_radial(radials[0].position, place, 1, mixture);
         return mixture;
@@ -124,7 +124,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         if (last >= at.end)
             beyond.add_unseen(static_cast<float>(last - std::max(first, at.end) + 1));
     });
-    // The weights are scaled to 1. The part of the circle that lies in azimuth gaps is not seen.
+    // The weights are scaled to 1. The part of the circle inside azimuth gaps is not seen.
     const float count = gates.weight() + beyond.weight();
     if (count == 0) return {};
     const bool gaps = sweep.azimuths().has_gaps() && reach_deg < 180;

@@ -24,9 +24,8 @@ bool are_in_order(const level2::Volume& volume, const std::vector<ChosenSweep>& 
     return true;
 }
 
-// Returns true if the beams lie over each other in the order of their elevations, and about as far
-// apart as they rise with elevation. Ducts make beams cross, and make them wider or narrower than
-// that.
+// Returns true if the beams are above each other in the order of their elevations, and about as far
+// apart as they rise with elevation. Ducts make beams cross, or make them wider or narrower.
 bool are_beams_in_order(const SweepStack& stack) {
     constexpr float even = 1.5F;
     for (std::size_t i = 1; i + 1 < stack.table_size; ++i) {

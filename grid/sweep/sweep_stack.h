@@ -43,8 +43,8 @@ struct StackOptions {
                                     const std::vector<ChosenSweep>& chosen,
                                     const StackOptions& options);
 
-// Makes the model of the beam. The profile is for traced beams; none: the exponential reference
-// atmosphere.
+// Makes the model of the beam. Traced beams use the profile, or without one the exponential
+// reference atmosphere.
 [[nodiscard]] BeamModel beam_model_of(const SitePosition& site, ChosenBeam kind,
                                       const std::optional<RefractivityProfile>& profile);
 

@@ -37,11 +37,11 @@ static_assert(sizeof(AuditRow) == 32);
 // count includes the next, and the mean is no larger than the RMS.
 [[nodiscard]] bool is_possible(const AuditRow& row);
 
-// Pools all rows into one, with the lowest elevation and the whole range. Returns a row of zeros if
-// there are no rows.
+// Pools all rows into one, with the lowest elevation and the whole range. Without rows, returns a
+// row of zeros.
 [[nodiscard]] AuditRow pooled(std::span<const AuditRow> rows);
-// Pool the rows into one row for each class of ranges, by rising range, or into one row for each
-// sweep, by rising elevation.
+// pooled_by_range() pools the rows into one row for each class of ranges, by rising range.
+// pooled_by_sweep() pools them into one row for each sweep, by rising elevation.
 [[nodiscard]] std::vector<AuditRow> pooled_by_range(std::span<const AuditRow> rows);
 [[nodiscard]] std::vector<AuditRow> pooled_by_sweep(std::span<const AuditRow> rows);
 

@@ -54,8 +54,8 @@ class BeamGeometry {
     };
     [[nodiscard]] BeamPoint over(double arc_m, double elevation_deg) const noexcept;
 
-    // These give over().height_m for many arcs and elevations, within 1e-8 m: the caller computes
-    // the angle of each arc and of each elevation once, and combines them.
+    // height_over() gives over().height_m for many arcs and elevations, within 1e-8 m. The caller
+    // computes the angle of each arc and of each elevation once, and combines them.
     struct Angle {
         double sine = 0, cosine = 1;
     };

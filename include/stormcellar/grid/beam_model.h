@@ -58,7 +58,7 @@ class BeamModel {
 
     // The formulas are arc = r cos e and height = altitude + r sin e.
     [[nodiscard]] static BeamModel flat_earth(double antenna_altitude_m);
-    // The same as BeamGeometry, bit for bit.
+    // Makes a model that equals BeamGeometry, bit for bit.
     [[nodiscard]] static BeamModel four_thirds(double site_latitude_deg, double antenna_altitude_m);
     [[nodiscard]] static BeamModel traced(double site_latitude_deg, double antenna_altitude_m,
                                           RefractivityProfile profile,
@@ -67,11 +67,12 @@ class BeamModel {
     [[nodiscard]] BeamPath path(double elevation_deg) const;
     // Returns the gate that sees a point. The result is in closed form, or iterated until the gate
     // is within 1 mm of the point. It is NaN if no beam reaches the point. In and below ducts,
-    // where several beams may reach it, it is also NaN if 100 steps find none.
+    // where several beams may reach a point, it is also NaN if 100 steps find none.
     [[nodiscard]] AntennaPoint inverse(EarthPoint point) const;
 
     [[nodiscard]] BeamKind kind() const noexcept { return kind_; }
-    // For provenance: "flat earth", "4/3 earth", "traced, exponential N0 313 H 7350 m".
+    // Returns a name for provenance: "flat earth", "4/3 earth", "traced, exponential N0 313 H 7350
+    // m".
     [[nodiscard]] std::string name() const;
 
   private:
@@ -87,9 +88,9 @@ class BeamModel {
     RangeKind range_kind_ = RangeKind::optical;
 };
 
-// The largest difference between two models, over the beams of some elevations, wherever either of
-// them puts a beam within the limits. It is infinite if only one of the models reaches a place, as
-// when a duct bends the other beam away.
+// The largest difference between two models, over the beams of some elevations, wherever either
+// model puts a beam within the limits. It is infinite if only one of the models reaches a place,
+// for example when a duct bends the other beam away.
 //
 // Arcs and ranges are compared every 500 m, including one step beyond the limits. The difference
 // between those points exceeds the result by less than 0.1 m (enforced, down to levels 50 m apart,

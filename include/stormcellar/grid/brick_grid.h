@@ -41,15 +41,15 @@ class BrickGrid {
     [[nodiscard]] std::uint64_t clamped_count() const { return clamped_count_; }
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
 
-    // Takes over what the writers hold beside the codes. Each writer must have written bricks after
-    // those of the writer before it, in rising order, so that the states lie in the order of their
+    // Takes over the states and counts of the writers. Each writer must have written bricks after
+    // those of the writer before it, in rising order, so that the states are in the order of their
     // bricks.
     void finish(std::span<BricksWriter> writers);
 
     // clear() makes bricks not seen, so that they can be written anew. finish_again() then takes
-    // over from their writers, which may have written in any order. Afterward the states lie in the
+    // over from their writers, which may have written in any order. Afterward the states are in the
     // order of their bricks again, as if the grid had been written at once. Only clamped_count()
-    // differs: it counts all that was ever clamped.
+    // differs, because it also counts the values of bricks that were cleared.
     void clear(std::size_t brick);
     void finish_again(std::span<BricksWriter> writers);
 
@@ -64,7 +64,7 @@ class BrickGrid {
     std::uint64_t clamped_count_ = 0;
 };
 
-// How many cells of a brick lie within the grid, along each axis.
+// Numbers of cells of a brick that are within the grid, along each axis.
 struct BrickExtent {
     int x = brick_edge;
     int y = brick_edge;

@@ -11,8 +11,7 @@
 // Code 0 means not seen, 1 no echo and 2 range folded; from 3 on, value = first_value + step *
 // (code - 3).
 //
-// Threads   A view is plain data over bytes that somebody else owns and keeps; any thread may read
-//           it.
+// Threads   A view is plain data over bytes that another object owns; any thread may read it.
 // Errors    None: indices must be within the grid.
 // Accuracy  A value is within step / 2 of the value that was quantized.
 #pragma once
@@ -66,7 +65,7 @@ static_assert(sizeof(BrickEntry) == 24);
 class SweepLookup;  // stormcellar/grid/sweep_lookup.h
 
 // A view of one sweep (a ppi) has no bricks. Its spec, of one level, is the plane about the radar
-// on which the sweep is drawn, and `sweep` says what is at a place of it.
+// on which the sweep is drawn, and `sweep` gives the content of a place.
 struct BrickView {
     const GridSpec* spec = nullptr;
     Quantization quantization;

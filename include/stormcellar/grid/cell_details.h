@@ -1,11 +1,10 @@
-// stormcellar/grid/cell_details.h -- what else can be known about a cell beside its value, on
-// demand.
+// stormcellar/grid/cell_details.h -- details of a cell besides its value, on demand.
 //
 // Details are known for each cell that is not `not_seen`. They come from the nearest gates (nearest
 // radial, nearest in range) of the sweeps that the cell is made of. These are the two sweeps that
 // bracket the cell, with weights linear in height. Above and below all sweeps, beside a lost cut
-// and for Interpolation::nearest, it is the nearer sweep alone. Of these gates, those that see the
-// place count, whatever else the method mixes in:
+// and for Interpolation::nearest, only the nearer sweep counts. Only gates that see the place
+// count, whatever else the method mixes in:
 //   age            s; the weighted mean of the times of the radials of these gates, minus the frame
 //                  time (GridderOptions::frame_time): negative before it, positive after it. It is
 //                  not known if one of these radials has no time, or if the volume has none and no
@@ -15,17 +14,17 @@
 //   distance       m; the distance in space from the center of the cell to the nearest of the
 //                  centers of these gates: hypot of the difference in height and of the distance in
 //                  the plane about the site in which arc and azimuth are polar coordinates
-//   weight         1; the share of the weight of all that the method mixes that was seen, which is
-//                  1 - u of the status rule (grid/sweep/mixture.h): 1/2 to 1
-// The details of a cell with an extent describe its center, but for the weight, which describes the
-// whole cell. If several gates are mixed, or the cell has an extent, it may happen that none of the
-// nearest gates sees a cell that other gates see. Then only its weight is known.
+//   weight         1; the share of the mixed weight that was seen, which is 1 - u of the status
+//                  rule (grid/sweep/mixture.h): 1/2 to 1
+// If a cell has an extent, its weight describes the whole cell and its other details describe the
+// center. If several gates are mixed, or the cell has an extent, other gates may see a cell that
+// none of the nearest gates sees. Then only its weight is known.
 //
 // Units     Seconds and meters, as above.
 // Threads   Plain values; see CellDetails::put() for writing.
 // Errors    None; an unknown detail is none.
 // Accuracy  Within 470 km, enforced by tests/grid/cell_details_test.cpp: height_offset and distance
-//           are within 0.5 m of the beam model. For linear weights, age and weight are those of a
+//           are within 0.5 m of the beam model. For linear weights, age and weight equal those of a
 //           cell up to 0.5 m higher or lower, within 2 ms and 1e-5.
 #pragma once
 
@@ -40,14 +39,14 @@
 
 namespace stormcellar::grid {
 
-// Says whether any details were asked for.
+// The choice whether any details are computed.
 using ChosenDetails = Chosen<false, false>;
 
 enum class Detail : std::uint8_t { age, height_offset, distance, weight };
 inline constexpr std::array all_details = {Detail::age, Detail::height_offset, Detail::distance,
                                            Detail::weight};
 
-// "age", "height_offset", "distance", "weight".
+// Returns "age", "height_offset", "distance" or "weight".
 [[nodiscard]] std::string_view detail_name(Detail detail);
 [[nodiscard]] std::optional<Detail> detail_from_name(std::string_view name);
 
@@ -75,7 +74,7 @@ class CellDetails {
     [[nodiscard]] DetailSet set() const { return set_; }
     // Returns a detail, or none if it is not known or was not asked for.
     [[nodiscard]] std::optional<float> at(Detail detail, std::size_t cell) const;
-    // Returns the number of cells that there is room for; 0 if no detail was asked for.
+    // Returns the number of cells that have room; 0 if no detail was asked for.
     [[nodiscard]] std::size_t size() const { return known_.size(); }
     // Sets a detail, which must be in the set. Different threads may put details of different
     // cells.

@@ -2,7 +2,7 @@
 // chain alone.
 //
 // In a normal build the library has every rung of every step, and a Chosen is a value like any
-// other. To count what the choice itself costs, scripts/check-costs builds the library without it,
+// other. To count the cost of the choice itself, scripts/check-costs builds the library without it,
 // with -DSTORMCELLAR_CHAIN=
 //   usual     the default chain, without any effect that is off by default
 //   cheapest  every effect off: flat earth, one elevation for each sweep, nearest, a point, on a

@@ -7,8 +7,8 @@
 // Threads   Immutable; many threads may use one object.
 // Errors    See make_column_geometry().
 // Accuracy  Enforced by tests/grid/column_geometry_test.cpp. The arc is within 0.02 m up to 500 km.
-//           The azimuth is within 2e-5 degrees, plus what a place that is off by 1e-3 m (`table`)
-//           or 1e-6 m (`geodesic`) adds close to the site. stormcellar/grid/frame_ladder.h has the
+//           The azimuth is within 2e-5 degrees, plus the angle that an error of 1e-3 m (`table`) or
+//           1e-6 m (`geodesic`) makes close to the site. stormcellar/grid/frame_ladder.h has the
 //           bounds in meters, and those of `sphere`.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace stormcellar::grid {
 
-// Where a column lies as seen from the site.
+// The place of a column as seen from the site.
 struct ColumnPlace {
     float azimuth_deg = 0;  // [0, 360)
     float arc_m = 0;

@@ -1,5 +1,5 @@
-// stormcellar/grid/frame_ladder.h -- the rungs of the site frame: how azimuth and arc from a site
-// are found, and how far off each rung may put a column.
+// stormcellar/grid/frame_ladder.h -- the rungs of the site frame: how to find azimuth and arc from
+// a site, and how far off each rung may put a column.
 //
 // The error of a column is a distance in the azimuthal equidistant plane about the site. It is
 // measured between the true place of the column (by geodesics of WGS84) and the azimuth and arc
@@ -11,9 +11,9 @@
 //   storage   Azimuth and arc are floats, so they are off by half a unit in their last places: 0.13
 //             m at 470 km (in azimuths of 256 degrees and more). Every rung has this error.
 //   geodesic  1e-6 m and storage.
-//   table     1e-3 m and storage. Polynomials pass through exact geodesics at their nodes; they are
-//             checked where their error peaks, and where they cannot keep the bound the geodesic is
-//             solved exactly (frame_table.h).
+//   table     1e-3 m and storage. Polynomials pass through exact geodesics at their nodes and are
+//             checked where their error peaks. Where they cannot keep the bound, the geodesic is
+//             solved exactly (grid/place/frame_table.h).
 //   sphere    The integral along the arc of the largest error in scale of the sphere, see
 //             docs/geometry.md: 239 / 573 / 1226 m at 100 / 230 / 460 km and 35 N.
 // A grid in the azimuthal equidistant projection about the site itself is in closed form on every
@@ -45,19 +45,19 @@ using ChosenFrame = Chosen<FrameKind::table, FrameKind::sphere>;
 // Returns true if the plane of the grid is the plane about the site.
 [[nodiscard]] bool is_centered_at(const SitePosition& site, const GridSpec& spec);
 
-// Returns a distance from the site that no column exceeds: within 2 % of the farthest column, or
-// half the earth.
+// Returns a distance from the site that no column exceeds. It is within 2 % of the farthest column,
+// or half the earth.
 [[nodiscard]] double reach_m(const SitePosition& site, const GridSpec& spec);
 
-// Return bounds on the error in meters, over all columns whose arc is at most `reach_m`, as listed
-// above.
+// These return bounds on the error in meters, over all columns whose arc is at most `reach_m`, as
+// listed above.
 [[nodiscard]] double storage_error_bound_m(double reach_m) noexcept;
 [[nodiscard]] double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept;
 // Returns a bound on the whole error of the rung, storage included. For a radar, give the lesser of
 // reach_m() and its range.
 [[nodiscard]] double frame_error_bound_m(FrameKind kind, double site_latitude_deg,
                                          double reach_m) noexcept;
-// The same for the grid of a site, over all its columns.
+// Does the same for the grid of a site, over all its columns.
 [[nodiscard]] double frame_error_bound_m(FrameKind kind, const SitePosition& site,
                                          const GridSpec& spec);
 

@@ -20,7 +20,7 @@
 
 namespace stormcellar::grid {
 
-// The four states of a cell (docs/geometry.md). They stay apart from the gate to the pixel.
+// The four states of a cell (docs/geometry.md). They are kept apart from the gate to the pixel.
 enum class CellStatus : std::uint8_t {
     not_seen = 0,      // blind region, beyond range, missing radials or sweeps
     no_echo = 1,       // seen, below threshold
@@ -38,7 +38,7 @@ struct SweepTime {
     bool operator==(const SweepTime&) const = default;
 };
 
-// The volume of one site, as one part of a frame that several volumes make
+// The volume of one site, as one part of a frame made from several volumes
 // (pipeline/mosaic/frame_parts.h).
 struct FramePart {
     std::string icao;
@@ -48,10 +48,10 @@ struct FramePart {
     bool operator==(const FramePart&) const = default;
 };
 
-// Where a grid comes from and how it was made. Every file and every loop holds it.
+// The origin of a grid, and how it was made. Every file and every loop holds it.
 struct Provenance {
-    // The volumes by level2::volume_name(), so that a grid has the same bytes wherever it was made;
-    // names of files, without directories, in grids that never reach a cache.
+    // Names of the volumes by level2::volume_name(), so that a grid has the same bytes wherever it
+    // was made. Grids that never reach a cache have names of files instead, without directories.
     std::vector<std::string> source_files;
     std::vector<std::string> stations;  // ICAOs
     std::string method;                 // e.g. "column-linear"
@@ -65,11 +65,11 @@ struct Provenance {
     std::vector<std::string> notes;  // e.g. that a position disagrees with the table
     // The faults that the radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles;
-    // Of a mosaic: the machines whose partials are missing because they came too late, and since
-    // when: "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
+    // For a mosaic: the machines whose partials came too late and are missing, and since when:
+    // "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
     std::vector<std::string> left_out;
-    // For a frame between volumes: whether a later volume will change it, and of how many volumes
-    // it is made. The revision is 0 if the grid is not a frame.
+    // For a frame between volumes: whether a later volume will change it, and the number of volumes
+    // that it is made from. The revision is 0 if the grid is not a frame.
     bool provisional = false;
     int revision = 0;
     std::vector<FramePart> parts;  // of a frame, by ICAO, then time; empty: not known, or no frame
@@ -102,8 +102,8 @@ struct Grid {
     std::vector<CellStatus> status;  // same shape
     CellDetails details;             // same shape if they were asked for, else empty
     // For a mosaic (stormcellar/grid/mosaic.h): how many sites see a cell, and the sum of their
-    // weights; 0 where no site does. The shape is the same if they were asked for, else they are
-    // empty.
+    // weights; 0 where no site sees it. Both have the same shape if they were asked for, else they
+    // are empty.
     std::vector<std::uint16_t> site_counts;
     std::vector<float> site_weights;
 };

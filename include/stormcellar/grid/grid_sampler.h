@@ -1,5 +1,5 @@
-// stormcellar/grid/grid_sampler.h -- samples a grid between its cells: the eight cells around a
-// place, with linear weights.
+// stormcellar/grid/grid_sampler.h -- samples a grid between its cells, from the eight cells around
+// a place with linear weights.
 //
 // A place is within the grid if there are cells on all sides of it: up to the centers of the
 // outermost cells, and exactly at the level of a grid that has only one.
@@ -30,7 +30,7 @@ class GridSampler {
 
     explicit GridSampler(const BrickView& view);
 
-    // Returns where a height lies among the levels, linear between them. Returns NaN below the
+    // Returns the place of a height among the levels, linear between them. Returns NaN below the
     // lowest level and above the highest.
     [[nodiscard]] double level_at(double height_m) const;
     // Finds the eight cells around a place and their weights. Returns false if the place is not
@@ -43,7 +43,7 @@ class GridSampler {
     [[nodiscard]] const BrickView& view() const { return view_; }
 
   private:
-    // What one cell adds along one axis: to the address, and to the number of the brick.
+    // The part of an address and of a brick number that one cell adds along one axis.
     struct Step {
         std::size_t offset = 0;
         std::size_t brick = 0;

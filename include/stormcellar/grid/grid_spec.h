@@ -1,13 +1,13 @@
 // stormcellar/grid/grid_spec.h -- the geometry of a grid: where its cells are.
 //
-// A grid is nx columns from west to east, ny rows from south to north and a list of levels. Cells
-// are point samples at their centers, which lie symmetrically about the center of the grid: 512
+// A grid has nx columns from west to east, ny rows from south to north and a list of levels. Cells
+// are point samples at their centers, which are symmetrical about the center of the grid: 512
 // columns at 1 km have centers at -255.5 ... 255.5 km. Levels are heights above mean sea level. A
 // grid is regular either in meters of the plane of its projection, or in degrees of latitude and
 // longitude. stormcellar/grid/projection.h says where on the earth a column is.
 //
 // A window of a grid is a grid too. It has the same projection and the same center, and its middle
-// lies off the center by `offset_*_cells` (stormcellar/grid/grid_window.h). Its columns are at the
+// is off the center by `offset_*_cells` (stormcellar/grid/grid_window.h). Its columns are at the
 // same places to the bit.
 //
 // Units     Meters and degrees (WGS84).
@@ -33,8 +33,8 @@ enum class Projection {
     lambert_conformal = 2,
 };
 
-// What is known of a projection besides its formulas, which grid/cells/projection.cpp has. This is
-// the one list of projections; CONTRIBUTING.md says how to add one.
+// Facts about a projection besides its formulas, which are in grid/cells/projection.cpp. This is
+// the only list of projections; CONTRIBUTING.md says how to add one.
 struct ProjectionFacts {
     Projection projection = Projection::azimuthal_equidistant;
     std::string_view name = {};                        // in options, domain files and JSON
@@ -50,16 +50,17 @@ inline constexpr auto projection_facts = std::to_array<ProjectionFacts>({
 });
 inline constexpr ProjectionFacts no_projection = {{}, "unknown", {}};
 // Returns the facts of a projection. A number that is no projection, which a damaged file may hold,
-// has those of `no_projection`.
+// has the facts of `no_projection`.
 [[nodiscard]] constexpr const ProjectionFacts& facts_of(Projection projection) {
     const auto at = static_cast<std::size_t>(projection);
     return at < projection_facts.size() ? projection_facts[at] : no_projection;
 }
-// Returns the CF grid_mapping_name, such as "azimuthal_equidistant", except for lambert_conformal.
+// Returns the name of a projection. It is the CF grid_mapping_name, such as
+// "azimuthal_equidistant", except for lambert_conformal.
 [[nodiscard]] constexpr std::string_view projection_name(Projection projection) {
     return facts_of(projection).name;
 }
-// Takes the full name only.
+// Finds a projection by its full name.
 [[nodiscard]] std::optional<Projection> projection_from_name(std::string_view name);
 
 struct GridSpec {
@@ -76,8 +77,8 @@ struct GridSpec {
     int nx = 460;
     int ny = 460;
     std::vector<double> levels_m;  // strictly rising, at least one
-    // Where the middle of the grid lies as seen from the center: columns to the east and rows to
-    // the north, in halves. Both are 0 except in windows of a larger grid.
+    // The middle of the grid as seen from the center: columns to the east and rows to the north, in
+    // halves. Both are 0 except in windows of a larger grid.
     double offset_x_cells = 0;
     double offset_y_cells = 0;
 
@@ -88,24 +89,24 @@ struct GridSpec {
     }
     [[nodiscard]] std::size_t cell_count() const { return column_count() * levels_m.size(); }
 
-    // Return the size of a column in meters. With a plane this is the spacing. For a projection in
-    // degrees it is the width or height at the center of the grid, for users that take the grid as
-    // a plane (pictures).
+    // These return the size of a column in meters. With a plane this is the spacing. For a
+    // projection in degrees it is the width or height at the center of the grid, for users that
+    // take the grid as a plane (pictures).
     [[nodiscard]] double cell_width_m() const {
         return in_degrees() ? width_at_center_m() : spacing_m;
     }
     [[nodiscard]] double cell_height_m() const {
         return in_degrees() ? height_at_center_m() : spacing_m;
     }
-    // Return the column and the row of the center, exactly. The center may lie between two columns,
-    // and beyond the grid.
+    // These return the column and the row of the center, exactly. The center may be between two
+    // columns, and beyond the grid.
     [[nodiscard]] double center_x() const { return 0.5 * (nx - 1) - offset_x_cells; }
     [[nodiscard]] double center_y() const { return 0.5 * (ny - 1) - offset_y_cells; }
-    // Return the center of column ix (east of the grid's center) and of row iy (north of it), in
-    // that plane.
+    // These return the center of column ix (east of the grid's center) and of row iy (north of it),
+    // in that plane.
     [[nodiscard]] double x_m(int ix) const { return (ix - center_x()) * cell_width_m(); }
     [[nodiscard]] double y_m(int iy) const { return (iy - center_y()) * cell_height_m(); }
-    // The same, counted from the middle of the grid. Pictures are made about the middle.
+    // These do the same, counted from the middle of the grid. Pictures are made about the middle.
     [[nodiscard]] double x_from_middle_m(int ix) const {
         return (ix - 0.5 * (nx - 1)) * cell_width_m();
     }

@@ -1,14 +1,14 @@
 // stormcellar/grid/grid_window.h -- rectangles of columns of a domain's grid, as grids of their
 // own.
 //
-// What one site sees of a large domain is gridded on the columns of the domain, in a window: a
+// The data of one site in a large domain are gridded on the columns of the domain, in a window: a
 // GridSpec with the same projection, center and levels, whose columns are at the same places to the
 // bit. So nothing is interpolated twice, and the windows of many sites can be merged cell by cell
 // (stormcellar/grid/mosaic.h).
 //
 // Units     Columns and rows; meters for reaches.
 // Threads   Pure functions.
-// Errors    None; what does not fit is none.
+// Errors    None; a function returns none for what does not fit.
 #pragma once
 
 #include <optional>
@@ -26,8 +26,8 @@ inline constexpr double site_reach_m = 460000;
 // of another domain.
 [[nodiscard]] GridSpec window_spec(const GridSpec& domain, const GridWindow& window);
 
-// Returns the window that a spec is of the domain. Returns none if the columns of the spec are not
-// columns of the domain, or its levels are not those of the domain.
+// Returns the window of the domain that a spec describes. Returns none if the columns of the spec
+// are not columns of the domain, or its levels are not those of the domain.
 [[nodiscard]] std::optional<GridWindow> window_of(const GridSpec& domain, const GridSpec& spec);
 
 // Returns true if the window starts and ends at whole bricks, or ends with the domain. Merging

@@ -1,22 +1,22 @@
 // stormcellar/grid/gridder.h -- makes a Grid from a decoded volume, column by column.
 //
 // All cells of a column share azimuth and arc, so each sweep is sampled once for each column
-// (nearest gate and radial). Then values run up the column, linear in height between the beams of
-// sweeps that are adjacent in the VCP. Nothing is invented: cells are "not seen" more than half a
-// beam width above the highest and below the lowest sweep, beyond the last gate, in azimuth gaps,
+// (nearest gate and radial). Then the column is filled upward, linear in height between the beams
+// of sweeps that are adjacent in the VCP. Nothing is invented: cells are "not seen" more than half
+// a beam width above the highest and below the lowest sweep, beyond the last gate, in azimuth gaps,
 // and where a cut is missing. docs/geometry.md has the rule for mixed states.
 //
 // Values are averaged as the method says (stormcellar/grid/method.h). Values that wrap (VEL, PHI)
 // are averaged on their circle.
 //
-// Model     WGS84 for the site frame. For the beam what the method says; by default a sphere of 4/3
-//           Gaussian radius.
+// Model     WGS84 for the site frame. The method selects the beam; by default it is over a sphere
+//           of 4/3 Gaussian radius.
 // Units     Values are in the unit of the moment; angles are in degrees.
 // Threads   Pure functions; make_grid() uses `threads` threads of its own. The result has the same
 //           bits for any number of threads.
 // Errors    See make_grid().
-// Accuracy  The gate of a cell is that of the model within 0.15 m of range; its weights are those
-//           of the model within 0.25 m of a beam's height and 1 m of its edges' heights
+// Accuracy  A cell's gate is within 0.15 m of range of the model. Its weights are those of the
+//           model for a beam up to 0.25 m higher or lower, with edges up to 1 m higher or lower
 //           (grid/sweep/polar_sweep.h). tests/grid/gridder_oracle_test.cpp enforces both for whole
 //           grids. The model's own error is in docs/geometry.md.
 #pragma once
@@ -45,14 +45,13 @@ struct GridderOptions {
     Method method;
     // The profile of the air for traced beams; none: the exponential reference atmosphere.
     std::optional<RefractivityProfile> profile = std::nullopt;
-    // Which of several equally good sweeps of an elevation is used: the newest, or the nearest to
-    // the frame time. See stormcellar/grid/sweep_choice.h.
+    // The rule that chooses among equally good sweeps of an elevation: the newest, or the nearest
+    // to the frame time. See stormcellar/grid/sweep_choice.h.
     enum class Repeats { newest, nearest_in_time };
     Repeats repeats = Repeats::newest;
     // The instant for which the grid is made; none: the start of the volume.
     std::optional<UtcTime> frame_time = std::nullopt;
-    // The details to compute beside the values. What is not asked for is neither computed nor
-    // allocated.
+    // The details to compute besides the values. Other details are neither computed nor allocated.
     DetailSet details = {};
 };
 
@@ -60,7 +59,8 @@ struct GridderOptions {
 // (WSR-88D).
 [[nodiscard]] double beam_width_of(std::string_view icao);
 
-// Returns the sweeps that make_grid() uses for the moment, by its beam width and `repeats`.
+// Returns the sweeps that make_grid() uses for the moment, by the beam width and `repeats` of the
+// options.
 [[nodiscard]] std::vector<ChosenSweep> sweeps_to_grid(const level2::Volume& volume,
                                                       const SitePosition& site,
                                                       const GridderOptions& options);

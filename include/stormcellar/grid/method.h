@@ -43,7 +43,7 @@ using ChosenCircle = Chosen<true, false>;
 // Returns the extent of cells that a method's name stands for; point for an unknown name.
 [[nodiscard]] CellExtent cell_extent_of(std::string_view method_name);
 
-// What is known of an interpolation. CONTRIBUTING.md says how to add one.
+// Facts about an interpolation. CONTRIBUTING.md says how to add one.
 struct InterpolationFacts {
     Interpolation interpolation = Interpolation::nearest;
     std::string_view name = {};

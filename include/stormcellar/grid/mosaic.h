@@ -7,7 +7,7 @@
 // (update()).
 //
 // In each cell only the sites that see it count. Each of them has a state, and a weight that
-// depends on the arc r from its column to the site:
+// depends on the arc r from the cell's column to the site:
 //   mean               The weight is 1.
 //   distance_weighted  The weight is exp(-r^2 / L^2) (Zhang, Howard and Gourley 2005; with L = 250
 //                      km Lakshmanan et al. 2006). It is never below 1e-30, so that the only site
@@ -19,9 +19,9 @@
 //                      at the slant range of the cell); for other moments it does not enter.
 //   maximum            The largest value if there is any; else no echo if any site sees no echo;
 //                      else range folded.
-//   nearest            The state and the value of the site with the smallest r that sees the cell.
-//                      Of two equally near sites, the first by name counts. VEL (velocities toward
-//                      different radars) and PHI (each radar's own offset) allow no other rule.
+//   nearest            The state and the value of the nearest site that sees the cell. If two sites
+//                      are equally near, the first by name counts. VEL (velocities toward different
+//                      radars) and PHI (each radar's own offset) allow no other rule.
 // A cell that no site sees is not seen. With one site alone, every cell is as in its partial.
 //
 // Units     Meters for distances; values are in the unit of the moment.
@@ -64,8 +64,8 @@ inline constexpr auto overlap_facts = std::to_array<OverlapFacts>({
 // Returns "mean", "maximum", "nearest" or "distance-weighted".
 [[nodiscard]] std::string_view overlap_name(Overlap overlap);
 [[nodiscard]] std::optional<Overlap> overlap_from_name(std::string_view name);
-// Returns the default for a moment: nearest if values of different sites must not be mixed (VEL and
-// PHI), else distance_weighted.
+// Returns the default for a moment: nearest for moments whose values must not be mixed between
+// sites (VEL and PHI), else distance_weighted.
 [[nodiscard]] Overlap default_overlap(level2::Moment moment);
 
 struct MosaicOptions {
@@ -82,8 +82,8 @@ struct MosaicOptions {
 struct Partial {
     BrickView view;  // a window of whole bricks; its spec and its bytes must outlive the call
     SitePosition site;
-    // The distances from this site, over a window that holds that of the view. If null, the call
-    // computes them.
+    // The distances from this site, over a window that holds the window of the view. If null, the
+    // call computes them.
     std::shared_ptr<const SiteDistance> distance = nullptr;
 };
 
@@ -113,8 +113,8 @@ struct Mosaic {
 
 // Returns the same bits as merge() of all partials, at the cost of the bricks within `changed`.
 // These are the windows of every partial that came, went or was replaced since `previous` was made
-// with the same options. All other bricks are copied from `previous`, and their partials are not
-// read.
+// with the same options. All other bricks are copied from `previous`, and no partials are read for
+// them.
 //
 // Errors: those of merge(); bad_argument if the previous mosaic is of another domain or
 // quantization, or lacks the counts or weights that are asked for.
@@ -122,12 +122,12 @@ struct Mosaic {
                                     std::span<const GridWindow> changed,
                                     const MosaicOptions& options);
 
-// Gives the same bits again, but changes `mosaic` itself. Nothing is copied, so it costs the
-// changed bricks and one pass over the table and the states. It needs only those partials whose
+// Gives the same bits as update(), but changes `mosaic` itself. Nothing is copied, so it costs the
+// changed bricks and one pass over the table and the states. It needs only the partials whose
 // windows hold something that changed. A mosaic that is too large for all partials at once can be
-// made stripe by stripe from an empty one, which is merge() of no partials.
+// made stripe by stripe from an empty one, the merge() of no partials.
 //
-// No view of the mosaic may be in use. Errors: those of update(), before anything was changed.
+// No view of the mosaic may be in use. Errors are those of update(), found before anything changes.
 [[nodiscard]] Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
                                      std::span<const GridWindow> changed,
                                      const MosaicOptions& options);

@@ -4,9 +4,9 @@
 // Units     Columns are fractional: (ix, iy) is the center of column ix in row iy. The numbers go
 //           on beyond the grid. Places are in degrees on WGS84.
 // Range     to_geo() covers the grid and some columns around it. to_column() covers the whole
-//           earth; a point that the projection cannot show (the far pole of a cone) lies far
-//           outside the grid. Longitudes are taken the short way round from the center, so a grid
-//           may cross the antimeridian.
+//           earth; a point that the projection cannot show (the far pole of a cone) is far outside
+//           the grid. Longitudes are taken the short way round from the center, so a grid may cross
+//           the antimeridian.
 // Source    Karney (2013), Algorithms for geodesics; Snyder (1987), Map Projections - A Working
 //           Manual, pp 107-109, without its cancellations; both through GeographicLib.
 // Threads   A GridProjection is immutable, so any thread may use it.
@@ -36,7 +36,7 @@ struct ColumnPoint {
 
 class GridProjection {
   public:
-    // The spec must be valid.
+    // Makes the projection of a valid spec.
     explicit GridProjection(const GridSpec& spec);
 
     [[nodiscard]] GeoPoint to_geo(ColumnPoint column) const noexcept;
@@ -46,8 +46,8 @@ class GridProjection {
     // center's longitude, so that it is continuous over the grid.
     [[nodiscard]] double continuous_longitude_deg(double longitude_deg) const noexcept;
 
-    // For a latitude_longitude grid: the latitude of a row and the continuous longitude of a
-    // column.
+    // These return the latitude of a row and the continuous longitude of a column, for a
+    // latitude_longitude grid.
     [[nodiscard]] double row_latitude_deg(double y) const noexcept;
     [[nodiscard]] double column_longitude_deg(double x) const noexcept;
 

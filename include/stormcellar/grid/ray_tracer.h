@@ -11,10 +11,9 @@
 //           at most 2 km end at each border between layers and at each turning point. Hermite
 //           cubics interpolate between them.
 // Ends      The ray ends where the range is reached or where it meets the floor.
-// Bounded   After 20,000 steps the ray no longer stops at layers and turning points to the
-//           centimeter.
+// Bounded   After 20,000 steps the ray no longer stops exactly at layers and turning points.
 // Threads   A TracedRay is immutable, so any thread may use it.
-// Errors    None: what the ray does not reach is NaN.
+// Errors    None: places that the ray does not reach are NaN.
 // Accuracy  Enforced by tests/grid/ray_tracer_test.cpp against quadrature of Bouguer's law in
 //           113-bit floats. Height and arc: 1 mm for ranges of -1 to 470 km, elevations of -5 to 60
 //           degrees, antennas at -100 to 4,000 m, and levels 10 m and more apart. Trapped in a
@@ -34,7 +33,7 @@ struct RayOptions {
     double earth_radius_m = 0;  // radius of the sphere at sea level
     double antenna_altitude_m = 0;
     double elevation_deg = 0;  // at the antenna, -90 to 90
-    // how far the ray also goes on behind the antenna, where there is no floor
+    // how far the ray also continues behind the antenna, where there is no floor
     double behind_m = 0;
     double farthest_m = 0;
     double floor_m = -500;  // below all land; the antenna's altitude if the antenna is lower

@@ -68,9 +68,9 @@ class RefractivityProfile {
     static constexpr double reference_n_units = 313;
     static constexpr double reference_scale_m = 7350;
 
-    // Returns the profile that the 4/3 earth stands for: 313 at sea level, falling by 1e6 / (4 R)
-    // per meter (39.2 per km), where R is the Gaussian radius at the latitude, until nothing is
-    // left (at 8.0 km). Above that there is a vacuum.
+    // Returns the profile that the 4/3 earth assumes. It starts at 313 at sea level and falls by
+    // 1e6 / (4 R) per meter (39.2 per km), where R is the Gaussian radius at the latitude, down to
+    // 0 (at 8.0 km). Above that there is a vacuum.
     [[nodiscard]] static RefractivityProfile standard(double latitude_deg);
     // Returns exponential() with its defaults, which is used if nothing else is known.
     [[nodiscard]] static RefractivityProfile reference();
@@ -88,8 +88,9 @@ class RefractivityProfile {
     [[nodiscard]] RefractivityLayer::Refractivity at(double height_m) const noexcept {
         return layer(layer_index(height_m)).at(height_m);
     }
-    // Layers are numbered upward. The lowest reaches down and the highest up without end. In a
-    // profile from from_levels() the lowest layer ends at the first level.
+    // Returns the number of the layer at a height. Layers are numbered upward. The lowest layer has
+    // no lower end and the highest no upper end. In a profile from from_levels() the lowest layer
+    // ends at the first level.
     [[nodiscard]] std::size_t layer_index(double height_m) const noexcept;
     [[nodiscard]] const RefractivityLayer& layer(std::size_t index) const noexcept {
         return (*layers_)[index];

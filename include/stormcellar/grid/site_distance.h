@@ -1,5 +1,5 @@
-// stormcellar/grid/site_distance.h -- how far the columns of a window are from a site, from few
-// geodesics.
+// stormcellar/grid/site_distance.h -- computes how far the columns of a window are from a site,
+// with few geodesics.
 //
 // Merging (stormcellar/grid/mosaic.h) needs the square of the arc to each column, and that square
 // is smooth. So geodesics are solved exactly only at nodes, which neighboring patches of columns

@@ -19,7 +19,7 @@ struct GeoPoint {
     double longitude_deg = 0;  // [-180, 180]
 };
 
-// Where a point lies as seen from the origin of the frame. The origin itself has azimuth 0.
+// The place of a point as seen from the origin of the frame. The origin itself has azimuth 0.
 struct PolarPoint {
     double azimuth_deg = 0;
     double arc_m = 0;
@@ -40,8 +40,8 @@ class SiteFrame {
     [[nodiscard]] PolarPoint to_polar(GeoPoint point) const noexcept;
     [[nodiscard]] GeoPoint to_geo(PolarPoint point) const noexcept;
 
-    // Convert between azimuth and arc and the azimuthal equidistant plane about the origin, x to
-    // the east and y to the north, in closed form.
+    // These convert between azimuth and arc and the azimuthal equidistant plane about the origin, x
+    // to the east and y to the north, in closed form.
     [[nodiscard]] static PolarPoint from_plane(double x_m, double y_m) noexcept;
     [[nodiscard]] static PlanePoint to_plane(PolarPoint point) noexcept;
 

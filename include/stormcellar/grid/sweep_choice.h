@@ -1,12 +1,12 @@
 // stormcellar/grid/sweep_choice.h -- chooses the sweeps of a volume that are gridded for a moment,
 // and says which of them are neighbors in the VCP.
 //
-// Sweeps whose fixed angles lie within 0.2 degrees of each other have the same elevation. Of each
-// elevation one sweep is chosen. The candidates are the sweeps
+// Sweeps whose fixed angles are within 0.2 degrees of each other have the same elevation. One sweep
+// of each elevation is chosen. The candidates are the sweeps
 // - that cover at least 90 % of the azimuths that the fullest sweep covers,
 // - that reach at least 90 % as far as the farthest sweep, and
 // - whose unambiguous range is at least 90 % of the longest (not for VEL and SW).
-// Of these the newest, or the nearest to a given time, is chosen. So a split cut gives its
+// The newest candidate is chosen, or the nearest to a given time. So a split cut gives its
 // surveillance sweep (for VEL and SW its Doppler sweep), SAILS and MRLE give their latest sweep or
 // that of the given time, and a sweep that broke off does not displace a whole one.
 // docs/geometry.md explains the rules.
@@ -45,26 +45,27 @@ struct ChosenSweep {
 // moment. A radial is used if it holds the moment (with a scale by which no code exceeds 1e5), has
 // finite angles, and was measured within `half_beam_deg` of the median elevation of its sweep.
 //
-// Of equally good sweeps the newest is chosen, which is the last in the file. With `nearest_to`, it
-// is the sweep whose median time is nearest to that; of two that are equally near, the later one; a
-// sweep without times only if none has times.
+// Of equally good sweeps the newest is chosen, which is the last in the file. With `nearest_to`,
+// the sweep whose median time is nearest to that time is chosen, or the later one if two are
+// equally near. A sweep without times is chosen only if none has times.
 [[nodiscard]] std::vector<ChosenSweep> choose_sweeps(
     const level2::Volume& volume, level2::Moment moment, double half_beam_deg,
     std::optional<UtcTime> nearest_to = std::nullopt);
 
-// Returns one sweep by its index in Volume::sweeps, with the same rule for its radials; none if it
-// does not exist or holds no such radial. `repeats` and `adjacent_to_next` keep their defaults.
+// Returns one sweep by its index in Volume::sweeps, with the same rule for its radials; none if the
+// sweep does not exist or holds no such radial. `repeats` and `adjacent_to_next` keep their
+// defaults.
 [[nodiscard]] std::optional<ChosenSweep> sweep_by_number(const level2::Volume& volume,
                                                          std::size_t number, level2::Moment moment,
                                                          double half_beam_deg);
 
-// Returns the fixed angles of the volume's VCP, rising. They come from message 5 or 7; without
+// Returns the fixed angles of the volume's VCP, rising. They come from message 5 or 7. Without
 // these, the number of the VCP selects one of the patterns of the years before message 5 was sent
 // (11, 12, 21, 31, 32, 121). The result is empty if the angles are not known.
 [[nodiscard]] std::vector<double> vcp_angles_deg(const level2::Volume& volume);
 
-// Returns the angle from one radial to the next: the larger of what the radials say and the median
-// step of their azimuths (at most 2 degrees). `azimuths_deg` must be sorted and within [0, 360).
+// Returns the angle from one radial to the next: the larger of the stated spacing and the median
+// step of the azimuths (at most 2 degrees). `azimuths_deg` must be sorted and within [0, 360).
 [[nodiscard]] double azimuth_spacing_deg(std::span<const float> azimuths_deg, float stated_deg);
 
 // Returns the azimuth within [0, 360), or none if the number cannot be an azimuth.

@@ -1,19 +1,19 @@
-// stormcellar/grid/sweep_lookup.h -- one sweep as the radar saw it: which gate is at a place.
+// stormcellar/grid/sweep_lookup.h -- one sweep as the radar saw it: finds the gate at a place.
 //
-// A place belongs to the radial whose azimuth is nearest; where neighboring radials are more than
-// one and a half spacings apart, each of the two reaches half a spacing, and nothing was seen in
-// between. Along the radial it belongs to the gate whose center is nearest, by the beam of 4/3 of
-// the earth's radius at the median elevation of the sweep's radials. Radials that were measured
-// more than half a beam off that elevation are left out, as in grids. Nothing is mixed and nothing
-// is quantized: what is returned is the value of one gate.
+// A place belongs to the radial whose azimuth is nearest. If neighboring radials are more than one
+// and a half spacings apart, each of the two reaches half a spacing, and nothing was seen in
+// between. Along the radial, a place belongs to the gate whose center is nearest, by the beam of
+// 4/3 of the earth's radius at the median elevation of the sweep's radials. Radials that were
+// measured more than half a beam off that elevation are left out, as in grids. Nothing is mixed or
+// quantized: the result is the value of one gate.
 //
 // Units     Meters and degrees; values are in the unit of the moment. Heights are above mean sea
 //           level. Places are azimuth and arc from the antenna (stormcellar/grid/site_frame.h).
 // Threads   Immutable; any thread may use it.
 // Errors    See find().
-// Accuracy  Enforced by tests/grid/sweep_lookup_test.cpp: equal to the gates, value for value, but
-//           for places within 0.2 m of the border of two gates or 1e-4 degrees of that of two
-//           radials.
+// Accuracy  Enforced by tests/grid/sweep_lookup_test.cpp: equal to the gates, value for value,
+//           except for places within 0.2 m of the border of two gates or 1e-4 degrees of the border
+//           of two radials.
 #pragma once
 
 #include <cstddef>
@@ -31,10 +31,10 @@
 
 namespace stormcellar::grid {
 
-// Which sweep of a volume is meant. Without a number it is the one whose fixed angle is nearest to
-// the elevation, but at most `farthest_deg` from it, and without that the lowest. Of several sweeps
-// of one angle (SAILS, split cuts) it is the newest that choose_sweeps() finds as good as the
-// others, or the nearest to a time.
+// Selects a sweep of a volume. Without a number, the sweep whose fixed angle is nearest to the
+// elevation is selected, at most `farthest_deg` from it; without an elevation, the lowest sweep. If
+// several sweeps have one angle (SAILS, split cuts), the newest that choose_sweeps() finds as good
+// as the others is selected, or the nearest to a time.
 struct SweepWish {
     static constexpr double farthest_deg = 1;
     std::optional<double> elevation_deg{};
@@ -75,9 +75,9 @@ struct GatePosition {
 
 class SweepLookup {
   public:
-    // Finds the sweep and prepares it. The volume is shared, because the sweep is read from it.
-    // Errors: not_found if no sweep, not the one of that number, or none near that elevation holds
-    // the moment; the message says which do.
+    // Finds the sweep and prepares it. The object shares the volume, because it reads the sweep
+    // from there. Errors: not_found if no sweep holds the moment, or not the numbered sweep, or
+    // none near that elevation; the message lists the sweeps that hold it.
     [[nodiscard]] static Result<SweepLookup> find(std::shared_ptr<const level2::Volume> volume,
                                                   const SitePosition& site, level2::Moment moment,
                                                   double half_beam_deg, const SweepWish& wish);
@@ -88,9 +88,9 @@ class SweepLookup {
     [[nodiscard]] const SweepFacts& facts() const;
     [[nodiscard]] const SitePosition& site() const;
     [[nodiscard]] level2::Moment moment() const;
-    // The arc must be at least 0, the azimuth within [0, 360].
+    // Returns the gate at a place. The arc must be at least 0, and the azimuth within [0, 360].
     [[nodiscard]] GateValue at(PolarPoint place) const;
-    // Returns none where no radial saw the place, or beyond its gates.
+    // Returns none if no radial saw the place, or if it is beyond the gates.
     [[nodiscard]] std::optional<GatePosition> position(PolarPoint place) const;
 
   private:
@@ -99,8 +99,8 @@ class SweepLookup {
     std::unique_ptr<const Prepared> prepared_;
 };
 
-// Returns the fixed angles of the sweeps that hold the moment, one for each elevation, rising: what
-// SweepWish::elevation_deg can find.
+// Returns the fixed angles of the sweeps that hold the moment, one for each elevation, rising.
+// SweepWish::elevation_deg can find these.
 [[nodiscard]] std::vector<double> elevations_deg(const level2::Volume& volume,
                                                  level2::Moment moment, double half_beam_deg);
 

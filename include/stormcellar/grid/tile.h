@@ -1,4 +1,4 @@
-// stormcellar/grid/tile.h -- tiles of columns, and where they lie as the site sees them.
+// stormcellar/grid/tile.h -- tiles of columns, and their bounds as the site sees them.
 //
 // A grid is filled tile by tile, because the gates that neighboring columns need lie together, and
 // because a sweep that holds nothing but no echo over a whole tile need not be sampled there.
@@ -19,9 +19,8 @@ class ColumnGeometry;
 
 inline constexpr int tile_edge = 8;
 
-// Bounds that hold every column of a tile: azimuths clockwise from `from_deg`, in [0, 360), to
-// `to_deg`, which may exceed 360. They hold all azimuths from 0 to 360 if the tile surrounds the
-// site or is near it.
+// Bounds that hold every column of a tile. Azimuths run clockwise from `from_deg`, in [0, 360), to
+// `to_deg`, which may exceed 360. They cover 0 to 360 if the tile surrounds the site or is near it.
 struct PolarBounds {
     float from_deg = 0;
     float to_deg = 360;
