@@ -20,7 +20,7 @@ Result<std::unique_ptr<FrameEncoder>> make_built_in(const AnimationOptions& opti
     return make(options);
 }
 
-// Null where this build is without videos.
+// Null if this build has no videos.
 template <VideoContainer container>
 constexpr MakeEncoder make_video() {
 #if STORMCELLAR_VIDEO
@@ -43,7 +43,7 @@ constexpr std::array formats{
     Format{".webm", make_video<VideoContainer::webm>()},
 };
 
-// Puts the name of the output before an error that does not begin with it.
+// Prefixes an error with the name of the output unless it begins with that name.
 Error named(const std::string& output, Error error) {
     if (!error.message.starts_with(output)) {
         error.message = fmt::format("{}: {}", output, error.message);
@@ -125,7 +125,7 @@ Status check(const AnimationOptions& options) {
     return {};
 }
 
-// Checks whether a file could be made there, by making a temporary one and removing it.
+// Checks whether a file can be made there, by making a temporary one and removing it.
 Status probe(const std::string& output, FileSystem& file_system) {
     std::error_code ignored;
     if (std::filesystem::is_directory(output, ignored)) {

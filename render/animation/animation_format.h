@@ -1,8 +1,8 @@
-// render/animation/animation_format.h -- what the formats of stormcellar/render/animation.h share;
-// internal.
+// render/animation/animation_format.h -- the common parts of the formats of
+// stormcellar/render/animation.h; internal.
 //
-// A FrameEncoder turns frames into the bytes of one file, in memory. The checks, the writing and
-// the name of the file in errors are the same for all formats; they are in animation.cpp.
+// A FrameEncoder turns frames into the bytes of one file, in memory. animation.cpp checks frames,
+// writes the file and names it in errors, in the same way for all formats.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ class FrameEncoder {
     FrameEncoder& operator=(const FrameEncoder&) = delete;
     virtual ~FrameEncoder() = default;
 
-    // Adds a frame. All frames have one size. Errors have a reason and no name of a file.
+    // Adds a frame. All frames have one size. An error has a reason but no file name.
     virtual Status add(const Image& frame) = 0;
     // Returns the whole file. Called once, after at least one frame.
     virtual Result<std::vector<std::byte>> finish() = 0;
@@ -36,20 +36,20 @@ class FrameEncoder {
 [[nodiscard]] std::unique_ptr<FrameEncoder> make_apng_encoder(const AnimationOptions& options);
 enum class VideoContainer { mp4, webm };
 // Makes an encoder from the module for videos (render/animation/video_module.cpp), in a build with
-// STORMCELLAR_VIDEO. Errors: unsupported if the module, or a library that it needs, is missing.
+// STORMCELLAR_VIDEO. Errors: unsupported if the module or one of its libraries is missing.
 [[nodiscard]] Result<std::unique_ptr<FrameEncoder>> make_video_encoder(
     VideoContainer container, const AnimationOptions& options);
-// The function that the module exports under that name, with C linkage. The caller owns the result.
+// The function that the module exports, with C linkage. The caller owns the result.
 using MakeVideoEncoder = FrameEncoder* (*)(VideoContainer, const AnimationOptions&);
 inline constexpr const char* video_module_file = "stormcellar_video.so";
 inline constexpr const char* video_module_entry = "stormcellar_make_video_encoder";
 
-// `output` is the name of the directory, with its '/'.
+// Makes a writer for a directory of PNG files. `output` is the name of the directory, with its '/'.
 [[nodiscard]] Result<std::unique_ptr<AnimationWriter>> make_png_directory_writer(
     const std::string& output, const AnimationOptions& options, FileSystem& file_system);
 
 // Checks that the bytes fit the size, that there is a pixel, that no side exceeds the limit, and
-// that the size is that of the first frame.
+// that the frame has the size of the first one.
 [[nodiscard]] Status check_frame(const Image& frame, int first_width, int first_height,
                                  int largest_side);
 

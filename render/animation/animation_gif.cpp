@@ -1,6 +1,6 @@
 // GIF through giflib, because FFmpeg's writer has no comments and would add a palette to each
 // frame. The loop count is Netscape's application block. The palette is known only after the last
-// frame, so frames are held until then, deflated.
+// frame, so frames are kept deflated until then.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -44,8 +44,8 @@ Status inflate_into(const std::vector<std::uint8_t>& packed, std::vector<std::ui
     return {};
 }
 
-// giflib's writer into memory. After the first failure later calls do nothing, and the failure is
-// kept.
+// Writes into memory with giflib. After the first failure later calls do nothing, and the failure
+// is kept.
 class GifFile {
   public:
     GifFile() {

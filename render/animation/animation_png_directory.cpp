@@ -64,7 +64,7 @@ class TemporaryTree {
 
 enum class Target { absent, replaceable };
 
-// Finds out whether the name is free, or a directory has it that holds nothing but frames.
+// Finds out whether the name is free, or belongs to a directory that holds nothing but frames.
 Result<Target> look_at(const fs::path& directory) {
     std::error_code error;
     const auto status = fs::symlink_status(directory, error);
@@ -135,7 +135,7 @@ class PngDirectoryWriter final : public AnimationWriter {
         return tl::unexpected(*error_);
     }
 
-    // Moves the old directory aside first, and back if the new one cannot take its place.
+    // Moves the old directory aside first, and moves it back if the new one cannot take its place.
     Status place() {
         const auto target = look_at(directory_);
         if (!target) return pass_on(target);

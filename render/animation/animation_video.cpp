@@ -13,7 +13,8 @@ namespace {
 using ffmpeg::failure;
 using ffmpeg::Handle;
 
-// The number is fixed, because encoders divide the work by it, and the result depends on that.
+// The number is fixed, because encoders divide their work among the threads, which changes the
+// result.
 constexpr int encoder_threads = 2;
 
 struct Codec {
@@ -67,7 +68,7 @@ class VideoEncoder final : public FrameEncoder {
         return encode_last();
     }
 
-    // Video players do not hold the last picture, so it is repeated instead.
+    // Video players do not hold the last picture, so repeat it instead.
     Result<std::vector<std::byte>> finish() override {
         const auto repeats =
             static_cast<int>(std::lround(options_.last_frame_dwell_s * options_.frames_per_second));

@@ -28,7 +28,7 @@ struct Deleter {
 template <class T>
 using Handle = std::unique_ptr<T, Deleter>;
 
-// Names and values for a codec or a container. Those that it did not understand remain.
+// Names and values for a codec or a container. FFmpeg removes the ones that it understood.
 class Options {
   public:
     Options() = default;

@@ -14,9 +14,9 @@ struct Rectangle {
     bool operator==(const Rectangle&) const = default;
 };
 
-// Returns the smallest rectangle that holds every pixel that differs, or the pixel at the top left
-// if none does, because no format has an empty frame. Both spans hold width * height * pixel_bytes
-// bytes.
+// Returns the smallest rectangle that holds every pixel that differs. If none differs, returns the
+// pixel at the top left, because no format has an empty frame. Both spans hold width * height *
+// pixel_bytes bytes.
 [[nodiscard]] Rectangle changed_rectangle(std::span<const std::uint8_t> before,
                                           std::span<const std::uint8_t> after, int width,
                                           int height, std::size_t pixel_bytes);

@@ -94,7 +94,7 @@ struct Box {
 struct Split {
     double gain = 0;
     std::size_t channel = 0;
-    std::size_t position = 0;  // samples before this one go to one side
+    std::size_t position = 0;  // samples before this position go to one side
 };
 
 void sort_by_channel(std::span<Sample> samples, std::size_t channel) {
@@ -157,7 +157,7 @@ std::size_t nearest_point(const std::vector<Point>& points, const Point& point) 
     return best;
 }
 
-// Returns the mean of each group, or the one color that makes up half of it.
+// Returns the mean of each group, or its exact color if one makes up half of the group.
 std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> points) {
     std::vector<Moments> groups;
     std::vector<const Sample*> largest;
@@ -185,7 +185,7 @@ std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> 
     return palette;
 }
 
-// Visits runs of equal pixels, of which a drawn picture has many.
+// Visits runs of equal pixels. A drawn picture has many long runs.
 template <class Visit>
 void for_each_run(const Image& frame, Visit visit) {
     const auto& rgba = frame.rgba;

@@ -1,12 +1,12 @@
 // render/animation/palette.h -- one palette for all frames of a loop.
 //
-// A histogram is fed with every frame, a palette is made from it, and a map turns pixels into
-// entries. If a loop has no more colors than the palette, it gets exactly these. Otherwise colors
-// are grouped by variance-based splitting (Wan, Wong and Prusinkiewicz 1988) over cells of 4x4x4
-// colors, improved by two rounds of k-means (Lloyd 1982). If one color makes up half of a group,
-// the group is shown in that color, so that background, text and legend stay exact. There is no
-// dithering, because it would crawl from frame to frame. Alpha is ignored. The same input gives the
-// same palette.
+// A histogram collects the colors of all frames, a palette is made from it, and a map turns pixels
+// into entries. If a loop has no more colors than the palette, it gets exactly these. Otherwise
+// variance-based splitting (Wan, Wong and Prusinkiewicz 1988) groups cells of 4x4x4 colors, and two
+// rounds of k-means (Lloyd 1982) improve the groups. If one color makes up half of a group, the
+// group has that color, so that background, text and legend stay exact. There is no dithering,
+// because it would crawl from frame to frame. Alpha is ignored. The same input gives the same
+// palette.
 //
 // Threads   One thread at a time for each object.
 #pragma once
@@ -28,13 +28,13 @@ class ColorHistogram {
     ColorHistogram();
     void add(const Image& frame);
 
-    // Returns at most `size` (2 to 256) colors. Each pixel that was added lies near one of them.
+    // Returns at most `size` (2 to 256) colors. Each added pixel is near one of them.
     [[nodiscard]] std::vector<Rgb8> palette(std::size_t size) const;
 
   private:
-    // 4x4x4 neighboring colors, and the one that may have most of the pixels. It is found by a
-    // majority vote (Boyer and Moore 1981): a color with more than half of the pixels always ends
-    // as the leader.
+    // 4x4x4 neighboring colors, with a leader: the color that may have most of the pixels. A
+    // majority vote finds it (Boyer and Moore 1981): a color with more than half of the pixels
+    // always ends as the leader.
     struct Cell {
         std::uint64_t count = 0;
         std::array<std::uint64_t, 3> sum{};
@@ -52,7 +52,7 @@ class PaletteMap {
   public:
     explicit PaletteMap(std::vector<Rgb8> palette);  // 1 to 256 colors
 
-    // Returns the nearest entry; the first of equals.
+    // Returns the nearest entry, or the first one if several are equally near.
     [[nodiscard]] std::uint8_t nearest(Rgb8 color);
     // Returns one index for each pixel.
     [[nodiscard]] std::vector<std::uint8_t> indices(const Image& frame);

@@ -10,9 +10,9 @@
 
 namespace stormcellar::render {
 
-// Puts packets, whose times are in the time base of the encoder, into a container in memory. MP4
-// has its index at the front, so that a browser can begin before it has the whole file. No date and
-// no name of the library is written, so the same packets give the same bytes.
+// Puts packets, with times in the time base of the encoder, into a container in memory. An MP4 file
+// has its index at the front, so that a browser can begin before it has the whole file. The file
+// holds no date and no library name, so the same packets give the same bytes.
 [[nodiscard]] Result<std::vector<std::byte>> mux_video(
     VideoContainer container, const AVCodecContext& encoder,
     const std::vector<ffmpeg::Handle<AVPacket>>& packets, const AnimationOptions& options);

@@ -16,7 +16,7 @@ namespace {
 
 using level2::Moment;
 
-// Open classes begin here, below every value that a radar sends. They do not begin lower, because a
+// Open classes begin here, below every value that a radar sends. The limit is no lower, because a
 // volume sorts the values from here on into 256 bins.
 constexpr float least_velocity = -64;
 constexpr float least_zdr = -13;
@@ -32,7 +32,7 @@ Rgba8 rgba_of(std::uint32_t rgb) {
             static_cast<std::uint8_t>(rgb & 0xFFU), 255};
 }
 
-// Makes classes without blending. `end` is where the last class ends in a color bar.
+// Makes classes without blending. `end` is the upper end of the last class in a color bar.
 ColorTable stepped(std::string_view name, Moment moment, std::string unit,
                    std::span<const ColorClass> classes, float end) {
     ColorTable table;
@@ -158,8 +158,8 @@ ColorTable cfp_table() {
     return of_moment("cfp", Moment::cfp, classes, 55);
 }
 
-// From dark blue to light yellow: every kind of color vision distinguishes light from dark and blue
-// from yellow. The steps are about equal along a path through Lab.
+// From dark blue to light yellow, because every kind of color vision distinguishes light from dark
+// and blue from yellow. The steps are about equal along a path through Lab.
 ColorTable height_table() {
     constexpr ColorClass classes[] = {
         {least_height, 0x003482},
@@ -200,7 +200,7 @@ ColorTable safe_reflectivity_table() {
     return of_moment("safe-reflectivity", Moment::ref, classes, 80);
 }
 
-// Blue toward the radar, orange away from it, gray at rest; lighter with speed.
+// Blue toward the radar, orange away from it, gray at rest; faster is lighter.
 ColorTable safe_velocity_table() {
     constexpr ColorClass classes[] = {
         {least_velocity, 0xC4EFFF},

@@ -47,7 +47,7 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 
 // Returns the tables in the order above.
 [[nodiscard]] const std::vector<ColorTable>& built_in_tables();
-// Returns a table by its name. Errors: not_found, naming all tables.
+// Returns a table by its name. Errors: not_found; the message lists all tables.
 [[nodiscard]] Result<ColorTable> find_color_table(std::string_view name);
 [[nodiscard]] const ColorTable& default_color_table(level2::Moment moment);
 // Returns the table of render/color/smooth_tables.h.
@@ -63,7 +63,7 @@ inline constexpr std::array<std::string_view, 2> color_families{"smooth", "nws"}
 // Returns a moment's own table of a family; null for any other name.
 [[nodiscard]] const ColorTable* table_of_family(std::string_view family, level2::Moment moment);
 
-// The texts of a picture for a moment, and its default colors: render's layer over
+// The texts and the default colors of a picture for a moment. They extend
 // stormcellar/level2/moment.h.
 struct MomentLook {
     level2::Moment moment = level2::Moment::ref;
@@ -84,7 +84,7 @@ struct MomentLook {
 //   show:
 //            0.0015 up to 5 dBZ, 0.012 at 20, 0.055 at 35, 0.25 at 45, 1.1 at 50, 4 at 60, 6 at 75,
 //            given at every decibel from `lowest` to 80 dBZ.
-//   VEL      By speed: what hardly moves is a haze, so that jets and couplets stand out.
+//   VEL      By speed: slow echo is a haze, so that jets and couplets stand out.
 //   SW, CFP  Rises with the value.
 //   ZDR      Hail and debris are faint, large drops dense.
 //   PHI      One faint haze, because no phase is "more" than another.

@@ -30,7 +30,7 @@ double seventh_power_share(double chroma) {
     return std::sqrt(power / (power + of_25));
 }
 
-// A color with its chroma and hue in the formula's own plane, where near-grays are spread along a.
+// A color with chroma and hue in the formula's own plane, where near-grays are stretched along a.
 struct Polar {
     double chroma = 0;
     double hue_deg = 0;  // 0..360; 0 for gray
@@ -60,7 +60,7 @@ Hues hues_of(const Polar& one, const Polar& other) {
             sum < 360 ? (sum + 360) / 2 : (sum - 360) / 2};
 }
 
-// Returns how much weaker hue counts in some directions than in others (T of the formula).
+// Returns how much less hue counts in some directions (T of the formula).
 double hue_weight(double mean_deg) {
     return 1 - 0.17 * std::cos((mean_deg - 30) * degree) + 0.24 * std::cos(2 * mean_deg * degree) +
            0.32 * std::cos((3 * mean_deg + 6) * degree) -
@@ -153,7 +153,7 @@ Result<ImageDifference> image_difference(const Image& one, const Image& other) {
         sum += difference;
     summary.mean = sum / static_cast<double>(summary.pixels);
     summary.max = differences.back();
-    // The number of pixels that may lie above the percentile.
+    // The number of pixels that may be above the percentile.
     const std::size_t above = summary.pixels / 100;
     if (above < differences.size()) {
         summary.percentile_99 = differences[differences.size() - 1 - above];

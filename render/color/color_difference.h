@@ -1,4 +1,4 @@
-// render/color/color_difference.h -- how different two colors look: CIEDE2000.
+// render/color/color_difference.h -- how different two colors look (CIEDE2000).
 //
 // Alpha is ignored.
 //

@@ -7,20 +7,20 @@
 //   [[point]]                    At least 2 (1 if stepped), with rising values:
 //     value, color = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
 //     until                      A color to which it blends, instead of the next point's.
-//     opacity_per_km             For volumes: the optical depth, in all points or in none. If in
-//                                none, it is that of the moment times the alpha of the color.
+//     opacity_per_km             For volumes: the optical depth, in all points or in none. If none
+//                                has it, the moment's opacity times the alpha of the color.
 // .pal: one "Key: values" in a line, keys in any case; ';' begins a comment, as '#' does at the
 // beginning of a line.
 //   Product: BR BV SRV SW ZDR CC PHI ET VIL ...   Tells the moment; other products are accepted.
 //   Units:   Without a Scale, KT KTS MPH KMH KFT FT M % are converted to our units.
 //   Scale: s, Offset: o   value in the file = s * value in our unit + o
 //   Step:    The spacing of ticks; it is the length of the last class in the color bar.
-//   Color: value r g b [r g b], Color4: value r g b a [r g b a]   From this value up to the next
-//                                                                 one the color blends from the
-//                                                                 first to the second color, or to
-//                                                                 that of the next entry.
-//   SolidColor: value r g b, SolidColor4: value r g b a   Does not blend; a second color has no
-//                                                         meaning.
+//   Color: value r g b [r g b], Color4: value r g b a [r g b a]   The color from this value up to
+//                                                                 the next entry. It blends from
+//                                                                 the first color to the second, or
+//                                                                 to the color of the next entry.
+//   SolidColor: value r g b, SolidColor4: value r g b a   Does not blend and ignores a second
+//                                                         color.
 //   RF: r g b [a]   Range folded.
 //   ND: r g b [a]   Read and not used: cells without a value are drawn by their state.
 // Entries may rise or fall; two entries at one value make an edge.
@@ -46,17 +46,17 @@ inline constexpr std::uint64_t most_color_file_bytes = std::uint64_t{1} << 20U;
 // Numbers of a file, with either sign, are no greater.
 inline constexpr double greatest_color_value = 1e6;
 
-// `name` stands for the file in messages.
+// Parses a .pal file. `name` stands for the file in messages.
 [[nodiscard]] Result<ColorTable> parse_pal(std::string_view text, const std::string& name);
 [[nodiscard]] Result<ColorTable> parse_toml_colors(std::string_view text, const std::string& name);
-// Reads a file by its ending, .pal or .toml in any case. Errors: bad_argument for another ending.
+// Reads a .pal or .toml file; the ending selects the format, in any case. Errors: bad_argument for
+// another ending.
 [[nodiscard]] Result<ColorTable> read_color_file(const std::filesystem::path& file);
-// Returns a built-in table by its name, or reads a file. A text that ends in .pal or .toml is a
-// file.
+// Returns a built-in table by its name, or reads a file if the text ends in .pal or .toml.
 [[nodiscard]] Result<ColorTable> colors_from(const std::string& name_or_file);
 
-// Returns the extinction of the moment (default_extinction()) times the alpha of the table's
-// colors, for a table that has its stops. Without a moment it rises evenly from 0.02 to 0.5 per km.
+// Returns the extinction of a table that has its stops: with a moment, default_extinction() times
+// the alpha of the table's colors. Without a moment it rises evenly from 0.02 to 0.5 per km.
 [[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colors(const ColorTable& table,
                                                                 bool of_moment);
 

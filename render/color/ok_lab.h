@@ -1,7 +1,7 @@
-// render/color/ok_lab.h -- the color space in which colors are mixed and lit: OKLab.
+// render/color/ok_lab.h -- OKLab, the color space in which colors are mixed and lit.
 //
-// Equal steps look about equally large in it, and a color that only becomes lighter or darker keeps
-// its hue.
+// Equal steps in it look about equally large. A color that only becomes lighter or darker keeps its
+// hue.
 //
 // Units     Linear sRGB, 0..1; lightness 0..1, from black to white.
 // Source    Ottosson (2020), A perceptual color space for image processing.

@@ -210,7 +210,8 @@ class PalReader {
         table.unit = unit_of(moment);
     }
 
-    // Sets moment and unit of the table, and returns how many of the file's units make one of ours.
+    // Sets moment and unit of the table, and returns how many of the file's units make one of our
+    // units.
     double settle_meaning(ColorTable& table) {
         const std::string product = upper(product_);
         if (const auto moment = level2::moment_from_name(product)) {
@@ -243,8 +244,8 @@ class PalReader {
         return per_ours;
     }
 
-    // Sorts the entries by rising value, whichever way the file goes. Entries at one value stay in
-    // order.
+    // Sorts the entries by rising value, in whichever direction the file goes. Entries with equal
+    // values stay in order.
     void settle_order() {
         if (entries_.front().value > entries_.back().value) {
             std::reverse(entries_.begin(), entries_.end());

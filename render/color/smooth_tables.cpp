@@ -85,7 +85,7 @@ ColorTable smooth_reflectivity() {
     return smooth_table("smooth-reflectivity", Moment::ref, anchors, 80);
 }
 
-// Insects, birds and dust, which the other table leaves out.
+// Colors for insects, birds and dust, which the other reflectivity table leaves out.
 ColorTable smooth_clear_air() {
     constexpr Anchor anchors[] = {
         {-30, 0x343C48, 0.1F}, {-15, 0x4A6B80, 0.5F}, {-5, 0x4A93A3, 0.8F}, {5, 0x62BFA0, 1},

@@ -74,7 +74,8 @@ bool read_meaning(TomlTable& root, ColorTable& table) {
     return true;
 }
 
-// The older spelling is taken too. Beside the newer one it is an unknown key.
+// Returns the newer spelling unless only the older one is present. If both are, the older one is an
+// unknown key.
 std::string_view color_key_of(const TomlTable& point) {
     return point.has("colour") && !point.has("color") ? "colour" : "color";
 }

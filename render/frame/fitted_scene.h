@@ -1,5 +1,5 @@
 // render/frame/fitted_scene.h -- gives a scene the view that suits its grids
-// (render/view/fitted_camera.h), for the picture as it lies within its labels.
+// (render/view/fitted_camera.h), for the picture inside its labels.
 //
 // Threads   Pure functions.
 #pragma once
@@ -11,7 +11,7 @@
 namespace stormcellar::render {
 
 // Fits the view of a volume; other products stay as they are. `outline` has the echo of all grids
-// that are to be seen, `view` and `facts` are of one of them. Errors: those of layout_of() and
+// that will be seen; `view` and `facts` belong to one of them. Errors: those of layout_of() and
 // check_frame().
 [[nodiscard]] Result<FittedView> fit_scene(const EchoOutline& outline, const grid::BrickView& view,
                                            const FrameFacts& facts, const FitParts& parts,

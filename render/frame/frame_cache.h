@@ -1,6 +1,7 @@
-// render/frame/frame_cache.h -- what the frames of a loop share, so that it is made only once.
+// render/frame/frame_cache.h -- keeps what the frames of a loop share, so that it is made only
+// once.
 //
-// The pixels are the same with and without it.
+// The pixels are the same with and without the cache.
 //
 // Threads   One thread at a time.
 #pragma once

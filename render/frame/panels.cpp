@@ -26,7 +26,8 @@ Status check_panels(std::span<const Panel> panels) {
     return {};
 }
 
-// Returns the first panel's facts for the whole picture; its product lists all panels' moments.
+// Returns the first panel's facts for the whole picture, with the moments of all panels as the
+// product.
 DrawnFacts facts_of_whole(std::span<const Panel> panels,
                           const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();
@@ -46,7 +47,7 @@ DrawnFacts facts_of_whole(std::span<const Panel> panels,
     return facts;
 }
 
-// Sweeps have no columns.
+// Returns the summaries of a grid's columns, and nothing for a sweep, which has no columns.
 std::vector<ColumnSummary> columns_of(const grid::BrickView& view, int threads) {
     return view.sweep != nullptr ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
 }
@@ -58,7 +59,7 @@ Result<Image> render_panels(std::span<const Panel> panels, int threads, FrameCac
     const Scene& scene = panels.front().scene;
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    // Legends point at the colors of their scenes.
+    // Legends point at the colors of these scenes.
     std::vector<Scene> shown;
     for (const Panel& panel : panels)
         shown.push_back(scene_shown(panel.view, panel.scene));

@@ -1,4 +1,4 @@
-// render/frame/picture_layout.h -- where the picture of the grid lies within the whole picture with
+// render/frame/picture_layout.h -- lays out the picture of the grid within the whole picture and
 // its labels.
 //
 // Threads   Pure functions.

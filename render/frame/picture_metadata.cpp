@@ -12,7 +12,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Names of files may be anything.
+// Replaces other characters, because names of files may hold any.
 std::string ascii_text(std::string_view text) {
     std::string safe = printable(text);
     std::replace_if(

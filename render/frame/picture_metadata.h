@@ -5,8 +5,8 @@
 //   Title               domain and times
 //   Description         the picture in a sentence
 //   First time          ISO 8601, UTC
-//   Last time           of a loop
-//   Frames              of a loop
+//   Last time           for a loop
+//   Frames              for a loop
 //   Domain, Stations, Product, Moment, Units
 //   Grid                cells, spacing, levels
 //   Gridding            method, beam, averaging, effects
@@ -41,7 +41,8 @@ struct PictureFacts {
     std::string error;                  // of the picture, by its plan; empty: not planned
 };
 
-// `scene` is the scene that was drawn; `grid` describes the method of all frames.
+// Returns the metadata. `scene` is the scene that was drawn; `grid` describes the method of all
+// frames.
 [[nodiscard]] Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& grid,
                                    const Scene& scene);
 

@@ -57,7 +57,7 @@ Result<Probe> probe_column(const grid::BrickView& view, const FrameFacts& facts,
                            std::size_t column, grid::GeoPoint place, int threads) {
     if (view.sweep != nullptr) return probe_sweep(*view.sweep, scene, place);
     Scene map = scene;
-    // The ground of a volume shows the column under the pixel.
+    // In a volume, the ground shows the column under the pixel.
     if (view_of(scene.product) == View::volume) map.product = Product::composite;
     const auto field = map_field(view, facts, map, summarize_columns(view, threads), threads);
     if (!field) return pass_on(field);
@@ -179,7 +179,7 @@ std::string probe_text(const Probe& probe, const Units& units) {
             break;
     }
     const ShownUnit unit = shown_unit(probe.unit, units);
-    // A value that was converted has no more digits than it had before.
+    // A converted value gets no more digits than it had before.
     const int digits = unit.symbol == probe.unit ? 6 : 4;
     return fmt::format("{}{}{}{}", probe.at_least ? "at least " : "",
                        number_text(unit.per_stored * static_cast<double>(probe.value), digits),

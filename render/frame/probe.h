@@ -1,10 +1,10 @@
-// render/frame/probe.h -- reads what is at one place of a picture.
+// render/frame/probe.h -- reads the data at one place of a picture.
 //
 // In a map this is the value or the state of the column whose cell is drawn there. In a volume it
-// is the column maximum over the ground there, and not what a ray through the volume passes. In a
-// section it is what is drawn at the pixel, and in a ppi the gate. The probe also gives the lowest
-// and the highest seen height of the column; in a section, those of the nearest column; in a ppi,
-// instead of them, where and when the gate was measured.
+// is the column maximum over the ground there, and not the echo that a ray through the volume
+// passes. In a section it is the value or the state at the pixel, and in a ppi the gate. The probe
+// also gives the lowest and the highest seen height of the column; in a section, those of the
+// nearest column. In a ppi it gives instead where and when the gate was measured.
 //
 // Threads   Pure functions.
 #pragma once
@@ -31,7 +31,7 @@ struct Probe {
     std::optional<double> height_m;
     std::optional<double> distance_m;                     // along a section
     std::optional<double> lowest_seen_m, highest_seen_m;  // none if the column was not seen
-    std::optional<grid::GatePosition> gate;               // of a ppi, where the sweep has one
+    std::optional<grid::GatePosition> gate;               // for a ppi, if there is a gate
 };
 
 // Reads a pixel of the whole picture; (0, 0) is its top left. Errors: bad_argument if the pixel

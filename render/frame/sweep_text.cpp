@@ -13,7 +13,7 @@ namespace {
 constexpr double whole_circle = 0.985;  // of the azimuths: a radial or two are often missing
 constexpr double least_cut = 0.01;      // of the range of the sweep
 
-// True if a part of the circle that the sweep reaches lies beyond the picture or the plane.
+// Returns true if a part of the circle that the sweep reaches is beyond the picture or the plane.
 bool is_cut(const grid::SweepLookup& sweep, const grid::GridSpec& spec,
             const ViewGeometry& geometry) {
     const GroundPoint site =

@@ -1,4 +1,4 @@
-// render/frame/sweep_text.h -- what the footer of a ppi says of its sweep.
+// render/frame/sweep_text.h -- the line about the sweep in the footer of a ppi.
 //
 // Threads   Pure functions.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace stormcellar::render {
 
-// Returns "Cut 1: 720 radials, gates of 0.25 km up to 460 km", with how much of the circle was
-// seen if that is not all of it, and with the range of the sweep where the view does not show all.
+// Returns "Cut 1: 720 radials, gates of 0.25 km up to 460 km". If a part of the circle was not
+// seen, adds how much was; if the view does not show all of the sweep, adds its range.
 [[nodiscard]] std::string sweep_text(const grid::SweepLookup& sweep, const grid::GridSpec& spec,
                                      const ViewGeometry& geometry);
 

@@ -17,9 +17,9 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double largest_inset = 4;  // times the size at which the whole grid is seen
+constexpr double largest_inset = 4;  // times the size that shows the whole grid
 
-// The ground of a view from outside, or a map.
+// Paints the ground of a view from outside, or a map.
 Result<Image> paint_base(const DrawnView& drawn, const ViewGeometry& geometry,
                          const GroundLook& look, int threads) {
     const grid::GridSpec& spec = *drawn.view.spec;
@@ -65,7 +65,7 @@ Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size
                         scene.units, fonts, threads);
 }
 
-// The line from A to B in pixels: at least two points, all of them finite.
+// Returns the line from A to B in pixels, at least two points, all of them finite.
 std::vector<Point> line_in_picture(const grid::GridSpec& spec, const SectionLine& line,
                                    const ViewGeometry& geometry) {
     const grid::SiteFrame start(line.from.latitude_deg, line.from.longitude_deg);
@@ -93,7 +93,7 @@ void draw_section_line(Canvas& canvas, const Fonts& fonts, std::vector<Point> li
     canvas.line(line, 1.5 * size.scale, shades.text, false);
     const double letter = 11 * size.scale;
     const double room = 2 * size.scale;
-    // The letters stand beyond the ends of the line, inside the map.
+    // Puts the letters beyond the ends of the line, inside the map.
     const auto put = [&](const char* name, Point end, Point next) {
         const double length = std::max(1e-9, std::hypot(end.x - next.x, end.y - next.y));
         const double width = fonts.width(name, letter, true);
@@ -154,8 +154,8 @@ Result<Image> draw_section_inset(const DrawnView& drawn, const PictureSize& size
     Scene scene = drawn.scene;
     scene.product = Product::composite;
     scene.camera.zoom = 1;
-    // A short line would be lost in the map of the whole grid, so the map is drawn larger and the
-    // part about the line is shown.
+    // A short line would be lost in the map of the whole grid, so draw the map larger and show the
+    // part about the line.
     const auto whole = picture_geometry(spec, scene, size.width, size.height);
     const auto in_whole = line_in_picture(spec, *scene.section, whole);
     const double across =

@@ -1,4 +1,4 @@
-// render/image/area_mask.h -- how much of each cell of a raster lies inside closed curves.
+// render/image/area_mask.h -- how much of each cell of a raster is inside closed curves.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -13,16 +13,16 @@ namespace stormcellar::render {
 
 class AreaMask {
   public:
-    // A raster of these many cells, at most 32,767 a side, all of them outside.
+    // Makes a raster of this many cells, at most 32,767 along a side, all of them outside.
     AreaMask(int width, int height);
 
-    // Adds a ring; (0, 0) is the upper left corner of the raster. A cell is inside where the rings
-    // wind around it, so a ring that runs the other way cuts a hole.
+    // Adds a ring; (0, 0) is the upper left corner of the raster. A cell is inside if the rings
+    // wind around it, so a ring in the opposite direction cuts a hole.
     void add(const std::vector<Point>& ring);
-    // Puts the areas of the rings inside (or outside, again), and begins with no rings.
+    // Marks the areas of the added rings as inside (or outside again), and begins with no rings.
     void put(bool inside);
 
-    // The share of each cell that is inside, 0 to 255, row by row from the top.
+    // Returns the share of each cell that is inside, 0 to 255, row by row from the top.
     [[nodiscard]] std::vector<std::uint8_t> cells() const;
 
   private:

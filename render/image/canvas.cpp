@@ -18,7 +18,7 @@ constexpr std::array<const char*, 4> font_directories = {
     "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
     "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF"};
 
-// Cairo may keep a face in its caches after we release it, so Cairo frees what the face depends on.
+// Cairo may keep a face in its caches after we release it, so Cairo also frees the font behind it.
 struct FreeTypeFace {
     FT_Library library = nullptr;
     FT_Face face = nullptr;
@@ -46,7 +46,7 @@ std::shared_ptr<cairo_font_face_t> load_face(const char* name) {
         cairo_font_face_t* face = cairo_ft_font_face_create_for_ft_face(font->face, 0);
         if (cairo_font_face_set_user_data(face, &key, font.get(), free_face) ==
             CAIRO_STATUS_SUCCESS) {
-            static_cast<void>(font.release());  // it belongs to the face now
+            static_cast<void>(font.release());  // the face owns it now
             return {face, cairo_font_face_destroy};
         }
         cairo_font_face_destroy(face);
@@ -76,8 +76,8 @@ void use_color(cairo_t* context, Rgba8 color) {
                           color[3] / 255.0);
 }
 
-// Cairo's pixels are 32-bit numbers, 0xAARRGGBB; those of an image are bytes, R G B A. Turns either
-// into the other, opaque: red and blue change places. The compiler does many pixels at once.
+// Cairo's pixels are 32-bit numbers, 0xAARRGGBB; those of an image are bytes, R G B A. Converts
+// either into the other, opaque, by swapping red and blue. The compiler vectorizes the loop.
 static_assert(std::endian::native == std::endian::little);
 void swap_red_and_blue(const unsigned char* from, unsigned char* to, std::size_t pixels) {
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -179,7 +179,7 @@ void Canvas::draw_path(double line_width, Rgba8 color) {
     use_color(context_.get(), color);
     cairo_set_line_width(context_.get(), line_width);
     cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_BEVEL);
-    // This takes half the time and looks the same.
+    // The fast setting takes half the time and looks the same.
     cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_FAST);
     cairo_stroke(context_.get());
     cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_DEFAULT);
@@ -245,7 +245,7 @@ Image Canvas::image() const {
     cairo_surface_flush(surface_.get());
     const unsigned char* pixels = cairo_image_surface_get_data(surface_.get());
     const int stride = cairo_image_surface_get_stride(surface_.get());
-    Image image;  // every byte of it is set below
+    Image image;  // the loop below sets every byte
     image.width = width_;
     image.height = height_;
     const auto width = static_cast<std::size_t>(width_);

@@ -1,7 +1,7 @@
 // render/image/canvas.h -- draws lines, areas and text on an Image, with Cairo.
 //
-// The font is DejaVu Sans, regular and bold, read from its files, so that a picture is the same
-// wherever it is drawn.
+// The font is DejaVu Sans, regular and bold. The program reads its files, so that a picture is the
+// same on every machine.
 //
 // Threads   A Canvas, and a Fonts, may be used by one thread at a time.
 #pragma once
@@ -15,7 +15,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
 
-// These are Cairo's own names, so that its headers stay out of ours.
+// These names are Cairo's, so that its headers stay out of ours.
 // NOLINTBEGIN(bugprone-reserved-identifier)
 struct _cairo;
 struct _cairo_surface;
@@ -37,8 +37,8 @@ struct Point {
 
 class Fonts {
   public:
-    // Loads the fonts. Errors: not_found, naming the package, if the font's files are in none of
-    // the usual directories.
+    // Loads the fonts. Errors: not_found if the usual directories do not hold the font's files; the
+    // message names the package.
     static Result<Fonts> load();
 
     // Returns how far text of this size (pixels) moves the pen. The text is ASCII or Latin-1, in
@@ -66,12 +66,12 @@ class Canvas {
     // Draws many lines as one, so that a translucent color does not add up where they cross.
     void add_to_path(const std::vector<Point>& points, Point offset = {});
     void draw_path(double line_width, Rgba8 color);  // draws the path and begins a new one
-    // Until the next clip() or unclip(), only what lies inside is drawn.
+    // Restricts drawing to the polygon until the next clip() or unclip().
     void clip(const std::vector<Point>& polygon);
     void clip_both(const std::vector<Point>& one, const std::vector<Point>& other);
     void unclip();
-    // The text starts at `left`, on its `baseline`. With a halo color of alpha > 0 it gets an
-    // outline, so that it is readable on anything.
+    // Draws a text that starts at the left end of its baseline. With a halo color of alpha > 0 it
+    // gets an outline, so that it is readable on anything.
     void text(const Fonts& fonts, std::string_view text, Point left_baseline, double size,
               bool bold, Rgba8 color, Rgba8 halo = {0, 0, 0, 0});
 

@@ -1,4 +1,4 @@
-// render/image/layer.h -- a translucent picture, and how it is composited over another.
+// render/image/layer.h -- a translucent picture, and its composition over another picture.
 //
 // It uses SIMD by Highway, with the same bits on every target and for any number of threads.
 //

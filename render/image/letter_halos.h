@@ -1,13 +1,13 @@
 // render/image/letter_halos.h -- the outlines of letters, which make the halo of a text.
 //
-// An outline is a letter drawn with a round pen. To draw one costs far more than to copy it, and a
-// map has the same letters again and again, so each letter of a font and a size is drawn once.
-// Letters stand on whole pixels, so that a copy is the letter to the bit. Where the outlines of two
-// letters meet in a pixel, they come from its two sides, so that their shares are added.
+// An outline is a letter drawn with a round pen. Drawing costs far more than copying, and a map
+// repeats the same letters, so each letter of a font and a size is drawn once. Letters are at whole
+// pixels, so that a copy equals the letter to the bit. If the outlines of two letters meet in a
+// pixel, they cover it from its two sides, so their shares are added.
 //
 // Units     Pixels.
 // Threads   One thread at a time.
-// Errors    What Cairo cannot draw (no memory) is left out.
+// Errors    Letters that Cairo cannot draw (no memory) are left out.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 #include <tuple>
 #include <vector>
 
-// These are Cairo's own names, so that its headers stay out of ours.
+// These names are Cairo's, so that its headers stay out of ours.
 // NOLINTBEGIN(bugprone-reserved-identifier)
 struct _cairo;
 struct _cairo_scaled_font;
@@ -26,7 +26,7 @@ namespace stormcellar::render {
 
 // The share of each pixel that is covered, 0 to 255, row by row from the top.
 struct CoverMask {
-    int left = 0, top = 0;  // of the mask, from the place of the letter or in the picture
+    int left = 0, top = 0;  // of the mask, relative to the letter or to the picture
     int width = 0, height = 0;
     int stride = 0;  // bytes from row to row
     std::vector<std::uint8_t> cover;
@@ -46,7 +46,7 @@ class LetterHalos {
     std::map<Key, CoverMask> letters_;
 };
 
-// Paints what the mask covers with the context's source.
+// Paints the covered part of the mask with the context's source.
 void paint_cover(_cairo* context, CoverMask& mask);
 
 }  // namespace stormcellar::render

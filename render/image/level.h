@@ -1,4 +1,4 @@
-// render/image/level.h -- a level of a channel as a byte.
+// render/image/level.h -- rounds a level of a channel to a byte.
 //
 // Threads   A pure function.
 #pragma once
@@ -7,8 +7,8 @@
 
 namespace stormcellar::render {
 
-// Returns std::lround(level), which is between 0 and 255. Millions of pixels need it, and the
-// function of the library takes ten times as long.
+// Returns std::lround(level) for a level between 0 and 255. Millions of pixels need it, and the
+// library function takes ten times as long.
 [[nodiscard]] inline std::uint8_t nearest_level(double level) {
     const int whole = static_cast<int>(level);
     return static_cast<std::uint8_t>(whole + (level - whole >= 0.5 ? 1 : 0));

@@ -1,9 +1,9 @@
 // render/image/shades.h -- the quiet colors behind and around the echo, for each theme.
 //
-// Those of the ground are nearly gray, and far from the lightness of echo, so that none can be
-// taken for a reflectivity. Letters have a contrast of 4.5 and more against everything that they
-// may stand on but echo, and there their halo does the same; lines of the map have less, so that
-// they stay behind the echo (tests/render/shades_test.cpp has the figures).
+// The colors of the ground are nearly gray, and far from the lightness of echo, so that none looks
+// like a reflectivity. Letters have a contrast of 4.5 or more against every background but echo,
+// and there their halo has it. Lines of the map have less, so that they stay behind the echo
+// (tests/render/shades_test.cpp has the figures).
 #pragma once
 
 #include "stormcellar/render/image.h"
@@ -11,7 +11,8 @@
 
 namespace stormcellar::render {
 
-// The ground, as it was seen. What was not seen has thin diagonal lines over it.
+// The colors of ground, by how it was seen. Ground that was not seen has thin diagonal lines over
+// it.
 struct GroundShades {
     Rgba8 seen;        // from low down
     Rgba8 seen_aloft;  // only from higher up
@@ -22,11 +23,11 @@ struct GroundShades {
 struct Shades {
     Rgba8 page;
     GroundShades land, water;
-    Rgba8 hatch;  // the lines over what was not seen
+    Rgba8 hatch;  // the lines over ground that was not seen
     Rgba8 haze;   // for air that was not seen
     Rgba8 border, ring;
     Rgba8 county, state, country, coast;
-    Rgba8 casing;  // a darker or lighter edge that parts lines from echo
+    Rgba8 casing;  // a darker or lighter edge between lines and echo
     Rgba8 city, small_city;
     Rgba8 text, quiet_text, warning_text;
     Rgba8 halo;  // around letters and marks
@@ -86,17 +87,17 @@ inline constexpr Shades light = {
 
 [[nodiscard]] const Shades& shades_of(Theme theme);
 
-// Returns the color between two, with the first one's alpha; of the second, all at a share of 1.
+// Returns the color between two, with the alpha of the first; at a share of 1 it is the second.
 [[nodiscard]] Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share);
-// The same, quick for the ends, which nearly all pixels are.
+// Does the same, but returns quickly for the ends, which nearly all pixels are.
 [[nodiscard]] inline Rgba8 mixed(Rgba8 one, Rgba8 other, double share) {
     if (share == 0) return one;
     if (share == 1) return {other[0], other[1], other[2], one[3]};
     return mixed_between(one, other, share);
 }
 
-// Returns the color of ground that was not seen, at a pixel of the whole picture: under thin
-// diagonal lines, at `scale` times the usual distance.
+// Returns the color of ground that was not seen, with thin diagonal lines, at a pixel of the whole
+// picture. The lines are `scale` times as far apart as usual.
 [[nodiscard]] Rgba8 hatched(Rgba8 ground, const Shades& shades, int x, int y, double scale);
 
 }  // namespace stormcellar::render

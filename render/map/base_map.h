@@ -1,4 +1,4 @@
-// render/map/base_map.h -- the map that is built into the library: coasts, borders, cities.
+// render/map/base_map.h -- the built-in map: coasts, borders, cities.
 //
 // scripts/make-map-data makes it from public-domain data (docs/data-sources.md), for the area that
 // the weather radars of the United States can see. Lines come in three levels of detail; a picture
@@ -16,18 +16,19 @@
 //   set          1 byte layer (MapKind), 1 byte detail, v tolerance in meters, v number of lines, v
 //                bytes of all its lines, the lines
 //   line         v number of points (at least 2), z west, z south, v width, v height, v bytes of
-//                its points; the first as v east of west, v north of south, each other as z, z
-//                relative to the one before it
-//                Lakes and coasts are areas: each of their lines is a closed ring with water (of a
-//                lake) or land (of a coast) to its left, and lies within a tile of 2 by 2 degrees.
-//                Where it runs along the edge of the tile, there is no shore.
+//                its points; the first point as v east of west, v north of south, each other point
+//                as z, z relative to the previous one
+//                Lakes and coasts are areas: each of their lines is a closed ring with water (for a
+//                lake) or land (for a coast) to its left, inside a tile of 2 by 2 degrees. Where it
+//                runs along the edge of the tile, there is no shore.
 //   city         v bytes of the name, the name in UTF-8, v population, z latitude, z longitude; the
 //                largest first
 //
 // Threads   Immutable once made. A BaseMap refers to the bytes that it was made from.
 // Errors    truncated, corrupt (also by its checksum), unsupported (a later version). Wrong bytes
 //           with a correct checksum are refused too, at the latest by points_of().
-// Accuracy  That of the sources, see docs/data-sources.md; the format adds 1/(2 U) degrees, 6 m.
+// Accuracy  As accurate as the sources (docs/data-sources.md); the format adds 1/(2 U) degrees, 6
+//           m.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +42,7 @@
 
 namespace stormcellar::render {
 
-// These are numbers of the format, so they do not change. The kinds are in the order of drawing.
+// These numbers belong to the format, so they do not change. The kinds are in the order of drawing.
 enum class MapKind : std::uint8_t { county = 1, state = 2, lake = 3, country = 4, coast = 5 };
 inline constexpr int map_detail_count = 3;
 inline constexpr double map_tile_deg = 2;
@@ -57,7 +58,7 @@ struct MapCity {
     grid::GeoPoint place;
 };
 
-// Where a line lies, and the bytes of its points.
+// The box of a line, and the bytes of its points.
 struct MapLine {
     double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
     std::uint32_t point_count = 0;

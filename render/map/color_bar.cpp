@@ -20,8 +20,8 @@ void add_block(ColorBar& bar, const Rect& box, double low_y, double high_y, Rgba
     bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, color});
 }
 
-// The bounds of classes are round in the unit of the table. In another one they are rounded: to the
-// unit from 10 on, else to a tenth.
+// The bounds of classes are round numbers in the unit of the table. In another unit they are
+// rounded, to whole numbers from 10 on and to tenths below.
 std::string bound_text(double value, const BarScale& scale) {
     const double shown = value * scale.shown_per_value;
     if (scale.shown_per_value == 1) return fmt::format("{:g}", shown);
@@ -90,7 +90,8 @@ ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick, Rg
 ColorBar lying_bar(const BarScale& scale, const Rect& box,
                    const std::function<double(const std::string&)>& width_of, double gap,
                    Rgba8 ground) {
-    // A bar that stands on its left end, with fewer numbers until none touches the next.
+    // Makes an upright bar and turns it on its side. It gets fewer numbers until none touches the
+    // next.
     const Rect upright = {0, 0, box.height, box.width};
     const auto crowded = [&](const std::vector<BarTick>& ticks) {
         for (std::size_t i = 1; i < ticks.size(); ++i) {

@@ -1,4 +1,4 @@
-// render/map/color_bar.h -- how a color table is shown as a bar, upright or lying.
+// render/map/color_bar.h -- shows a color table as a bar, upright or horizontal.
 //
 // Threads   Plain values and a pure function.
 #pragma once
@@ -18,7 +18,7 @@ struct BarBlock {
 };
 
 struct BarTick {
-    double at = 0;  // y in an upright bar, x in a lying one
+    double at = 0;  // y in an upright bar, x in a horizontal one
     std::string text;
 };
 
@@ -32,7 +32,7 @@ struct ColorBar {
 // the bar is linear in the value from the first stop to `end`, with ticks at round values. A box
 // with fewer pixels than classes loses classes, but not its ends.
 // Translucent colors show the `ground` below.
-// What the numbers say: those of the table, or those in another unit.
+// The numbers of a bar: those of the table, or in another unit.
 struct BarScale {
     const ColorTable& table;
     double shown_per_value = 1;
@@ -40,8 +40,8 @@ struct BarScale {
 
 [[nodiscard]] ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick,
                                  Rgba8 ground);
-// The same bar, lying: it rises to the right. The numbers, of this width each, are at least `gap`
-// apart.
+// Makes the same bar horizontally, rising to the right. The numbers, of this width each, are at
+// least `gap` apart.
 [[nodiscard]] ColorBar lying_bar(const BarScale& scale, const Rect& box,
                                  const std::function<double(const std::string&)>& width_of,
                                  double gap, Rgba8 ground);

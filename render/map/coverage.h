@@ -22,7 +22,7 @@ struct Coverage {
 [[nodiscard]] Coverage coverage_of(std::span<const ColumnSummary> columns,
                                    const grid::GridSpec& spec);
 
-// Returns "87 %"; "< 1 %" and "> 99 %" where rounding would give none or all.
+// Returns "87 %", or "< 1 %" and "> 99 %" if rounding would give none or all.
 [[nodiscard]] std::string percent_text(double share);
 
 }  // namespace stormcellar::render

@@ -60,7 +60,7 @@ class GroundTurn {
         };
         east_ = slope(1, 0);
         north_ = slope(0, 1);
-        // The larger singular value.
+        // Computes the larger singular value.
         const double squares =
             east_.x * east_.x + east_.y * east_.y + north_.x * north_.x + north_.y * north_.y;
         const double area = east_.x * north_.y - east_.y * north_.x;
@@ -133,7 +133,7 @@ void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const
         canvas.fill(circle_about(moved(lines, city), 2.6 * lines.scale), lines.shades->halo);
         canvas.fill(circle_about(moved(lines, city), 1.6 * lines.scale), lines.shades->city);
     }
-    // Where there are many sites, their marks are smaller.
+    // If there are many sites, their marks are smaller.
     const double size = marks.sites.size() > 1 ? 0.75 : 1;
     for (const Point& site : marks.sites) {
         const Point at = moved(lines, site);

@@ -1,13 +1,14 @@
-// render/map/draw_marks.h -- draws what render/map/map_marks.h has planned.
+// render/map/draw_marks.h -- draws the marks that render/map/map_marks.h has planned.
 //
-// Threads: pure functions but for the canvas.
+// Threads   Pure functions, except that they draw on the canvas.
 #pragma once
 
 #include "render/map/map_marks.h"
 
 namespace stormcellar::render {
 
-// Draws all marks, over everything. Letters have a halo, so that echo below does not hide them.
+// Draws all marks on top of the picture. Letters have a halo, so that echo below does not hide
+// them.
 void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks);
 
 }  // namespace stormcellar::render

@@ -39,7 +39,8 @@ double LabelBuilder::put(std::string text, double x, double baseline, double roo
     return width;
 }
 
-// Returns the text with an ellipsis for what has no room; empty if even the ellipsis has none.
+// Returns the text, shortened with an ellipsis to fit the room; empty if not even the ellipsis
+// fits.
 std::string LabelBuilder::shortened(std::string text, double size, bool bold, double room) const {
     if (fonts_.width(text, size, bold) <= room) return text;
     // Removes whole characters of UTF-8, and spaces before the ellipsis.

@@ -1,6 +1,6 @@
 // render/map/label_builder.h -- puts texts and blocks of color into a layout of labels.
 //
-// Lengths are those at scale 1, where `scaled` is not said.
+// Lengths are those at scale 1, unless they are called `scaled`.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -41,12 +41,12 @@ struct LabelStyle {
     Rgba8 color{};
 };
 
-// The part of a text that is at its place.
+// The part of a text that is placed at x.
 enum class Align { left, middle, right };
 
 class LabelBuilder {
   public:
-    // All must outlive the builder.
+    // All arguments must outlive the builder.
     LabelBuilder(const Fonts& fonts, const Shades& shades, double scale, LabelParts& parts)
         : fonts_(fonts), shades_(shades), scale_(scale), parts_(parts) {}
 
@@ -60,8 +60,8 @@ class LabelBuilder {
     [[nodiscard]] LabelStyle quiet(double size) const { return {size, false, shades_.quiet_text}; }
     [[nodiscard]] LabelStyle strong(double size) const { return {size, true, shades_.text}; }
 
-    // Puts a text, made smaller (down to three quarters) and then cut with an ellipsis to fit into
-    // `room` pixels. Returns its width; 0 if it is empty or has no room at all.
+    // Places a text. To fit into `room` pixels it is made smaller (down to three quarters) and then
+    // cut with an ellipsis. Returns its width; 0 if it is empty or has no room at all.
     double put(std::string text, double x, double baseline, double room, const LabelStyle& style,
                Align align = Align::left);
     void block(const Rect& box, Rgba8 color, bool hatched = false) {

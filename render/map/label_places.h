@@ -1,4 +1,5 @@
-// render/map/label_places.h -- which parts of a picture are taken, so that texts do not overlap.
+// render/map/label_places.h -- tracks which parts of a picture are taken, so that texts do not
+// overlap.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -12,7 +13,7 @@ namespace stormcellar::render {
 
 class LabelPlaces {
   public:
-    // Nothing may lie outside the frame.
+    // Everything must be inside the frame.
     explicit LabelPlaces(const Rect& frame) : frame_(frame) {}
 
     [[nodiscard]] bool is_free(const Rect& box) const {

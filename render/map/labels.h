@@ -1,10 +1,10 @@
 // render/map/labels.h -- the frame around the picture: title, time, color bar, legend and notes.
 //
-// The picture lies below a header and above a footer; the color bar and the legend stand at its
-// right or below it (render/map/picture_space.h). The place of the picture depends on the scene
-// alone, so that it does not move from frame to frame of a loop. Layout and drawing are separate,
-// so that tests can check that nothing overlaps. Text without enough room becomes smaller, down to
-// three quarters, and then ends in an ellipsis.
+// The picture is between a header and a footer; the color bar and the legend are at its right or
+// below it (render/map/picture_space.h). The place of the picture depends on the scene alone, so
+// that it does not move from frame to frame of a loop. Layout and drawing are separate, so that
+// tests can check that nothing overlaps. Text without enough room becomes smaller, down to three
+// quarters, and then ends in an ellipsis.
 //
 // Threads   Plain values and pure functions; Fonts may be used by one thread at a time.
 #pragma once
@@ -30,16 +30,16 @@ inline constexpr int smallest_labelled_height = 300;
 struct LabelLayout : LabelParts {
     double scale = 1;                              // of text and lines; 1 for 796 x 532 pixels
     int left = 0, top = 0, width = 0, height = 0;  // the picture
-    std::optional<Rect> inset;                     // of a section: the small map of its line
+    std::optional<Rect> inset;                     // for a section: the small map of its line
     const Shades* shades = &shades::dark;
 };
 
-// The facts about the picture that its labels show, beside those of its grid.
+// The facts about the picture that its labels show, besides those of its grid.
 struct DrawnFacts {
     Legend legend;
     double ring_spacing_m = 50e3;  // as drawn
     std::optional<Coverage> coverage;
-    std::string sweep = {};  // of a ppi, what it shows of the sweep
+    std::string sweep = {};  // for a ppi: the line about its sweep
 };
 
 // Lays out the labels. Errors: bad_argument if the picture of the scene is too small for labels.
@@ -47,7 +47,7 @@ struct DrawnFacts {
                                                  const FrameFacts& facts,
                                                  const DrawnFacts& picture);
 
-// The texts of a header: what, where, when.
+// The texts of a header: the product, the place and the time.
 struct HeaderTexts {
     std::string title, product, time, local_time, warnings;
 };

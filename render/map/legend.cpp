@@ -12,8 +12,8 @@
 namespace stormcellar::render {
 namespace {
 
-// Returns "no echo and < 5 dBZ" for a table that begins there; "no echo" for one that takes all
-// values.
+// Returns "no echo and < 5 dBZ" for a table that begins there, and "no echo" for a table that
+// covers all values.
 std::string clear_words(const Scene& scene, std::string_view between) {
     const ColorTable& table = colors_of(scene);
     const bool takes_all =

@@ -1,5 +1,5 @@
-// render/map/legend.h -- what is written about a product beside its picture: its name, its colors
-// and their meaning.
+// render/map/legend.h -- the texts about a product beside its picture: its name, its colors and
+// their meaning.
 //
 // Threads   Plain values and a pure function.
 #pragma once
@@ -21,11 +21,11 @@ struct LegendRow {
 struct Legend {
     std::string product;                // "Composite reflectivity (column maximum)"
     std::string heading;                // over the rows; may be empty
-    std::vector<LegendRow> rows;        // from the top down: what is not in the color bar
+    std::vector<LegendRow> rows;        // from the top down: what the color bar lacks
     std::vector<std::string> notes;     // in small print below
     std::string bar_heading;            // the unit, else the name of the moment
     const ColorTable* table = nullptr;  // of the color bar; null: no bar
-    double shown_per_value = 1;         // of the bar's numbers, by those of the table
+    double shown_per_value = 1;         // factor from the table's numbers to the bar's numbers
 };
 
 // Makes the legend of a valid scene, whose table must outlive it.

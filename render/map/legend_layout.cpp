@@ -12,7 +12,7 @@ constexpr double bar_text = 10;
 constexpr double row_text = 9.5;
 constexpr double swatch_side = 11;
 
-// The rows look alike: where one has no room, all become smaller, down to three quarters.
+// Returns one size for all rows. If one has no room, all become smaller, down to three quarters.
 double size_of_rows(const LabelBuilder& builder, const std::vector<LegendRow>& rows, double room) {
     double size = row_text;
     const auto too_wide = [&](const LegendRow& row) {
@@ -50,7 +50,7 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
     const auto width_of = [&](const std::string& text) { return builder.width_of(text, numbers); };
     const double heading = builder.put(legend.bar_heading, band.x, top + 0.86 * height,
                                        0.25 * band.width, builder.strong(10.5));
-    // The first and the last number stand astride the ends.
+    // The first and the last number are centered on the ends.
     const double aside = builder.scaled(16);
     const double left = std::round(band.x + heading + aside);
     const Rect box = {left, top, std::max(1.0, std::floor(band.right() - aside - left)), height};
@@ -118,7 +118,7 @@ void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& pane
     const double room = panel.right() - builder.scaled(4) - x;
     const double row = builder.scaled(17);
 
-    // From the bottom up: notes, legend, its heading. The bar takes what is left.
+    // Works from the bottom up: notes, legend, its heading. The bar takes the rest.
     double y = panel.bottom() - builder.scaled(4);
     for (auto note = legend.notes.rbegin(); note != legend.notes.rend(); ++note) {
         builder.put(*note, x, y, room, builder.quiet(row_text));

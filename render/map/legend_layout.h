@@ -11,10 +11,10 @@
 
 namespace stormcellar::render {
 
-// Upright, at the right of a picture: the bar, then the rows of the legend.
+// Lays out an upright bar at the right of a picture, with the rows of the legend below it.
 void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& panel);
-// Lying, below a picture: the bar, then the legend in one line. Without `rows` the bar stands
-// alone.
+// Lays out a horizontal bar below a picture, then the legend in one line. Without `rows` there is
+// only the bar.
 void lay_out_band(LabelBuilder& builder, const Legend& legend, const Rect& band, bool rows = true);
 
 }  // namespace stormcellar::render

@@ -21,7 +21,7 @@ constexpr double most_bent_px = 0.2;
 constexpr double least_step_px = 0.3;
 constexpr double county_m = 45e3;
 constexpr double least_county_px = 30;
-// Cairo's numbers end beyond this; such a point is not visible.
+// Cairo's numbers end beyond this distance; a point there is not visible.
 constexpr double farthest_px = 1e6;
 constexpr double most_mask_cells = 4096;  // along a side
 constexpr double most_tile_edge_deg = 0.25;
@@ -30,8 +30,8 @@ struct Box {
     double west = 0, south = 0, east = 0, north = 0;
 };
 
-// Returns the part of the ground that the picture shows: that of the grid, and what lies beyond it
-// (reach_beyond_m()).
+// Returns the part of the ground that the picture shows: the grid, and the ground up to
+// reach_beyond_m() around it.
 Box visible_ground(const ViewGeometry& geometry) {
     const double reach = reach_beyond_m(geometry);
     const Box grid = {-geometry.half_x_m() - reach, -geometry.half_y_m() - reach,
@@ -51,7 +51,7 @@ Box visible_ground(const ViewGeometry& geometry) {
             std::min(grid.east, seen.east), std::min(grid.north, seen.north)};
 }
 
-// Returns the meters of ground for each pixel, across the picture, where they are fewest.
+// Returns the meters of ground for each pixel, where they are fewest in the picture.
 double finest_metres_per_pixel(const ViewGeometry& geometry) {
     double finest = HUGE_VAL;
     for (const double share : {0.5, 0.75, 1.0}) {
@@ -141,7 +141,7 @@ class Tracer {
           most_bent_m_(most_bent_px * finest_m),
           strokes_(strokes) {}
 
-    // `at` has the ground of each point.
+    // Traces one line. `at` has the ground of each point.
     void trace(MapKind kind, const std::vector<grid::GeoPoint>& line,
                const std::vector<GroundPoint>& at) {
         kind_ = kind;
@@ -168,8 +168,8 @@ class Tracer {
     void divide(const Vertex& a, const Vertex& b, int depth) {
         if (!is_finite(a.at) || !is_finite(b.at)) return break_off();
         const double length = std::hypot(b.at.x_m - a.at.x_m, b.at.y_m - a.at.y_m);
-        // Four times the sagitta of a parallel of latitude at 45 degrees, which covers all up to
-        // 75.
+        // The bound is four times the sagitta of a parallel of latitude at 45 degrees, which covers
+        // latitudes up to 75.
         const bool may_bend = length * length / (2 * earth_radius_m) > most_bent_m_;
         if (!may_bend || depth == 12) return segment(a.at, b.at);
         Vertex middle;
@@ -245,7 +245,7 @@ const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) 
     return best;
 }
 
-// Seen at a slant, places beyond the grid would stand in the fading ground.
+// Seen at a slant, places beyond the grid would be in the fading ground.
 Box box_of_cities(const ViewGeometry& geometry, const Box& shown) {
     if (is_from_above(geometry)) return shown;
     return {std::max(shown.west, -geometry.half_x_m()), std::max(shown.south, -geometry.half_y_m()),
@@ -281,9 +281,9 @@ class WaterPainter {
     WaterPainter(const GroundMap& ground, const Box& box, double finest_m)
         : ground_(ground), mask_(mask_over(box, finest_m)), area_(mask_.width, mask_.height) {}
 
-    // Returns a ring in cells. It is straight in degrees, and comes with the ground of each point.
-    // The edges of tiles are long, so they are divided, and at the same places in both tiles. Any
-    // thread may call.
+    // Returns a ring in cells, with segments that are straight in degrees. `at` has the ground of
+    // each point. The edges of tiles are long, so they are divided, and at the same places in both
+    // tiles. Any thread may call this.
     [[nodiscard]] std::vector<Point> cells_of(const std::vector<grid::GeoPoint>& ring,
                                               const std::vector<GroundPoint>& at) const {
         std::vector<Point> cells;
@@ -317,7 +317,7 @@ class WaterPainter {
         }
     }
 
-    // Land first, then the lakes in it.
+    // Draws land first, then the lakes in it.
     WaterMask finish() {
         area_.put(true);
         for (const std::vector<Point>& lake : lakes_)
@@ -362,7 +362,7 @@ struct ShownLine {
     const MapLine* line;
 };
 
-// In the order in which the kinds are drawn.
+// Returns the lines in the order in which the kinds are drawn.
 std::vector<ShownLine> shown_lines(const BaseMap& map, const Box& degrees, double finest_m,
                                    double scale) {
     std::vector<ShownLine> shown;
@@ -445,7 +445,7 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
 
 Result<const MapLayer*> MapCache::get(const grid::GridSpec& spec, const ViewGeometry& geometry,
                                       double scale, int threads) {
-    // Four points of a plane, no three of them on a line, identify the view of it.
+    // Four points of a plane, no three of them on a line, identify the view of the plane.
     std::vector<double> view = {static_cast<double>(geometry.width()),
                                 static_cast<double>(geometry.height()), scale};
     const double h = geometry.ground_m();

@@ -53,7 +53,7 @@ bool is_finite(Point p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-// Draws a closed line without the parts that are not visible.
+// Draws a closed line, without the parts that are not visible.
 void draw_closed(Canvas& canvas, const std::vector<Point>& points, const MapLines& lines,
                  double line_width, Rgba8 color) {
     std::vector<Point> run;
@@ -150,7 +150,7 @@ void draw_rings(Canvas& canvas, const MapLines& lines) {
     const GroundPoint site = map.site();
     const double reach = std::hypot(lines.geometry->half_x_m(), lines.geometry->half_y_m()) +
                          std::hypot(site.x_m, site.y_m);
-    // If the ground extends past the camera, the visible corners are nearly its outline.
+    // If the ground extends past the camera, its visible corners are nearly its outline.
     std::vector<Point> ground;
     for (const Point& p : ground_outline(lines)) {
         if (is_finite(p)) ground.push_back({p.x + lines.left, p.y + lines.top});

@@ -1,14 +1,14 @@
 // render/map/map_lines.h -- draws lines that place the volume: the border of the ground and range
 // rings.
 //
-// The ViewGeometry of the picture projects everything; `left` and `top` say where that picture lies
-// on the canvas. Range rings lie on the ground around a single site; a grid of several sites has
-// marks and no rings. What the view does not project is not drawn.
+// The ViewGeometry of the picture projects everything; `left` and `top` give the place of that
+// picture on the canvas. Range rings are on the ground around a single site; a grid of several
+// sites has marks and no rings. Points that the view does not project are not drawn.
 //
 // Accuracy  On an azimuthal equidistant map, a ring around a site that is not the center of the
 //           grid is drawn as a circle of the map, which is off by less than 0.1 % of its radius
 //           within 500 km of the center. On other maps it goes through 240 points at the ring's
-//           distance. Sites are where the map has them.
+//           distance. Sites are exactly at their places on the map.
 // Threads   Pure functions, except that they draw on the canvas.
 #pragma once
 
@@ -26,27 +26,28 @@ struct MapLines {
     const ViewGeometry* geometry = nullptr;
     const grid::GridSpec* spec = nullptr;
     const std::vector<grid::SitePosition>* sites = nullptr;
-    const MapLayer* map = nullptr;  // its cities are marked; null: no cities
+    const MapLayer* map = nullptr;  // source of the cities to mark; null: no cities
     double ring_spacing_m = 50e3;   // as drawn, from drawn_ring_spacing()
-    Units units;                    // of what is written
+    Units units;                    // units of written numbers
     bool heights = false;           // a scale of heights at the left edge of the box
     double scale = 1;               // of lines and text
     const Shades* shades = &shades::dark;
     double left = 0, top = 0;
 };
 
-// Returns the spacing that is asked for, or the nearest that is round in the unit of distances,
-// doubled until there are at most 20 rings; if none is asked for (Scene::usual_rings), 50 km,
-// doubled before until at most six reach the nearest side of the grid, and less where the grid is
-// too small for one.
+// Returns the spacing of the rings. A requested spacing is rounded to the nearest round number in
+// the unit of distances, then doubled until there are at most 20 rings. Without a request
+// (Scene::usual_rings) it starts at 50 km and is doubled until at most six rings reach the nearest
+// side of the grid. It is less than 50 km if the grid is too small for one ring.
 [[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene);
 
 // Draws a thin line around the ground.
 void draw_border(Canvas& canvas, const MapLines& lines);
-// Draws the rings. They come before a volume and after a 2D product.
+// Draws the rings. Call it before a volume is drawn and after a 2D product is drawn.
 void draw_rings(Canvas& canvas, const MapLines& lines);
 
-// Used by whatever is drawn with the lines (render/map/map_marks.h).
+// Returns the corners of the ground, for code that draws along with the lines
+// (render/map/map_marks.h).
 [[nodiscard]] std::vector<GroundPoint> ground_corners(const ViewGeometry& geometry);
 [[nodiscard]] GroundPoint ground_of_site(const MapLines& lines, const grid::SitePosition& site);
 // Returns the closed ring of a single site, clockwise from the north, in pixels of the picture.

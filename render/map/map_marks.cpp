@@ -14,7 +14,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr double text_size = 10;
-// Names of towns grow with the town, in three steps.
+// The look of town names, in three steps by the size of the town.
 struct TownLook {
     int least_population;
     double size;
@@ -22,7 +22,7 @@ struct TownLook {
 };
 constexpr std::array towns = {TownLook{400'000, 10.5, true}, TownLook{100'000, 9.5, true},
                               TownLook{0, 8.5, false}};
-// Where there are more sites, their names are small, and fewer.
+// If there are more sites than this, their names are small, and fewer.
 constexpr std::size_t few_sites = 3;
 constexpr double north_radius = 17;
 // Bounds of the steps in the scale of heights: 1 to 10 km, 5 to 50 thousand feet.
@@ -85,8 +85,8 @@ class Planner {
         return MarkText{box, left_baseline, size, bold, color, text};
     }
 
-    // Chooses the corner for the arrow and the bar: the first that covers no site, else the first.
-    // What they cover there is not drawn.
+    // Chooses the corner for the arrow and the bar: the first corner without a site, or else the
+    // first. Marks that they cover there are not drawn.
     void plan_corner() {
         const double w = scaled(2 * north_radius + 8);
         const double h = scaled(2 * north_radius + 28);
@@ -200,9 +200,9 @@ class Planner {
         }
     }
 
-    // Places the scale of heights at the leftmost of the box's upright edges in the picture. Of two
-    // such edges it takes the farther one, which is higher in the picture. It is an outline of the
-    // box, so no echo is ever behind it.
+    // Places the scale of heights at the leftmost upright edge of the box in the picture. If two
+    // edges qualify, it takes the farther one, which is higher in the picture. The edge is an
+    // outline of the box, so no echo is ever behind it.
     void plan_heights() {
         std::optional<GroundPoint> edge;
         Point edge_at;
@@ -246,8 +246,8 @@ class Planner {
         marks_.heights = std::move(heights);
     }
 
-    // Places the distances on the rings where these come nearest to the viewer, which is lowest in
-    // the picture.
+    // Places the distances on the rings where the rings come nearest to the viewer, which is lowest
+    // in the picture.
     void plan_distances() {
         const double size = scaled(text_size);
         for (int i = 1; i <= 40; ++i) {
@@ -292,7 +292,7 @@ class Planner {
             std::vector<Point> corners = {Point{right, level}, Point{left, level},
                                           Point{middle, city.at.y - scaled(3.5) - 0.3 * size},
                                           Point{middle, city.at.y + 0.8 * size + scaled(5)}};
-            // A name across the edge of the grid looks cut by it, so such places come last.
+            // A name across the edge of the grid looks cut by it, so such corners come last.
             std::stable_partition(corners.begin(), corners.end(), [&](const Point& corner) {
                 return over_grid(corner) && over_grid({corner.x + width, corner.y});
             });

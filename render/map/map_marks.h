@@ -1,15 +1,16 @@
-// render/map/map_marks.h -- what is marked on the map: sites, cities, the distances of rings,
+// render/map/map_marks.h -- plans the marks on the map: sites, cities, the distances of rings,
 // heights, north and a scale bar.
 //
 // Marks are planned first and drawn later, so that none overlaps another. The north arrow and the
-// scale bar take a corner: the lower left one unless a site is there. Then come the names of sites,
-// heights, distances, and cities, the largest first. A name without room is left out; the mark of a
-// site is drawn all the same, that of a city is not. Everything lies inside the picture; plans are
-// in its pixels.
+// scale bar take a corner, the lower left one unless a site is there. Then come the names of sites,
+// heights, distances, and cities, the largest first. A name without room is left out; then the mark
+// of a site is still drawn, but the mark of a city is not. Everything is inside the picture; plans
+// are in its pixels.
 //
-// The length of the scale bar holds across the middle of the picture. It is 1, 2 or 5 times a power
-// of ten, by the distance on WGS84 (to 1 % at worst). There is none if the middle of the view shows
-// no ground. Of the view, only where points are and which ground is under a pixel is needed.
+// The length of the scale bar is valid across the middle of the picture. It is 1, 2 or 5 times a
+// power of ten, by the distance on WGS84 (to 1 % at worst). There is no bar if the middle of the
+// view shows no ground. Planning needs only the places of points and the ground under pixels from
+// the view.
 //
 // Threads   Plain data; pure functions, except that they draw on the canvas.
 #pragma once

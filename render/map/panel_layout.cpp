@@ -17,12 +17,13 @@ constexpr int least_panel_height = 150;
 constexpr double title_height = 20;
 constexpr double legend_height = 50;
 constexpr double gap = 8;
-// Lines and letters in a panel, of those of the whole.
+// Scale of lines and letters in a panel, relative to the whole picture.
 constexpr double panel_scale = 0.62;
 
 struct Grid {
     int columns = 1, rows = 1;
-    // Where the first panel begins, the whole pixels of each, and those between two in a row.
+    // The place of the first panel, the size of each in whole pixels, and the gap between two in a
+    // row.
     double left = 0, top = 0, width = 0, height = 0, between = 0;
 
     [[nodiscard]] Rect cell(int index) const {
@@ -52,7 +53,7 @@ int panels_in_a_row(int count, int width, int height) {
     for (int columns = 1; columns <= count; ++columns) {
         const int rows = (count + columns - 1) / columns;
         const double aspect = static_cast<double>(width) / columns / height * rows;
-        // A place that stays empty counts too.
+        // A place that stays empty counts as well.
         const double empty = static_cast<double>(rows * columns - count) / count;
         const double worth = std::abs(std::log(aspect / best_aspect)) + empty;
         if (worth >= least) continue;

@@ -6,12 +6,12 @@
 namespace stormcellar::render {
 namespace {
 
-// Wider than the one is wide, narrower than the other is tall.
+// A picture is wide above the first ratio of width to height, and tall below the second.
 constexpr double least_wide = 1.2;
 constexpr double most_tall = 0.72;
 constexpr double most_scale = 16;
 
-// Lengths at scale 1, and the picture that has this scale.
+// Lengths at scale 1, and the size of the picture that has this scale.
 struct Measures {
     double width, height;
     double header, footer, panel, band;

@@ -1,9 +1,9 @@
-// render/map/picture_space.h -- how a picture of a size is divided: title, map, colors, small
+// render/map/picture_space.h -- divides a picture of a given size into title, map, colors and small
 // print.
 //
-// There are three shapes. A wide picture has its colors at the right. A square one and a tall one
-// have them below, so that the map has the whole width; a tall one has more lines in its title.
-// All lengths grow with the picture.
+// There are three shapes. A wide picture has its colors at the right. A square picture and a tall
+// one have them below, so that the map has the whole width. A tall one also has more lines in its
+// title. All lengths grow with the picture.
 //
 // Threads   Plain values and a pure function.
 #pragma once
@@ -12,7 +12,7 @@ namespace stormcellar::render {
 
 enum class PictureShape { wide, square, tall };
 
-// Letters get no smaller than at this scale, in panels neither.
+// Letters never get smaller than at this scale, not even in panels.
 inline constexpr double least_text_scale = 0.85;
 
 // Lengths are in pixels.

@@ -1,4 +1,5 @@
-// render/options/moment_name.h -- the moment that a command line, a scene file or an address names.
+// render/options/moment_name.h -- finds the moment that a command line, a scene file or an address
+// names.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -10,7 +11,8 @@
 
 namespace stormcellar::render {
 
-// Takes a name in upper or lower case. Errors: bad_argument; the message lists the moments.
+// Finds a moment by its name in upper or lower case. Errors: bad_argument; the message lists the
+// moments.
 [[nodiscard]] Result<level2::Moment> moment_named(const std::string& text);
 
 }  // namespace stormcellar::render

@@ -28,7 +28,8 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-// "Moore, OK" as its two parts, as they are compared; without a comma there is no region.
+// The two parts of "Moore, OK", in the form in which they are compared; without a comma there is no
+// region.
 struct Asked {
     std::string name, region;
 };
@@ -74,7 +75,7 @@ std::string list_of(const Candidates& found) {
     std::vector<std::string> names;
     for (const NamedPlace& place : found) {
         std::string name = full_name(place);
-        // Places of one name and state are told apart by where they are.
+        // If places share a name and a state, their coordinates tell them apart.
         if (std::ranges::count(found, place.region, &NamedPlace::region) > 1)
             name += fmt::format(" ({:.2f},{:.2f})", place.latitude_deg, place.longitude_deg);
         names.push_back(std::move(name));
@@ -98,13 +99,13 @@ Error unknown(std::string_view option, std::string_view text, const Asked& asked
         return Error{ErrorCode::bad_argument,
                      fmt::format("{}: there is no place '{}'{}", option, printable(text), meant)};
     };
-    // "Moore, Oklahoma" has the wrong state, or not its two letters.
+    // The state of "Moore, Oklahoma" is wrong, or not written with two letters.
     if (!asked.region.empty()) {
         const Candidates elsewhere = towns_called({asked.name, {}});
         if (!elsewhere.empty()) return said("; there is " + list_of(elsewhere));
     }
     std::vector<std::string> names;
-    // A town that is in the state is meant rather than one of the same letters elsewhere.
+    // A town in that state is preferred over a town elsewhere with the same letters.
     for (const bool in_state : {true, false}) {
         if (in_state && asked.region.empty()) continue;
         names.clear();

@@ -1,10 +1,10 @@
-// render/options/named_place.h -- places as people write them: LAT,LON, a town or a radar.
+// render/options/named_place.h -- reads places as people write them: LAT,LON, a town or a radar.
 //
-// Every option that takes a place takes it from here.
+// Every option that takes a place uses these functions.
 //
 // Threads   Any thread, once the options are read.
-// Errors    bad_argument, naming the option, with the candidates of a name that several places have
-//           and the nearest name of one that none has.
+// Errors    bad_argument. The message names the option. For a name that several places have it
+//           lists the candidates; for an unknown name it gives the nearest one.
 #pragma once
 
 #include <string>
@@ -20,13 +20,13 @@ namespace stormcellar::render {
 inline constexpr std::string_view place_for_help =
     "LAT,LON in degrees, a town as in \"Moore, OK\", or a radar as in KTLX";
 
-// Reads "35.3,-97.5", "Moore, OK" or "KTLX". A town without its state is taken if only one town has
-// the name, or only one of 100,000 people and more. The name of a radar's place, which no town
-// has, is that of the radar.
+// Reads "35.3,-97.5", "Moore, OK" or "KTLX". A town without its state is accepted if only one town
+// has the name, or only one of 100,000 people and more. If no town has the name but the place of a
+// radar does, the result is that radar.
 [[nodiscard]] Result<grid::GeoPoint> parse_place(std::string_view option, const std::string& text);
 
-// Reads two places, with a semicolon between them: "Moore, OK; KINX". Four numbers may have commas
-// only: "35,-98.5,35.6,-96.5".
+// Reads two places with a semicolon between them: "Moore, OK; KINX". Four numbers may be separated
+// by commas alone: "35,-98.5,35.6,-96.5".
 [[nodiscard]] Result<std::vector<grid::GeoPoint>> parse_two_places(std::string_view option,
                                                                    const std::string& text);
 

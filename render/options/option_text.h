@@ -1,7 +1,7 @@
-// render/options/option_text.h -- reads the value of a picture's option from a text, as it stands
-// on a command line or in an address.
+// render/options/option_text.h -- reads the value of a picture's option from the text of a command
+// line or an address.
 //
-// Threads   Pure but for the settings that are set.
+// Threads   Pure, except that they change the given settings.
 // Errors    bad_argument; the message begins with the name under which the option was given.
 #pragma once
 
@@ -18,9 +18,9 @@ namespace stormcellar::render {
 [[nodiscard]] Result<std::vector<double>> numbers_of(const std::string& option,
                                                      const std::string& text, std::size_t count);
 
-// Each of these sets a value from a text. A number out of its range is set as well, and scene_of()
-// refuses it; places out of theirs, names that do not exist and texts that are no number are
-// refused here.
+// Each of these sets a value from a text. They also set a number that is out of its range, which
+// scene_of() refuses later. They refuse places out of range, unknown names and texts that are no
+// number.
 [[nodiscard]] Status take_text(const NumbersValue& value, const std::string& option,
                                const std::string& text, PictureSettings to);
 [[nodiscard]] Status take_text(const TextValue& value, const std::string& option,

@@ -1,6 +1,6 @@
 // render/options/panel_scenes.h -- the scenes of a picture with several moments, as in "REF,VEL".
 //
-// Threads   Pure but for what is called.
+// Threads   Pure, except for the functions that they call.
 // Errors    See panel_scenes().
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace stormcellar::render {
 
-// The size of a picture with panels whose options name none.
+// The default size of a picture with panels.
 inline constexpr int panels_width = 1280, panels_height = 960;
 
 // A panel's moment and scene; all panels have one camera.
@@ -29,9 +29,9 @@ struct PanelScene {
 [[nodiscard]] Result<std::vector<level2::Moment>> moments_of_panels(const std::string& list,
                                                                     std::string_view name);
 
-// Returns the panels of a list of moments, each scene made by `scene_of_panel` of the options with
-// that moment. Errors: bad_argument for an unknown or repeated moment, for a moment or colors
-// beside the panels, and for more panels than a picture may have; those of `scene_of_panel`.
+// Returns the panels of a list of moments. `scene_of_panel` makes each scene from the options with
+// that moment. Errors: bad_argument for an unknown or repeated moment, for a moment or colors in
+// addition to the panels, and for more panels than a picture may have; those of `scene_of_panel`.
 [[nodiscard]] Result<std::vector<PanelScene>> panel_scenes(
     const std::string& list, const SceneOptions& options,
     const std::function<Result<Scene>(const SceneOptions&)>& scene_of_panel);

@@ -13,7 +13,7 @@ namespace {
 using To = PictureSettings;
 
 constexpr double per_km = option_units_per_km;
-// Any direction will do; a scene file refuses what is no direction but a mistake.
+// The command line accepts any direction; a scene file refuses a number that must be a mistake.
 constexpr NumberRange turns_deg{-3600, 3600};
 
 constexpr ProductUse by_volume{.only = Product::volume};
@@ -317,7 +317,7 @@ constexpr std::array option_rows{
                           "follow in reverse, down to the second"},
 };
 
-// `key` is a constant of this file, so that the row is there.
+// Returns the row of a key. `key` is a constant of this file, so the row exists.
 const PictureOption& row_of(std::string_view key) {
     return *std::ranges::find(option_rows, key, &PictureOption::key);
 }

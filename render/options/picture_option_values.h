@@ -1,7 +1,7 @@
-// render/options/picture_option_values.h -- how the values of picture options are checked and set,
-// where a field alone does not say it. The table (picture_option_rows.cpp) names these functions.
+// render/options/picture_option_values.h -- checks and sets the values of picture options that need
+// more than a field. The table (picture_option_rows.cpp) names these functions.
 //
-// Threads   Pure but for the settings that they are given.
+// Threads   Pure, except that they change the given settings.
 // Errors    bad_argument; the message says why a value is refused, without the option's name.
 #pragma once
 
@@ -26,7 +26,8 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status set_units(PictureSettings to, const std::string& names);
 [[nodiscard]] std::string units_set(PictureSettings to);
 
-// The two ends of a section as a text: numbers or names of places. The message names the option.
+// Reads the two ends of a section from a text of numbers or names of places. The message names the
+// option.
 [[nodiscard]] Result<std::vector<double>> read_section(const std::string& option,
                                                        const std::string& text);
 
@@ -40,9 +41,10 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] std::string known_moments();
 [[nodiscard]] std::string known_smoothings();
 
-// Returns true if colors are those of a file and not of a table by name.
+// Returns true if colors come from a file and not from a table by name.
 [[nodiscard]] bool is_color_file(const std::string& name);
-// A table by name is the same everywhere; a file stands beside the scene file.
+// Returns the name of a table unchanged, and resolves the name of a file in the directory of the
+// scene file.
 [[nodiscard]] std::string colors_beside(const std::filesystem::path& directory,
                                         const std::string& name);
 

@@ -2,10 +2,11 @@
 //
 // Each row is one option: its name on the command line, its key in a scene file, the values that it
 // takes, the products that use it, its help, and the setting that it sets. The command line, scene
-// files, the addresses of the data server and the check of what a product uses (scene_options.h)
-// read this table; --help, the manual pages and the completions of shells come from the command
-// line. The rows stand in picture_option_rows.cpp.
-// Thread contract: the table is constant.
+// files, the addresses of the data server and the check of which products use an option
+// (scene_options.h) read this table; --help, the manual pages and the completions of shells come
+// from the command line. The rows are in picture_option_rows.cpp.
+//
+// Threads   The table is constant.
 #pragma once
 
 #include <filesystem>
@@ -28,18 +29,18 @@ struct SceneOptions;
 // The objects that the options set.
 struct PictureSettings {
     SceneOptions& options;
-    Scene& scene;       // that of the options
-    LoopChoices* loop;  // null where only options of the scene are set
+    Scene& scene;       // the scene of the options
+    LoopChoices* loop;  // null if only options of the scene are set
 };
 
-// Says who refuses a number on the command line that is out of range. In a scene file such a number
-// is always refused on its line.
+// Says what refuses a number on the command line that is out of range. In a scene file such a
+// number is always refused on its line.
 enum class Checked { with_the_scene, by_the_parser };
 
 // A flag on the command line, true or false in a scene file.
 struct FlagValue {
     bool* (*field)(PictureSettings) = nullptr;
-    bool is_reversed = false;  // the key says the opposite of the flag
+    bool is_reversed = false;  // the key means the opposite of the flag
 };
 struct WholeValue {
     int* (*field)(PictureSettings) = nullptr;
@@ -49,7 +50,7 @@ struct WholeValue {
 struct NumberValue {
     double* (*field)(PictureSettings) = nullptr;
     NumberRange range{};  // in the unit of the option
-    double unit = 1;      // of the option in that of the field: 1000 for kilometers and meters
+    double unit = 1;      // the option's unit in the field's unit: 1000 for kilometers and meters
     bool or_zero = false;
     Checked checked = Checked::with_the_scene;
 };
@@ -71,10 +72,10 @@ struct TextValue {
     // Resolves a text of a scene file in this directory; null: a text stands for itself.
     std::string (*beside)(const std::filesystem::path& directory,
                           const std::string& text) = nullptr;
-    std::string (*known)() = nullptr;  // the texts that there are, for {} in the help; null: any
-    bool (*is_file)(const std::string&) = nullptr;  // the text names a file; null: no text does
+    std::string (*known)() = nullptr;  // the possible texts, for {} in the help; null: any text
+    bool (*is_file)(const std::string&) = nullptr;  // true if the text is a file; null: none is
 };
-// "gradient,shadow" on the command line, an array of texts in a scene file, where an empty one is
+// "gradient,shadow" on the command line, an array of texts in a scene file. An empty array is
 // "none".
 struct NamesValue {
     Status (*set)(PictureSettings, const std::string& names) = nullptr;
@@ -83,8 +84,8 @@ struct NamesValue {
 using PictureValue =
     std::variant<FlagValue, WholeValue, NumberValue, NumbersValue, TextValue, NamesValue>;
 
-// The products that use an option: one product only, all but one, those with a threshold, maps, or,
-// with none of these, all.
+// The products that use an option: only one product, all but one, those with a threshold, maps, or,
+// if none of these is set, all.
 struct ProductUse {
     std::optional<Product> only{};
     std::optional<Product> all_but{};
@@ -103,19 +104,19 @@ struct ProductUse {
 struct PictureOption {
     std::string_view option{};      // "--tilt"
     std::string_view old_option{};  // an older spelling, which is taken and not shown
-    std::string_view section{};     // of a scene file; empty: the option is in none
+    std::string_view section{};     // of a scene file; empty: no scene file has the option
     std::string_view key{};
     std::string_view old_key{};
     PictureValue value{};
     ProductUse used_by{};
-    std::string_view help{};  // {} or {0} and {1} in it stand for the ends of the range
+    std::string_view help{};  // in it, {} or {0} and {1} stand for the ends of the range
 
-    // The options of [loop] are those of `loop` alone; the others are those of the scene.
+    // Returns true for the options of [loop], which set `loop`. All others set the scene.
     [[nodiscard]] bool is_of_loop() const { return section == "loop"; }
     [[nodiscard]] bool is_used_by(Product product) const { return used_by.includes(product); }
 };
 
-// In the order of --help.
+// Returns the options in the order of --help.
 [[nodiscard]] std::span<const PictureOption> picture_options();
 
 // The options that other code asks about.
@@ -126,7 +127,7 @@ struct PictureOption {
 [[nodiscard]] const PictureOption& width_option();
 [[nodiscard]] const PictureOption& height_option();
 
-// The parts of the view of a volume that are fitted to the echo unless an option says them
+// The parts of the view of a volume that are fitted to the echo unless an option sets them
 // (render/options/fitted_view.h).
 enum class ViewPart {
     azimuth,
@@ -140,13 +141,13 @@ enum class ViewPart {
     opacity
 };
 [[nodiscard]] const PictureOption& option_of(ViewPart part);
-// Returns what help calls the default of such an option; empty for any other option.
+// Returns the text that help gives as the default of such an option; empty for any other option.
 [[nodiscard]] std::string_view default_of_the_view(const PictureOption& option);
-// Returns true for an option that says where the camera of a loop is or how it moves, instead of
-// the keys of a scene file.
+// Returns true for an option that places or moves the camera of a loop, instead of the keys of a
+// scene file.
 [[nodiscard]] bool moves_camera(const PictureOption& option);
 
-// The option as a parameter of an address: "tilt" of "--tilt".
+// Returns the option as a parameter of an address: "tilt" for "--tilt".
 [[nodiscard]] std::string_view parameter_of(const PictureOption& option);
 // Returns the key as messages name it: "[volume] slices".
 [[nodiscard]] std::string key_of(const PictureOption& option);

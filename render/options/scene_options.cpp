@@ -25,7 +25,8 @@ Status unused(std::string_view name, const PictureOption& row, Product product) 
                 row.used_by.text(), product_name(product));
 }
 
-// bad_argument names the option, or the key of a file for this product, and who uses it.
+// Checks that the product uses all given options. Errors: bad_argument; the message names the
+// option or the key, and the products that use it.
 Status check_uses(Product product, const SceneOptions& options) {
     const auto files = product_from_name(options.file_product);
     for (const PictureOption& row : picture_options()) {
@@ -37,7 +38,7 @@ Status check_uses(Product product, const SceneOptions& options) {
     return {};
 }
 
-// The number of a row that is out of its range; none: there is no such number.
+// The number of a row that is out of its range; none if all are within.
 struct OutOfRange {
     PictureSettings to;
     std::optional<std::string> operator()(const WholeValue& value) const {
@@ -63,11 +64,12 @@ struct OutOfRange {
     }
 };
 
-// bad_argument names the option, or the key if it is a scene file that has the number.
+// Checks the numbers. Errors: bad_argument; the message names the option, or the key if a scene
+// file has the number.
 Status check_ranges(SceneOptions options) {
     const PictureSettings to{options, options.scene, nullptr};
     for (const PictureOption& row : picture_options()) {
-        // A default out of range stands for nothing given.
+        // A default that is out of range means that nothing was given.
         const bool is_given = contains(options.typed, row) || contains(options.in_file, row);
         if (row.is_of_loop() || !is_given) continue;
         const auto said = std::visit(OutOfRange{to}, row.value);
@@ -105,7 +107,7 @@ Result<Scene> scene_of(const SceneOptions& options) {
         return fail(ErrorCode::bad_argument,
                     "a sweep is named by its elevation or by its number; give only one of them");
     }
-    // A picture that says nothing of colors has those without classes; a scene file has the
+    // If nothing chooses colors, a picture has those without classes. A scene file keeps the
     // defaults that it was written for.
     const bool has_own_colors = facts_of(scene.product).colors != nullptr;
     if (options.colors.empty() && options.file_product.empty() && !has_own_colors) {

@@ -1,8 +1,8 @@
-// render/options/scene_options.h -- what options say about a picture, and the scene that they make.
+// render/options/scene_options.h -- the options of a picture, and the scene that they make.
 //
-// The command line, scene files and the addresses of the data server set these options, each from
-// the table of picture_options.h; all of them take the scene by scene_of(), so that the same
-// options give the same picture.
+// The command line, scene files and the addresses of the data server set these options through the
+// table of picture_options.h. All of them get the scene from scene_of(), so that the same options
+// give the same picture.
 //
 // Threads   Plain data and pure functions.
 // Errors    See each function.
@@ -32,41 +32,42 @@ struct SceneOptions {
     std::string product = "volume";
     std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string theme{theme_name(Theme::dark)};
-    std::string panels;     // of a scene file: "REF,VEL", several in a picture; empty: one moment
-    std::string colors;     // empty: those of the product or the moment
+    std::string panels;     // from a scene file: "REF,VEL", several in a picture; empty: one moment
+    std::string colors;     // empty: the colors of the product or the moment
     std::string smooth;     // cubic or none; empty: cubic, but none for a scene file
-    std::string time_zone;  // IANA; empty: that of the machine
+    std::string time_zone;  // IANA; empty: the zone of the machine
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
     Scene scene;      // what the options set directly; take it by scene_of()
-    // The options that were typed, those that a scene file has, and the product that the file is
-    // for, which is empty where no file was given.
+    // The typed options, the options of the scene file, and the product of that file, which is
+    // empty if there is no file.
     ChosenOptions typed;
     ChosenOptions in_file;
     std::string file_product;
-    std::optional<Error> problem;  // the first value that was typed and makes no sense
+    std::optional<Error> problem;  // the first invalid value that was typed
     Spelling spelling = Spelling::option;
 };
 
 // The settings of the rows of [loop].
 struct LoopChoices {
-    int last = 0;    // of the grids only so many; 0: all
+    int last = 0;    // use only this many of the newest grids; 0: all
     int frames = 0;  // spread over the grids; 0: one for each, or as many as the camera's way lasts
     double orbit_deg = 0;  // how far the camera moves around the grid during the loop
     bool ping_pong = false;
-    bool all_elevations = false;  // of a ppi, a frame for each elevation of each volume
-    bool repeats = false;         // of a ppi, a frame for each sweep of the elevation
+    bool all_elevations = false;  // for a ppi: a frame for each elevation of each volume
+    bool repeats = false;         // for a ppi: a frame for each sweep of the elevation
     AnimationOptions animation;
 };
 
-// Returns the requested scene, validated. Errors: bad_argument, naming the invalid option.
+// Returns the requested scene, validated. Errors: bad_argument; the message names the invalid
+// option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
 
 [[nodiscard]] int thread_count(const SceneOptions& options);
 
-// Returns what the labels say about a grid. The local time is that of an IANA zone, or of the
-// machine if none is named; it is left out if it is UTC or not known. The age of the newest radial
-// at `now` is given for grids younger than an hour; for those of an archive it would say nothing
+// Returns the facts of a grid for its labels. The local time is that of an IANA zone, or of the
+// machine if none is named. It is left out if it is UTC or not known. The age of the newest radial
+// at `now` is given for grids younger than an hour, because for an archive it would say nothing
 // about the radar.
 [[nodiscard]] FrameFacts frame_facts_of(const std::string& domain,
                                         const cache::GridDescription& description,

@@ -1,10 +1,11 @@
-// render/options/still_frame.h -- one still of one grid: what nobody asked for is fitted to the
-// echo, the picture is drawn and encoded, with its metadata.
+// render/options/still_frame.h -- makes one still of one grid: fits unspecified options to the
+// echo, draws the picture and encodes it with its metadata.
 //
-// `stormcellar frame` and the data server both draw by these functions, so that the same options
+// Both `stormcellar frame` and the data server draw by these functions, so that the same options
 // give the same bytes.
 //
-// Threads   Pure but for the scene that is fitted; drawing uses `threads` threads of its own.
+// Threads   Pure, except that they change the fitted scene; drawing uses `threads` threads of its
+//           own.
 // Errors    See each function.
 #pragma once
 
@@ -22,21 +23,22 @@
 
 namespace stormcellar::render {
 
-// The grid and the options that a still is drawn from. All that it refers to must outlive it.
+// The grid and the options that a still is drawn from. The objects that it refers to must outlive
+// it.
 struct StillSource {
     const std::string& domain;
     const grid::BrickView& view;
     const cache::GridDescription& description;
     const SceneOptions& options;
-    // The picture says how old the newest radial is, if that is less than an hour. Without it, the
-    // picture does not depend on the time at which it is drawn.
+    // If true, the picture says how old the newest radial is, if that is less than an hour. If
+    // false, the picture does not depend on the time at which it is drawn.
     bool tells_age = true;
 };
 
-// Returns what the labels of the still say.
+// Returns the facts that the labels of the still show.
 [[nodiscard]] FrameFacts facts_of_still(const StillSource& source);
 
-// Chooses what was not asked for by the echo (fitted_view.h). A sweep is seen from above, as it is.
+// Chooses unspecified options by the echo (fitted_view.h). A sweep stays as it is, seen from above.
 // Errors: those of fit_picture().
 [[nodiscard]] Status fit_to_grid(const StillSource& source, Scene& scene);
 
@@ -46,11 +48,11 @@ struct StillWriting {
     TiffContent tiff = TiffContent::values;
     std::string error;  // of the picture, by its plan; empty: not planned
     int threads = 1;
-    std::function<void()> drawn;  // is called when the picture is drawn, before it is encoded
+    std::function<void()> drawn;  // called after the picture is drawn, before it is encoded
 };
 
-// Draws the fitted scene and encodes the picture; of a format of maps, encodes the map of the grid
-// instead, and does not call `drawn`. Errors: those of render_frame() and of the format.
+// Draws the fitted scene and encodes the picture. A format of maps encodes the map of the grid
+// instead and does not call `drawn`. Errors: those of render_frame() and of the format.
 [[nodiscard]] Result<std::vector<std::byte>> encode_still(const StillSource& source,
                                                           const Scene& scene,
                                                           const StillWriting& writing);

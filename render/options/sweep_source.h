@@ -1,5 +1,5 @@
-// render/options/sweep_source.h -- the sweep of a volume that a scene asks for, the plane on which
-// it is drawn, and what the picture says of it.
+// render/options/sweep_source.h -- finds the sweep of a volume that a scene asks for, the plane on
+// which it is drawn, and its description.
 //
 // `stormcellar frame` and the data server both choose by these functions, so that the same options
 // give the same picture.
@@ -20,23 +20,23 @@
 
 namespace stormcellar::render {
 
-// Returns the elevation or the number that the scene names. Of several sweeps of one angle the one
-// nearest to the time is meant, or the newest.
+// Returns the elevation or the number that the scene names. If several sweeps have one angle, the
+// sweep nearest to the time is meant, or the newest.
 [[nodiscard]] grid::SweepWish sweep_wish_of(const Scene& scene,
                                             std::optional<UtcTime> nearest_to = {});
 
 // Returns the cuts of the volume's pattern at the angle nearest to the wish, so that no others need
-// be decoded. Empty, which is all cuts: the sweep is wished by its number, which counts all sweeps,
-// or no cut is near, which an error tells with all angles that there are.
+// be decoded. Returns none, which means all cuts, in two cases: the wish has a number, which counts
+// all sweeps; or no cut is near, so that the error can list all angles.
 [[nodiscard]] std::vector<int> cuts_of_wish(const level2::Volume& volume,
                                             const grid::SweepWish& wish);
 
-// Returns the plane about the site that reaches to the last gate. Its cells, which only formats of
-// maps show, are as wide as gates.
+// Returns the plane about the site that reaches to the last gate. Its cells are as wide as gates;
+// only formats of maps show them.
 [[nodiscard]] grid::GridSpec plane_of_sweep(const grid::SweepLookup& sweep);
 
-// Describes the sweep of the volume on its plane as a grid is described, for labels and metadata.
-// `file` is the path or the name of the volume's file.
+// Describes the sweep of the volume on its plane in the way that a grid is described, for labels
+// and metadata. `file` is the path or the name of the volume's file.
 [[nodiscard]] cache::GridDescription describe_sweep(const grid::SweepLookup& sweep,
                                                     grid::GridSpec plane,
                                                     const grid::SourceVolume& source,

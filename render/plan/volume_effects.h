@@ -2,17 +2,17 @@
 //
 //   slices       32 ... 2048; each effect doubles the number: slices_64, slices_128, ...
 //   integration  the nearer value of each step; value_span: all values between its ends;
-//                step_attenuation: in their order, the near ones hiding the far ones
+//                step_attenuation: in their order, so that near values hide far ones
 //   pixels       interpolated between rays where the picture is nearly straight; every_pixel: a ray
 //                for each pixel
-//   surface      equally bright whatever way it faces; gradient_light: lighter toward the sun and
+//   surface      equally bright in every direction; gradient_light: lighter toward the sun and
 //                darker away from it
 //   light        the same everywhere; shadow_light: the light of sun and sky that gets through;
 //                scattering_light: the same, scattered once toward the camera
-// The scene does not ask for kinds of light that it does not have (stormcellar/render/light.h), so
-// the exact picture lacks them too. Camera, exaggeration and the curve of the earth belong to the
-// scene: they say what is shown. Sizes are color differences (CIEDE2000). The exact form has every
-// effect on; docs/accuracy.md says how far 2048 slices are from infinitely many.
+// A light that the scene does not have (stormcellar/render/light.h) is not asked for, so the exact
+// picture lacks it too. Camera, exaggeration and the curve of the earth belong to the scene,
+// because they define what is shown. Sizes are color differences (CIEDE2000). The exact form has
+// every effect on; docs/accuracy.md says how far 2048 slices are from infinitely many.
 //
 // Threads   Plain values and pure functions.
 #pragma once
@@ -40,7 +40,7 @@ inline constexpr double interpolated_tolerance = 2.0 / 255;
 // not have. Sizes and costs are 0 until predict() sets them (render/plan/volume_plan.h).
 [[nodiscard]] accuracy::Chain volume_chain(const Light& light = {});
 
-// Returns the rungs of a choice by name. The chain must be one of volume_chain().
+// Returns the rungs of a choice by name. volume_chain() must have made the chain.
 [[nodiscard]] VolumeChoice volume_choice(const accuracy::Chain& chain,
                                          const accuracy::Choice& choice);
 // Returns the choice for these rungs. The number of slices is rounded up to a rung.

@@ -2,9 +2,9 @@
 // of each effect in it.
 //
 // A size is the 99th percentile of CIEDE2000 over all pixels of the picture, without labels and
-// over the page's color, for a rung against the one below with every other step exact. The whole
-// picture is measured against that of the exact chain, so nothing is estimated; the price is that
-// this picture must be drawn once.
+// over the page's color. It compares a rung with the rung below, with every other step exact. The
+// whole picture is measured against the picture of the exact chain, so nothing is estimated; the
+// price is that this picture must be drawn once.
 //
 // Threads   A VolumeScene may be used by one thread at a time; it draws with `threads` threads.
 #pragma once
@@ -25,7 +25,7 @@ namespace stormcellar::render {
 // A scene that is drawn with several choices. All arguments must outlive it.
 class VolumeScene {
   public:
-    // `width` and `height` are those of the picture without its labels.
+    // `width` and `height` are the size of the picture without its labels.
     VolumeScene(const grid::BrickView& view, const ColorTable& table, const Scene& scene, int width,
                 int height, int threads);
 
@@ -44,10 +44,10 @@ class VolumeScene {
     std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to these stay valid
 };
 
-// The effects to predict: those that the scene asks for, or all. No plan needs the others.
+// The effects to predict: those that the scene asks for, or all. A plan needs only the first.
 enum class Predicted { asked, all };
 
-// Predicts the size and cost of each effect for this scene. Settings stay.
+// Predicts the size and cost of each effect for this scene. Settings stay as they are.
 [[nodiscard]] Status predict(VolumeScene& scene, accuracy::Chain& chain,
                              Predicted which = Predicted::asked);
 

@@ -1,9 +1,9 @@
-// render/products/cell_mixer.h -- what lies between the cells of a grid.
+// render/products/cell_mixer.h -- mixes the cells of a grid for a place between them.
 //
 // This is the status rule (docs/geometry.md, grid/sweep/mixture.h) with the weights of the cells:
 // not seen if more than half is not seen; else range folded if that is the largest part; else no
-// echo if that outweighs the values; else the mean of the values by weight. No echo does not enter
-// a value, because a grid does not hold the detection limits of its cells. PHI is averaged on its
+// echo if that outweighs the values; else the weighted mean of the values. No echo does not enter a
+// value, because a grid does not hold the detection limits of its cells. PHI is averaged on its
 // circle of 360 degrees. For VEL, whose circle a grid does not hold, the value that weighs most is
 // the result.
 //
@@ -19,7 +19,7 @@
 
 namespace stormcellar::render {
 
-// Returns what a cell holds. The cell must exist. `half_period` is that of its moment, for a
+// Returns the content of a cell, which must exist. `half_period` belongs to its moment, for a
 // Nyquist velocity that is not known.
 [[nodiscard]] grid::Sample cell_of(const grid::BrickView& view, float half_period, int ix, int iy,
                                    int iz);
@@ -30,7 +30,7 @@ class CellMixer {
     explicit CellMixer(level2::Moment moment);
 
     void clear() { count_ = 0; }
-    // Weights of 0 are left out.
+    // Adds a cell. Weights of 0 are left out.
     void add(const grid::Sample& cell, double weight);
     [[nodiscard]] grid::CellResult result() const;
 
@@ -44,14 +44,14 @@ class CellMixer {
     std::size_t count_ = 0;
 };
 
-// The two levels around a height, and the share of the upper one. Both are the same at a level, and
-// within the half level by which the cells of the first and the last level reach beyond it.
+// The two levels around a height, and the share of the upper one. Both levels are the same at a
+// level, and within the half level by which the first and the last cells reach beyond it.
 struct LevelPair {
     int lower = 0, upper = 0;
     double upper_share = 0;
 };
-// Returns the levels around a height. Errors: bad_argument, naming the heights of the grid, where
-// it has no cells.
+// Returns the levels around a height. Errors: bad_argument if the grid has no cells there; the
+// message gives its heights.
 [[nodiscard]] Result<LevelPair> levels_about(const grid::GridSpec& spec, double height_m);
 
 }  // namespace stormcellar::render

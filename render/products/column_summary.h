@@ -1,7 +1,7 @@
-// render/products/column_summary.h -- three numbers for each column of a grid.
+// render/products/column_summary.h -- summarizes each column of a grid in three numbers.
 //
-// 2D products and the ground of the 3D view need them: the lowest level at which the column was
-// seen, its highest value, and the states that it holds.
+// 2D products and the ground of the 3D view need the lowest level at which the column was seen, its
+// highest value, and the states that it holds.
 //
 // Threads   Plain values and a pure function.
 #pragma once
@@ -29,12 +29,12 @@ struct ColumnSummary {
     }
 };
 
-// Returns true if all bricks one over another at this place are uniform: then the columns on them
-// are all the same, and have no value.
+// Returns true if all bricks of this column of bricks are uniform. Then the columns of cells in
+// them are all the same, and have no value.
 [[nodiscard]] bool is_uniform_stack(const grid::BrickView& view, int bx, int by);
 
-// Returns the states of the 16 cells one over another in a brick of states, from this cell of the
-// brick on: two bits each, the lowest cell in the lowest bits.
+// Returns the states of 16 cells of a column in a brick of states, from this cell of the brick
+// upward: two bits each, the lowest cell in the lowest bits.
 [[nodiscard]] std::uint32_t states_of_run(const grid::BrickView& view,
                                           const grid::BrickEntry& entry, std::size_t cell);
 

@@ -81,7 +81,7 @@ bool reaches(const ColumnCells& cells, std::size_t cell, double threshold_dbz) {
            static_cast<double>(cells.values[cell]) >= threshold_dbz;
 }
 
-// Returns none if no cell reaches the threshold.
+// Returns the echo top, or none if no cell reaches the threshold.
 std::optional<EchoTop> echo_top(const ColumnCells& cells, const std::vector<double>& levels_m,
                                 double threshold_dbz) {
     for (std::size_t i = levels_m.size(); i-- > 0;) {
@@ -197,7 +197,7 @@ Result<FlatField> cappi_field(const BrickView& view, level2::Moment moment, doub
         for (int ix = 0; ix < field.width; ++ix) {
             const grid::Sample lower = cell_of(view, half_period, ix, iy, levels->lower);
             const grid::Sample upper = cell_of(view, half_period, ix, iy, levels->upper);
-            // Most columns are clear or were not seen at both levels.
+            // Most columns are clear at both levels, or not seen at both.
             if (lower.status == upper.status && lower.status != CellStatus::value) {
                 field.put(field.index(ix, iy), lower.status, 0);
                 continue;

@@ -1,13 +1,13 @@
 // render/products/flat_field.h -- 2D products: one value or state for each column of a grid.
 //
-//   composite   The largest value of the column; the state by ColumnSummary::status().
+//   composite   The largest value of the column; ColumnSummary::status() gives the state.
 //   cappi       The value at one height, linear between the two levels around it (cell_mixer.h says
-//               which state results where states mix). At a level it is that level.
+//               which state results where states mix). At a level it is the value of that level.
 //   echo_top    km: the greatest height at which reflectivity reaches a threshold. From the highest
-//               cell that reaches it, it goes straight in dB to the next cell above, if that has a
-//               value. If there is no echo above, it is the height of the cell itself. If the cell
-//               above was not seen or is range folded, or there is none, the top is not known and
-//               the height is marked "at least".
+//               cell that reaches it, reflectivity is linear in dB to the next cell above, if that
+//               has a value. If there is no echo above, the top is the height of the cell itself.
+//               If the cell above was not seen, is range folded or does not exist, the top is not
+//               known and the height is marked "at least".
 //   vil         kg/m2: vertically integrated liquid after Greene and Clark (1972). It is 3.44e-6
 //               times the integral of Z^(4/7) over height, where Z (mm6/m3) of a layer is the mean
 //               of the two levels around it, capped at 56 dBZ, as the Weather Service does. No echo
@@ -15,18 +15,17 @@
 //               beside them is left out. The first and the last level reach half a level beyond
 //               themselves, like cells.
 //   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is
-//   a
-//               mean density, so tall and low storms compare; hail shows as much in little depth.
-//               Columns have a value where there is an echo top. Where the top may be higher, or
-//               VIL lacks what was not seen, the result is that of the part that was seen. A top
-//               of less than least_depth_m counts as that.
-//   maximum_height   km: the height of the cell with the largest value of the column, the lowest
-//               of several, where that value reaches a threshold.
+//                 a mean density, so tall and low storms compare; hail shows as much in little
+//                 depth. Columns have a value where there is an echo top. If the top may be higher,
+//                 or VIL lacks cells that were not seen, the result covers the part that was seen.
+//                 A top of less than least_depth_m counts as least_depth_m.
+//   maximum_height   km: the height of the lowest cell with the largest value of the column, if
+//                    that value reaches a threshold.
 //   ppi         The gate of a sweep at the center of each column. A picture looks up each pixel
 //               (sweep_field.h).
 //   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
 //                               seen".
-// A column without a value of the products of reflectivity is range folded if any cell is, because
+// For products of reflectivity, a column without a value is range folded if any cell is, because
 // the echo behind it is unknown; else no echo (below the threshold) if any cell was seen; else not
 // seen.
 //
@@ -67,10 +66,10 @@ struct FlatField {
 
 [[nodiscard]] FlatField composite_field(const grid::BrickView& view,
                                         const std::vector<ColumnSummary>& columns);
-// Errors: bad_argument for a height at which the grid has no cells.
+// Makes the CAPPI. Errors: bad_argument for a height at which the grid has no cells.
 [[nodiscard]] Result<FlatField> cappi_field(const grid::BrickView& view, level2::Moment moment,
                                             double height_m, int threads);
-// For grids of reflectivity.
+// The next two functions are for grids of reflectivity.
 [[nodiscard]] FlatField echo_top_field(const grid::BrickView& view, double threshold_dbz,
                                        int threads);
 [[nodiscard]] FlatField vil_field(const grid::BrickView& view, int threads);
@@ -88,7 +87,7 @@ inline constexpr double least_depth_m = 500;
 [[nodiscard]] double radar_height_m(const FrameFacts& facts);
 
 // Returns the field of the scene's product, whose view is a map. The scene must be valid for the
-// view and its facts. The columns are not used for a ppi. Errors: bad_argument, as of the products.
+// view and its facts. A ppi does not use the columns. Errors: bad_argument, as for the products.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,
                                           const Scene& scene,
                                           const std::vector<ColumnSummary>& columns, int threads);

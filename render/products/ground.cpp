@@ -21,13 +21,13 @@ class ColumnFinder {
           cell_width_m_(spec.cell_width_m()),
           cell_height_m_(spec.cell_height_m()) {}
 
-    // Returns -1 beyond the grid.
+    // Returns the column that holds a point; -1 beyond the grid.
     [[nodiscard]] std::ptrdiff_t at(GroundPoint p) const {
         return holding(p.x_m / cell_width_m_ + 0.5 * nx_, p.y_m / cell_height_m_ + 0.5 * ny_);
     }
 
-    // The same in two steps: where the points of a row are, counted in columns, and which column
-    // holds such a place.
+    // These do the same in two steps: the places of the points of a row, counted in columns, and
+    // the column that holds such a place.
     void places_of(const GroundRow& row, std::vector<double>& x, std::vector<double>& y) const {
         x.resize(row.x_m.size());
         y.resize(row.y_m.size());
@@ -54,9 +54,9 @@ bool is_dot(int x, int y, double scale) {
     return (x + shift) % period < size && y % period < size;
 }
 
-// Seen at a slant, the ground goes on by so much of the grid's half width.
+// Seen at a slant, the ground continues by this share of the grid's half width.
 constexpr double slanted_reach = 1.5;
-// Seen from straight above it goes on as far as maps hold.
+// Seen from straight above, the ground continues as far as maps reach.
 constexpr double farthest_m = 2e6;
 
 constexpr int band_rows = 8;
@@ -70,8 +70,8 @@ void for_each_band(const ViewGeometry& geometry, int threads, Work work) {
     });
 }
 
-// Finds what is under the pixels of a row: the column of each, and its share of water. All
-// divisions of a row are made first, in loops that the compiler makes many of at once.
+// Finds the column and the share of water under the pixels of a row. All divisions of a row are
+// made first, in loops that the compiler vectorizes.
 class RowFinder {
   public:
     // `water` may be null.
@@ -81,11 +81,11 @@ class RowFinder {
         columns_.places_of(row, column_x_, column_y_);
         if (water_ != nullptr) water_->find(row, water_at_);
     }
-    // Returns -1 beyond the grid and in the sky.
+    // Returns the column under a pixel; -1 beyond the grid and in the sky.
     [[nodiscard]] std::ptrdiff_t column(std::size_t x) const {
         return columns_.holding(column_x_[x], column_y_[x]);
     }
-    // Not for the sky.
+    // Returns the share of water under a pixel, which must not show the sky.
     [[nodiscard]] double water(std::size_t x) const {
         return water_ == nullptr ? 0 : water_at_.share[x];
     }

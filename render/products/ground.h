@@ -1,7 +1,7 @@
-// render/products/ground.h -- paints what lies flat: the ground of the 3D view, and 2D products.
+// render/products/ground.h -- paints flat things: the ground of the 3D view, and 2D products.
 //
-// Both paint an opaque picture pixel by pixel. Each pixel shows the column into whose cell it
-// falls. Beyond the grid the ground goes on, darker (or, on a light page, lighter), if the picture
+// Both are opaque pictures, painted pixel by pixel. Each pixel shows the column whose cell it falls
+// into. Beyond the grid the ground continues, darker (or, on a light page, lighter), if the picture
 // has a map; else there is the page. Land and water have shades of their own.
 //
 // Threads   Pure functions; the same bits for any number of threads.
@@ -25,8 +25,8 @@ namespace stormcellar::render {
 // A column that was seen below this height above sea level counts as seen from low down.
 inline constexpr double low_coverage_m = 3000;
 
-// The detail in which the ground shows how the columns over it were seen: from low down, only
-// higher up, or not at all; or, if haze shows the rest, only seen or not.
+// How the ground shows the way the columns over it were seen: from low down, only higher up, or not
+// at all; or, if haze shows the rest, only seen or not.
 enum class GroundTells { how_low, whether_seen };
 
 // The settings for painting the ground.
@@ -36,10 +36,10 @@ struct GroundLook {
     double scale = 1;                  // of hatch and dots
 };
 
-// A pixel of the whole picture, and what is under it.
+// A pixel of the whole picture, and the ground under it.
 struct GroundPatch {
     int x = 0, y = 0;
-    double water = 0;  // its share
+    double water = 0;  // share of water
     GroundPoint point{};
 
     [[nodiscard]] Rgba8 shade(const GroundLook& look, Rgba8 GroundShades::*which) const {
@@ -56,18 +56,18 @@ struct GroundPatch {
                                  const GroundLook& look, int threads);
 
 // Returns the color of a place of a field at a pixel of the whole picture. A value has the color of
-// the table, over plain ground where that is translucent, and with dots if it is "at least". No
-// echo and values below the table are plain ground, range folded has its own color, and not seen is
-// hatched.
+// the table, over plain ground if the color is translucent, and with dots if the value is "at
+// least". No echo and values below the table are plain ground, range folded has its own color, and
+// not seen is hatched.
 [[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColorTable& table,
                              const GroundPatch& patch, const GroundLook& look);
 
-// The same for a value or a state of no field.
+// Returns the color of a value or a state that is in no field.
 [[nodiscard]] Rgba8 shade_of(grid::CellStatus status, float value, bool at_least,
                              const ColorTable& table, const GroundPatch& patch,
                              const GroundLook& look);
 
-// Paints a product, whose columns and rows are those of the grid; `smoothed` by
+// Paints a product, whose columns and rows are those of the grid; `smoothed` paints it by
 // render/products/smooth_field.h.
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColorTable& table, const ViewGeometry& geometry,
@@ -75,13 +75,13 @@ struct GroundPatch {
 
 // Returns true if parallel rays look straight down, as in a map.
 [[nodiscard]] bool is_from_above(const ViewGeometry& geometry);
-// Returns how far beyond the grid the ground is shown, in meters. Seen from straight above it fills
-// the picture; else it ends around the grid.
+// Returns how far beyond the grid the ground is shown, in meters. Seen from straight above, it
+// fills the picture; else it ends around the grid.
 [[nodiscard]] double reach_beyond_m(const ViewGeometry& geometry);
-// Fades the ground beyond the grid, with the lines on it, to the page, unless it is seen from
+// Fades the ground beyond the grid, and the lines on it, to the page, unless it is seen from
 // straight above.
 void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture);
-// The same for a field of the pixels themselves (sweep_in_picture()).
+// Paints a field that has a place for each pixel (sweep_in_picture()).
 [[nodiscard]] Image paint_pixels(const grid::GridSpec& spec, const FlatField& field,
                                  const ColorTable& table, const ViewGeometry& geometry,
                                  const GroundLook& look, int threads);

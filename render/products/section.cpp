@@ -51,8 +51,8 @@ grid::Sample sample_of(const ColumnCells& cells, float half_period, int level) {
     return {cells.status[i], cells.values[i], 0, half_period};
 }
 
-// Returns for each level the state that all four columns have there; value where they differ, or
-// have values.
+// Returns for each level the common state of all four columns. Returns value if they differ or hold
+// values.
 std::vector<grid::CellStatus> states_of_all(const std::array<Corner, 4>& corners) {
     std::vector<grid::CellStatus> states = corners.front().cells.status;
     for (const Corner& corner : corners) {
@@ -101,7 +101,7 @@ Section cut_section(const grid::BrickView& view, level2::Moment moment, const Se
         for (int y = 0; y < height; ++y) {
             const auto& levels = rows[static_cast<std::size_t>(y)];
             if (!levels) continue;
-            // Cells of one state give that state; most of a section is clear or was not seen.
+            // Cells of one state give that state. Most of a section is clear or was not seen.
             const grid::CellStatus state = states[static_cast<std::size_t>(levels->lower)];
             if (state != grid::CellStatus::value &&
                 state == states[static_cast<std::size_t>(levels->upper)]) {

@@ -2,10 +2,9 @@
 //
 // The section follows the geodesic from one place to the other, and is sampled at the centers of
 // the pixels of a picture: bilinear between the centers of columns and linear in height, by the
-// status rule (cell_mixer.h). Half a cell beyond the outermost centers the outermost cells
-// continue, as everywhere; farther out there is no grid. Heights run from sea level (or the lowest
-// cells, if these lie below it) to the highest cells. Air under the lowest cells counts as not
-// seen.
+// status rule (cell_mixer.h). The outermost cells reach half a cell beyond their centers; farther
+// out there is no grid. Heights run from sea level (or from the lowest cells, if they are below it)
+// to the highest cells. Air under the lowest cells counts as not seen.
 //
 // Accuracy  Places are within 1e-6 m of the geodesic (stormcellar/grid/site_frame.h).
 // Threads   Pure functions; the same bits for any number of threads.
@@ -39,10 +38,12 @@ struct Section {
 [[nodiscard]] Section cut_section(const grid::BrickView& view, level2::Moment moment,
                                   const SectionLine& line, int width, int height, int threads);
 
-// Returns bad_argument, saying where the grid is, if no part of the section lies in it.
+// Returns bad_argument if no part of the section is in the grid; the message says where the grid
+// is.
 [[nodiscard]] Status check_in_grid(const Section& section, const grid::GridSpec& spec);
 
-// Where the section lies in a picture of this size. There is room for axes unless `labels` are off.
+// The place of the section in a picture of this size. There is room for axes unless `labels` is
+// false.
 struct SectionPlace {
     int left = 0, top = 0, width = 1, height = 1;
 
@@ -53,8 +54,8 @@ struct SectionPlace {
 [[nodiscard]] SectionPlace section_place(int width, int height, double scale, bool labels);
 
 // Draws the section with axes: distance and height in their units, latitude and longitude of both
-// ends, and the factor by which heights are stretched, which follows from filling the picture. If
-// `fonts` is null, there are no axes.
+// ends, and the factor that stretches heights so that they fill the picture. If `fonts` is null,
+// there are no axes.
 [[nodiscard]] Image draw_section(const Section& section, const ColorTable& table,
                                  const SectionPlace& place, int width, int height,
                                  const GroundLook& look, const Units& units, const Fonts* fonts,

@@ -43,8 +43,8 @@ class Axes {
     }
 
   private:
-    // Draws a text so that `share` of its width lies left of x, or farther left where the picture
-    // ends.
+    // Draws a text so that `share` of its width is left of x, or farther left at the end of the
+    // picture.
     void put(const std::string& text, double x, double baseline, double share, bool strong) {
         const double size = 10 * scale_;
         const double width = fonts_.width(text, size, strong);

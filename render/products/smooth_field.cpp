@@ -54,9 +54,11 @@ SmoothField::Place SmoothField::at(double x, double y) const {
     return {status, value_at(west, south, beyond_x, beyond_y)};
 }
 
-// Returns the value between the cells (x, y) and (x + 1, y + 1), of which one at least has a value.
+// Returns the value between the cells (x, y) and (x + 1, y + 1). At least one of the four has a
+// value.
 float SmoothField::value_at(int x, int y, float beyond_x, float beyond_y) const {
-    // The 4 x 4 cells, row by row; what is beyond the edge of the field repeats it.
+    // The 4 x 4 cells, row by row. Beyond the edge of the field, the cells at the edge are
+    // repeated.
     std::array<float, 16> values;
     std::array<bool, 16> known;
     for (int row = 0; row < 4; ++row) {
@@ -68,8 +70,8 @@ float SmoothField::value_at(int x, int y, float beyond_x, float beyond_y) const 
             values[k] = field_.values[cell];
         }
     }
-    // The middle four: their range bounds the result, and their mean stands for those without a
-    // value.
+    // The range of the middle four bounds the result, and their mean replaces those of the four
+    // without a value.
     constexpr std::array<std::size_t, 4> middle = {5, 6, 9, 10};
     float sum = 0, count = 0, least = 0, largest = 0;
     for (const std::size_t k : middle) {

@@ -1,23 +1,21 @@
-// render/products/smooth_field.h -- a map between the cells of its grid, for the eye alone.
+// render/products/smooth_field.h -- smooths a map between the cells of its grid, for the eye alone.
 //
-// A map shows each cell as a square. Here its values go smoothly from cell to cell instead, by a
-// cubic of Catmull and Rom through 4 x 4 cells that never leaves the values of the four cells
+// A map shows each cell as a square. Here its values change smoothly from cell to cell instead, by
+// a cubic of Catmull and Rom through 4 x 4 cells that never leaves the range of the four cells
 // around a place. The state is decided first, and values are mixed only with values:
-//   state    Where all four cells are a value or no echo, a value if the cells with values weigh
-//   half
-//            or more (bilinear weights), else no echo. Otherwise that of the nearest cell.
-//   value    One of the four cells without a value stands for the mean of those with one; one of
-//   the
-//            twelve around them for the nearest of the four.
-// At the center of a cell the result is that cell, exactly. Beyond the outermost centers the edge
-// goes on.
+//   state    If all four cells are a value or no echo, the result is a value if the cells with
+//            values weigh half or more (bilinear weights), else no echo. Otherwise it is the state
+//            of the nearest cell.
+//   value    One of the four cells without a value gets the mean of those with a value. One of the
+//            twelve around them gets the nearest of the four.
+// At the center of a cell the result is exactly that cell. Beyond the outermost centers the edge
+// continues.
 //
 // Values on a circle (VEL, PHI) are not smoothed, because a grid does not say where they wrap.
 //
 // Threads   Immutable.
 // Accuracy  tests/render/smooth_field_test.cpp compares all patterns of states of 4 x 4 cells with
-// a
-//           slow form.
+//           a slow form.
 #pragma once
 
 #include "render/products/flat_field.h"
@@ -30,14 +28,14 @@ namespace stormcellar::render {
 
 class SmoothField {
   public:
-    // The field must outlive this.
+    // The field must outlive the object.
     explicit SmoothField(const FlatField& field) : field_(field) {}
 
     struct Place {
         grid::CellStatus status = grid::CellStatus::not_seen;
         float value = 0;  // 0 if the status is not value
     };
-    // Returns what is at a place in cells, where cell (0, 0) has its center at 0, 0.
+    // Returns the content of a place in cells, where cell (0, 0) has its center at 0, 0.
     [[nodiscard]] Place at(double x, double y) const;
 
   private:

@@ -3,8 +3,8 @@
 //
 // Each place shows one gate (stormcellar/grid/sweep_lookup.h): values are not mixed.
 //
-// Accuracy  On a plane about the radar itself the places are exact. On another one, azimuth and arc
-//           are found at every few pixels and are straight in between, within 0.5 m for radars up
+// Accuracy  On a plane about the radar itself the places are exact. On another plane, azimuth and
+//           arc are computed every few pixels and straight in between, within 0.5 m for radars up
 //           to 500 km off the middle of the picture (tests/render/sweep_field_test.cpp).
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
@@ -16,12 +16,12 @@
 
 namespace stormcellar::render {
 
-// Returns what is at the middle of each pixel of a map, rows from the top down. Beyond the grid
+// Returns the gate at the middle of each pixel of a map, rows from the top down. Beyond the grid
 // nothing was seen.
 [[nodiscard]] FlatField sweep_in_picture(const grid::SweepLookup& sweep, const grid::GridSpec& spec,
                                          const ViewGeometry& geometry, int threads);
 
-// Returns what is at the center of each column, rows from south to north.
+// Returns the gate at the center of each column, rows from south to north.
 [[nodiscard]] FlatField sweep_in_columns(const grid::SweepLookup& sweep, const grid::GridSpec& spec,
                                          int threads);
 

@@ -1,4 +1,4 @@
-// render/products/water_mask.h -- where the ground of a picture is sea or lake.
+// render/products/water_mask.h -- which parts of the ground of a picture are sea or lake.
 //
 // Threads   Plain data.
 #pragma once
@@ -20,16 +20,16 @@ struct WaterMask {
     int width = 0, height = 0;
     std::vector<std::uint8_t> water;  // the share of each cell, 0 to 255; row by row from the north
 
-    // Returns the share of water at a place, 0..1: straight between the centers of the cells, and
-    // that of the nearest cell outside the raster. An empty mask is all land.
+    // Returns the share of water at a place, 0..1. It is linear between the centers of the cells.
+    // Outside the raster it is that of the nearest cell. An empty mask is all land.
     [[nodiscard]] double water_at(GroundPoint p) const {
         if (water.empty()) return 0;
         return share_at((p.x_m - west_m) / metres_per_cell - 0.5,
                         (north_m - p.y_m) / metres_per_cell - 0.5);
     }
 
-    // The same for a place in the raster, counted in cells from the middle of the first one; the
-    // mask must not be empty.
+    // Does the same for a place in the raster, counted in cells from the middle of the first one.
+    // The mask must not be empty.
     [[nodiscard]] double share_at(double place_x, double place_y) const {
         const double x = std::clamp(place_x, 0.0, width - 1.0);
         const double y = std::clamp(place_y, 0.0, height - 1.0);

@@ -14,8 +14,8 @@ int blocks_along_edge(int cells) {
     return (cells + block_edge - 1) / block_edge;
 }
 
-// The first and the last block along an axis that hold the cells between which places from `least`
-// to `most` lie.
+// The first and the last block along an axis that hold the cells around the places from `least` to
+// `most`.
 struct BlockSpan {
     int first, last;
 };
@@ -88,7 +88,7 @@ void WaterRows::find(const GroundRow& row, WaterRow& found) const {
         found.y[i] = (mask_.north_m - row.y_m[i]) / mask_.metres_per_cell - 0.5;
     for (std::size_t first = 0; first < width; first += run) {
         const std::size_t end = std::min(first + run, width);
-        // Sky in the run: its places are not numbers, and no box holds them.
+        // If there is sky in the run, its places are NaN, and no box holds them.
         const bool has_sky = std::any_of(row.x_m.begin() + static_cast<std::ptrdiff_t>(first),
                                          row.x_m.begin() + static_cast<std::ptrdiff_t>(end),
                                          [](double x_m) { return std::isnan(x_m); });

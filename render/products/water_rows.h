@@ -1,9 +1,9 @@
 // render/products/water_rows.h -- the share of water under each pixel of a row.
 //
-// Most places are far from any shore. So the mask is divided into blocks, and where all blocks
-// under a run of pixels are plain land or plain water, the run is not looked at pixel by pixel.
+// Most places are far from any shore. So the mask is divided into blocks. If all blocks under a run
+// of pixels are plain land or plain water, the run needs no work for each pixel.
 //
-// Accuracy  The bits of WaterMask::water_at().
+// Accuracy  Equal to WaterMask::water_at() to the bit.
 // Threads   Immutable; each thread has a WaterRow of its own.
 #pragma once
 
@@ -17,7 +17,7 @@
 namespace stormcellar::render {
 
 struct WaterRow {
-    std::vector<double> share;  // of each pixel, 0..1; nothing is said about the sky
+    std::vector<double> share;  // of each pixel, 0..1; without meaning for the sky
     std::vector<double> x, y;   // where the pixels are in the raster
 };
 
@@ -29,9 +29,10 @@ class WaterRows {
     void find(const GroundRow& row, WaterRow& found) const;
 
   private:
-    static constexpr std::int16_t shore = -1;  // of a block whose cells differ
+    static constexpr std::int16_t shore = -1;  // marks a block whose cells differ
 
-    // Returns what all cells about the pixels from `first` to `end` have, or `shore`.
+    // Returns the common share of all cells about the pixels from `first` to before `end`, or
+    // `shore`.
     [[nodiscard]] std::int16_t common(const WaterRow& row, std::size_t first,
                                       std::size_t end) const;
     [[nodiscard]] std::int16_t& block(int bx, int by) {

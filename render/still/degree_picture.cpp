@@ -17,7 +17,7 @@ bool is_inside(const grid::GridSpec& spec, grid::ColumnPoint at) {
     return at.x >= -0.5 && at.x < spec.nx - 0.5 && at.y >= -0.5 && at.y < spec.ny - 0.5;
 }
 
-// The box about the outer edge of the cells; longitudes are continuous about the center's.
+// Returns the box about the outer edge of the cells; longitudes are continuous about the center's.
 DegreeBox box_of(const grid::GridSpec& spec, const grid::GridProjection& projection) {
     DegreeBox box{-90, 90, -1e9, 1e9};
     const auto take = [&](double x, double y) {
@@ -61,7 +61,7 @@ PixelSize size_of(const grid::GridSpec& spec, const DegreeBox& box) {
     return {whole(across), whole(down)};
 }
 
-// Where the corners of a mesh of pixels are on the grid.
+// The places on the grid of the corners of a mesh of pixels.
 class DegreeMesh {
   public:
     DegreeMesh(const grid::GridProjection& projection, const DegreeBox& box, PixelSize size,

@@ -1,8 +1,8 @@
-// render/still/degree_picture.h -- a map drawn over latitude and longitude, whatever the projection
+// render/still/degree_picture.h -- draws a map over latitude and longitude, whatever the projection
 // of its grid.
 //
-// Pixels are regular in degrees and show the cell that holds their center. Two pixels are as wide
-// as a cell at the center of the grid, unless a side would then have more than 4096 pixels.
+// Pixels are regular in degrees and show the cell that holds their center. A cell at the center of
+// the grid is two pixels wide, unless a side would then have more than 4096 pixels.
 //
 // Accuracy  Places are computed every eight pixels, and straight between: within 0.02 cells.
 // Threads   Pure; the same bits for any number of threads.
@@ -32,6 +32,6 @@ struct DegreePicture {
                                                     const FlatField& field, const ColorTable& table,
                                                     int threads);
 
-inline constexpr int most_degree_pixels = 4096;  // along a side: what globes take as a texture
+inline constexpr int most_degree_pixels = 4096;  // along a side, as globes take it
 
 }  // namespace stormcellar::render

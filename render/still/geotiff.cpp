@@ -1,6 +1,6 @@
-// GeoTIFF: the cells of a map in the grid's own projection, so that nothing is resampled: a pixel
-// is a column of the grid. Overviews take every second cell of the raster before, so that they hold
-// no value that no cell has.
+// GeoTIFF: the cells of a map in the grid's own projection. A pixel is a column of the grid, so
+// nothing is resampled. Overviews take every second cell of the previous raster, so that every
+// value is the value of a cell.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -130,7 +130,8 @@ std::string states_text() {
     return text;
 }
 
-// Rows of the field run from south to north, those of the raster from north to south.
+// Makes a raster of a field. Rows of the field run from south to north, those of the raster from
+// north to south.
 template <class PixelOf>
 TiffRaster raster_of(const FlatField& field, const PixelOf& pixel_of) {
     TiffRaster raster{field.width, field.height, {}};
@@ -178,12 +179,12 @@ TiffRaster halved(const TiffRaster& from) {
     return half;
 }
 
-// GDAL reads texts as XML, and what it then has once more.
+// GDAL reads texts as XML, and then reads the result as XML again, so escape twice.
 std::string gdal_escaped(std::string_view text) {
     return xml_escaped(xml_escaped(text));
 }
 
-// GDAL shows these as metadata, and as the name and the unit of the band.
+// Returns texts that GDAL shows as metadata, and as the name and the unit of the band.
 std::string gdal_metadata(const StillMap& map, const StillOptions& options) {
     std::string items;
     for (const auto& [keyword, text] : options.metadata) {

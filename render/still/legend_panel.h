@@ -1,4 +1,4 @@
-// render/still/legend_panel.h -- a small panel that says what an overlay of a globe shows: product,
+// render/still/legend_panel.h -- draws a small panel that explains an overlay of a globe: product,
 // place, time and colors.
 //
 // Threads   Pure.

@@ -29,7 +29,7 @@ ColumnPoint mixed(ColumnPoint a, ColumnPoint b, double share) {
     return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share)};
 }
 
-// Where the edges and centers of a window's pixels are on the earth.
+// The places on the earth of the edges and centers of a window's pixels.
 class WindowPlaces {
   public:
     explicit WindowPlaces(const PlaneWindow& window)
@@ -46,7 +46,7 @@ class WindowPlaces {
         if (window_.plane == Plane::degrees) return std::clamp(at, -90.0, 90.0);
         return mercator_latitude_deg(at);
     }
-    // The inverses.
+    // The inverse functions.
     [[nodiscard]] double x_of(double longitude_deg) const {
         const double at = window_.plane == Plane::degrees ? longitude_deg
                                                           : longitude_deg / degrees_per_mercator_m;
@@ -70,7 +70,7 @@ struct PixelBox {
     [[nodiscard]] bool is_empty() const { return left >= right || top >= bottom; }
 };
 
-// The pixels that may lie on the grid if its longitudes are `turn_deg` further east.
+// Returns the pixels that may be on the grid if its longitudes are `turn_deg` farther east.
 PixelBox pixels_of(const PlaneWindow& window, const EarthBox& box, double turn_deg) {
     const WindowPlaces places(window);
     const auto within = [](double pixel, int most) {
@@ -82,7 +82,7 @@ PixelBox pixels_of(const PlaneWindow& window, const EarthBox& box, double turn_d
             within(std::ceil(places.y_of(box.south_deg)) + 1, window.height)};
 }
 
-// Calls work(pixels) for each copy of the grid on a plane whose longitudes go on.
+// Calls work(pixels) for each copy of the grid on a plane that continues beyond 360 degrees.
 template <class Work>
 void for_each_copy(const PlaneWindow& window, const EarthBox& box, const Work& work) {
     const bool is_sane = window.width > 0 && window.height > 0 && window.west < window.east &&
@@ -100,7 +100,7 @@ void for_each_copy(const PlaneWindow& window, const EarthBox& box, const Work& w
     }
 }
 
-// The color of what is at a place in columns.
+// The color of the cell at a place in columns.
 class PlaceColors {
   public:
     explicit PlaceColors(const PlaneMap& map)
@@ -131,7 +131,7 @@ class PlaceColors {
     Rgba8 last_color_{};
 };
 
-// A square of pixels with the places of the centers of its corner pixels, and of the pixels beyond
+// A square of pixels. The corners are the centers of its first pixels and of the pixels just beyond
 // it to the right and below: corners[0] is the top left one, [1] top right, [2] and [3] below.
 struct Mesh {
     int left = 0, top = 0, side = 0;
@@ -183,8 +183,8 @@ class PlanePainter {
         const ColumnPoint right = place_at(x + mesh.side, y + half);
         const ColumnPoint bottom = place_at(x + half, y + mesh.side);
         const ColumnPoint middle = place_at(x + half, y + half);
-        // A conformal map bends the sides of a mesh and leaves its middle where it is, so that all
-        // five are needed.
+        // A conformal map may bend the sides of a mesh and leave its middle in place, so all five
+        // points are checked.
         const ColumnPoint straight = mixed(mixed(a, b, 0.5), mixed(c, d, 0.5), 0.5);
         const double off = std::max({off_by(top, mixed(a, b, 0.5)), off_by(left, mixed(a, c, 0.5)),
                                      off_by(right, mixed(b, d, 0.5)),

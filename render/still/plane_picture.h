@@ -1,15 +1,15 @@
-// render/still/plane_picture.h -- a 2D product drawn on a rectangle of a map's plane: on tiles and
-// on pictures for maps of the web.
+// render/still/plane_picture.h -- draws a 2D product on a rectangle of a map's plane, for tiles and
+// pictures of web maps.
 //
-// A pixel shows the cell that holds its center, as overlay_color() colors it; outside of the grid
-// it is clear. The field may be coarser than the grid: a cell of it then stands for 2^halvings by
+// A pixel shows the cell that holds its center, in the color of overlay_color(). Outside the grid
+// it is clear. The field may be coarser than the grid: then a cell of it stands for 2^halvings by
 // 2^halvings columns, from the southwest corner of the grid.
 //
 // Units     Web Mercator (EPSG:3857) in meters of its plane, degrees as longitude and latitude.
-// Accuracy  Places between the corners of a mesh are straight. Where this is wrong by more than a
-//           tenth of a pixel in the middle of a mesh or of a side, the mesh becomes finer.
+// Accuracy  Places between the corners of a mesh are straight. If the middle of a mesh or of a side
+//           is then off by more than a tenth of a pixel, the mesh becomes finer.
 // Threads   Pure functions.
-// Errors    None: a window without a pixel, or one that does not meet the grid, gives clear pixels.
+// Errors    None: a window without pixels, or off the grid, gives clear pixels.
 #pragma once
 
 #include "render/products/flat_field.h"
@@ -31,25 +31,26 @@ struct PlaneWindow {
     int width = 0, height = 0;  // pixels
 };
 
-// Where a grid is. Longitudes are continuous about that of its center, so that they may be beyond
-// 180 degrees. About a pole it is all longitudes.
+// The box of a grid on the earth. Longitudes are continuous about its center, so they may be beyond
+// 180 degrees. Around a pole the box has all longitudes.
 struct EarthBox {
     double south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
 };
 [[nodiscard]] EarthBox earth_box_of(const grid::GridSpec& spec);
 
-// Latitude of a place in Web Mercator, and the inverse, for latitudes below 89.9 degrees.
+// These return the latitude of a place in Web Mercator, and the inverse, for latitudes below 89.9
+// degrees.
 [[nodiscard]] double mercator_latitude_deg(double y_m) noexcept;
 [[nodiscard]] double mercator_y_m(double latitude_deg) noexcept;
 
-// A product as it is drawn. What is referred to must outlive it.
+// A product to draw. The objects that it refers to must outlive it.
 struct PlaneMap {
     const grid::GridSpec& spec;
     const EarthBox& box;     // of the spec
-    const FlatField& field;  // halved this often
+    const FlatField& field;  // halved `halvings` times
     int halvings = 0;
     const ColorTable& table;
-    bool smooth = false;  // values go smoothly from cell to cell (smooth_field.h)
+    bool smooth = false;  // values change smoothly from cell to cell (smooth_field.h)
 };
 
 // Returns false if no pixel of the window can lie on the grid.

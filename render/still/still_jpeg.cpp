@@ -1,5 +1,5 @@
-// JPEG through libjpeg. Colors are data: they are not subsampled, and the quality is one at which
-// the classes of a color table stay apart.
+// JPEG through libjpeg. Colors are data, so they are not subsampled, and the quality keeps the
+// classes of a color table apart.
 #include <array>
 #include <csetjmp>
 #include <cstdio>
@@ -71,8 +71,8 @@ bool write_jpeg(jpeg_compress_struct& jpeg, JpegErrors& errors, const Image& ima
     return true;
 }
 
-// Source: XMP specification, part 3: the marker APP1 with a name, a zero byte and the packet. Texts
-// that do not fit into one marker are reduced to the title.
+// Source: XMP specification, part 3: the marker APP1 with a name, a zero byte and the packet. If
+// the texts do not fit into one marker, only the title is kept.
 std::string xmp_marker(const PictureTexts& texts) {
     if (texts.empty()) return {};
     const auto marker = [](const PictureTexts& kept) {

@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "rasters are written a
 using TiffBytes = std::vector<std::byte>;
 
 constexpr int pack_level = 6;
-constexpr std::size_t tile_frame_bytes = 8;  // four before a tile, and four behind it
+constexpr std::size_t tile_frame_bytes = 8;  // four bytes before a tile, and four after it
 
 // The types of fields (TIFF 6.0, section 2).
 enum class FieldType : std::uint16_t { ascii = 2, u16 = 3, u32 = 4, f64 = 12 };
@@ -76,8 +76,8 @@ int tiles_along(int pixels) {
     return (pixels + tiff_tile_side - 1) / tiff_tile_side;
 }
 
-// A tile that reaches beyond the raster repeats its last column and row, which packs well and is
-// never shown.
+// Cuts out a tile. A tile that reaches beyond the raster repeats its last column and row, which
+// compress well and are never shown.
 TiffBytes cut_tile(const TiffRaster& raster, std::size_t bytes_each, int tile) {
     const int across = tiles_along(raster.width);
     const int left = tile % across * tiff_tile_side;
@@ -99,7 +99,7 @@ TiffBytes cut_tile(const TiffRaster& raster, std::size_t bytes_each, int tile) {
     return cut;
 }
 
-// Empty if zlib refuses.
+// Returns the compressed bytes; empty if zlib refuses.
 TiffBytes packed(const TiffBytes& from) {
     uLongf size = compressBound(static_cast<uLong>(from.size()));
     TiffBytes to(size);
@@ -124,8 +124,7 @@ Result<std::vector<TiffBytes>> pack_tiles(const TiffRaster& raster, TiffSamples 
     return tiles;
 }
 
-// The keys of GeoTIFF are one field of short numbers, with doubles and texts in fields of their
-// own.
+// Adds the keys of GeoTIFF: one field of short numbers, and one field each for doubles and texts.
 void add_geo_fields(const TiffFacts& facts, std::vector<Field>& fields) {
     constexpr std::uint16_t pixel_scale_tag = 33550, tiepoint_tag = 33922, keys_tag = 34735;
     constexpr std::uint16_t doubles_tag = 34736, texts_tag = 34737;
@@ -184,7 +183,7 @@ void add_sample_fields(const TiffFacts& facts, std::vector<Field>& fields) {
     }
 }
 
-// The fields of one raster; where its tiles stand is filled in later.
+// Returns the fields of one raster. The offsets of its tiles are filled in later.
 std::vector<Field> fields_of(const TiffRaster& raster, const std::vector<TiffBytes>& tiles,
                              const TiffFacts& facts, bool is_overview) {
     std::vector<std::uint32_t> sizes;
@@ -219,7 +218,8 @@ std::vector<Field> fields_of(const TiffRaster& raster, const std::vector<TiffByt
 
 constexpr std::size_t entry_bytes = 12;
 
-// A value of up to four bytes stands in its entry, a longer one behind the directory.
+// Returns true for a value of more than four bytes, which is stored after the directory and not in
+// its entry.
 bool stands_behind(const Field& field) {
     return field.bytes.size() > 4;
 }
@@ -285,7 +285,7 @@ Status check_rasters(const std::vector<TiffRaster>& rasters, TiffSamples samples
     return {};
 }
 
-// Small rasters come first, so that a reader which goes through the file sees something soon.
+// Places the tiles. Small rasters come first, so that a sequential reader sees something soon.
 // Returns the size of the file.
 std::size_t place_tiles(std::size_t at, const std::vector<std::vector<TiffBytes>>& tiles,
                         std::vector<std::vector<Field>>& directories) {

@@ -1,9 +1,9 @@
 // render/still/tiff_file.h -- writes cloud-optimized TIFF files: tiles of 256 x 256, deflated, with
-// smaller copies of the raster (overviews); all directories stand before all tiles.
+// smaller copies of the raster (overviews). All directories come before all tiles.
 //
 // A reader that fetches the first kilobytes then knows where every tile is. The file begins with
-// GDAL's description of this layout, and each tile has its size before it and its last bytes
-// repeated behind it, so that a reader needs no second request.
+// GDAL's description of this layout. Each tile has its size before it and a copy of its last bytes
+// after it, so that a reader needs no second request.
 //
 // Source    TIFF 6.0 (Adobe, 1992); "Cloud Optimized GeoTIFF" of GDAL's COG driver; OGC 19-008r4
 //           (GeoTIFF 1.1) for the tags of georeferencing.
@@ -31,7 +31,7 @@ struct TiffRaster {
     std::vector<std::byte> pixels;  // row by row, from the top
 };
 
-// A key of GeoTIFF: a short number, or numbers of double precision, or a text.
+// A key of GeoTIFF: a short number, numbers of double precision, or a text.
 struct GeoKey {
     std::uint16_t id = 0;
     std::uint16_t number = 0;  // of a short
@@ -52,9 +52,9 @@ struct TiffFacts {
     std::string gdal_nodata = {};
 };
 
-// `rasters`: the whole raster, then its overviews, each half as large. Errors: bad_argument for
-// rasters without pixels or whose bytes do not fit their size; unsupported for more than the 4 GiB
-// that a TIFF can have; internal if zlib refuses.
+// Writes a file. `rasters` are the whole raster, then its overviews, each half as large. Errors:
+// bad_argument for rasters without pixels or whose bytes do not fit their size; unsupported for
+// more than the 4 GiB that a TIFF can have; internal if zlib refuses.
 [[nodiscard]] Result<std::vector<std::byte>> write_tiff(const std::vector<TiffRaster>& rasters,
                                                         const TiffFacts& facts, int threads);
 

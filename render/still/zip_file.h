@@ -1,5 +1,5 @@
-// render/still/zip_file.h -- writes a zip archive of a few members as they are: pictures are packed
-// already.
+// render/still/zip_file.h -- writes a zip archive of a few members without compression, because
+// pictures are compressed already.
 //
 // Source    APPNOTE.TXT 6.3 (PKWARE), sections 4.3.7, 4.3.12 and 4.3.16. Members have no time of
 //           their own, so the same members give the same bytes.
@@ -19,7 +19,8 @@ struct ZipMember {
     std::vector<std::byte> bytes;
 };
 
-// Errors: unsupported for more than the 4 GiB, or the 65,535 members, that a zip can have.
+// Writes an archive. Errors: unsupported for more than the 4 GiB, or the 65,535 members, that a zip
+// can have.
 [[nodiscard]] Result<std::vector<std::byte>> write_zip(const std::vector<ZipMember>& members);
 
 }  // namespace stormcellar::render

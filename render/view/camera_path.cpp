@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The slope at a knot between two straight pieces of these lengths and slopes.
+// Returns the slope at a knot between two straight pieces of these lengths and slopes.
 double slope_between(KeyedCurve::Shape shape, double length_before, double before,
                      double length_after, double after) {
     if (shape == KeyedCurve::Shape::smooth) {
@@ -29,7 +29,7 @@ bool is_same(const std::optional<Eye>& a, const std::optional<Eye>& b) {
     return a.has_value() == b.has_value() && (!a || is_same(*a, *b));
 }
 
-// The way from one azimuth to another, -180 to 180 degrees.
+// Returns the turn from one azimuth to another, -180 to 180 degrees.
 double shortest_way_deg(double from_deg, double to_deg) {
     const double way = std::remainder(to_deg - from_deg, 360);
     return way == -180 ? 180 : way;
@@ -39,7 +39,7 @@ Status complain(std::size_t index, std::string_view why) {
     return fail(ErrorCode::bad_argument, "key {} of the camera {}", index + 1, why);
 }
 
-// Refuses a key that makes no sense by itself, or beside the first one or the one before it.
+// Refuses a key that is invalid by itself, or next to the first key or the previous one.
 Status check_key(const std::vector<CameraKey>& keys, std::size_t i) {
     const CameraKey& key = keys[i];
     const CameraKey& first = keys.front();

@@ -1,16 +1,16 @@
-// render/view/camera_path.h -- the way of a camera through a loop, between places that a user
+// render/view/camera_path.h -- the path of a camera through a loop, between places that a user
 // names.
 //
-// A CameraKey says where the camera is at an instant, and what it does not say is that of the usual
-// camera. Between two keys the camera goes smoothly, without a jump of its velocity:
+// A CameraKey gives the camera at an instant; members without a value come from the usual camera.
+// Between two keys the camera moves smoothly, without a jump of its velocity:
 //   ground plan   Catmull and Rom's curve through the places (also through the points looked at),
 //                 with the knots at the keys' times. Two keys at the same place hold the camera.
 //   heights, tilt, zoom (its logarithm), field of view, azimuth
 //                 Monotone cubics (Fritsch and Carlson 1980): between two keys they stay between
-//                 the values of these, so that no camera dips below the lower of two keys.
-//   azimuth       The shortest way from key to key, and `turns` whole turns more.
-// The camera starts and ends at rest, unless it ends where it began: then it goes on, and the loop
-// may be played for ever without a jolt.
+//                 the values of the keys, so that no camera dips below the lower of two keys.
+//   azimuth       The shortest turn from key to key, plus `turns` whole turns.
+// The camera starts and ends at rest, unless it ends where it began. Then it keeps moving, and the
+// loop may be played for ever without a jolt.
 //
 // Units     Each member names its unit; heights are above sea level.
 // Threads   A CameraPath is immutable.
@@ -26,9 +26,9 @@
 namespace stormcellar::render {
 
 struct CameraKey {
-    double time_s = 0;  // only the proportions of the times count
+    double time_s = 0;  // only the ratios of the times count
     std::optional<double> azimuth_deg, tilt_deg, zoom, field_of_view_deg;
-    int turns = 0;  // on the way from the key before, clockwise seen from above
+    int turns = 0;  // whole turns from the previous key, clockwise seen from above
     std::optional<Eye> eye, look_at;
 };
 
@@ -37,10 +37,12 @@ class KeyedCurve {
   public:
     enum class Shape { smooth, monotone };
 
-    // `times` rise; there are at least two. The slope of `is_held` knots is 0 (empty: of none).
+    // `times` rise; there are at least two. The slope at knots in `is_held` is 0; if empty, no knot
+    // is held.
     KeyedCurve(std::vector<double> times, std::vector<double> values, Shape shape, bool is_closed,
                const std::vector<bool>& is_held = {});
-    // Before the first knot it has the first value, after the last the last.
+    // Returns the value at a time. Before the first knot and after the last, the value there is
+    // constant.
     [[nodiscard]] double at(double time) const;
 
   private:
@@ -49,16 +51,16 @@ class KeyedCurve {
 
 class CameraPath {
   public:
-    // Errors: bad_argument that names the key (1 is the first) and what is wrong with it: times
+    // Makes a path. Errors: bad_argument, which names the key (1 is the first) and its fault: times
     // that do not rise, keys of which only some have a place or a point to look at, azimuth or tilt
-    // beside these two, values out of the ranges of a scene.
+    // in addition to these two, values out of the ranges of a scene.
     [[nodiscard]] static Result<CameraPath> make(const std::vector<CameraKey>& keys,
                                                  const Camera& usual);
 
     [[nodiscard]] double duration_s() const { return times_.back() - times_.front(); }
-    // It ends where it began.
+    // Returns true if the path ends where it began.
     [[nodiscard]] bool is_closed() const { return is_closed_; }
-    // Returns the camera at a share of the way, 0 to 1.
+    // Returns the camera at a share of the path, 0 to 1.
     [[nodiscard]] Camera at(double share) const;
 
   private:

@@ -63,7 +63,7 @@ class EchoOutline::Reader {
         for (std::size_t k = 0; k < codes_.size(); ++k)
             tile.columns[k] += largest >= codes_[k] ? 1 : 0;
         ++tile.columns[all_columns];
-        // Echo that never reaches the usual value of a top ends where it ends.
+        // The top of echo that never reaches the usual threshold of tops is its highest cell.
         const int level = top >= 0 ? top : highest;
         tile.top_m = std::max(
             tile.top_m, static_cast<float>(view_.spec->levels_m[static_cast<std::size_t>(level)]));

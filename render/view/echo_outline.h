@@ -1,5 +1,5 @@
-// render/view/echo_outline.h -- where echo stands in a grid, or in all grids of a loop: for each
-// small square of columns how many reach each of some thresholds, and how high the tops are.
+// render/view/echo_outline.h -- where echo is in a grid, or in all grids of a loop: for each small
+// square of columns, how many reach each of some thresholds, and how high the tops are.
 //
 // Threads   An EchoOutline may be used by one thread at a time.
 // Errors    None.
@@ -21,16 +21,16 @@ class EchoOutline {
   public:
     static constexpr int tile_columns = 4;
     static constexpr std::array<double, 5> thresholds_dbz = {40, 35, 30, 20, 5};
-    // Counts of columns have a place for each threshold, then one for all columns with a value.
+    // Arrays of counts have one place for each threshold, then one for all columns with a value.
     static constexpr std::size_t all_columns = thresholds_dbz.size();
 
     EchoOutline() = default;
     EchoOutline(const grid::BrickView& view, level2::Moment moment) { add(view, moment); }
-    // Adds a grid. One that does not lie where the first one lies is left out.
+    // Adds a grid. A grid at another place than the first one is left out.
     void add(const grid::BrickView& view, level2::Moment moment);
 
-    // A square of columns: how many reach each threshold, how many have a value, and the height of
-    // the highest cell that counts as a top, above sea level.
+    // A square of columns: how many of them reach each threshold, how many have a value, and the
+    // height above sea level of the highest cell that counts as a top.
     struct Tile {
         std::array<std::int32_t, all_columns + 1> columns{};
         float top_m = 0;
@@ -43,13 +43,13 @@ class EchoOutline {
                       static_cast<std::size_t>(y)];
     }
     [[nodiscard]] const grid::GridSpec& spec() const { return spec_; }
-    // The edges of a tile, in meters from the grid's middle; those of a number past the last one
-    // are the edges of the grid.
+    // Returns an edge of the tiles, in meters from the grid's middle. The edge after the last tile
+    // is the edge of the grid.
     [[nodiscard]] double west_m(int x) const;
     [[nodiscard]] double south_m(int y) const;
-    // The area that each counted column stands for.
+    // Returns the area that each counted column represents.
     [[nodiscard]] double column_km2() const;
-    // The columns of all tiles together.
+    // Returns the counts of all tiles together.
     [[nodiscard]] std::array<double, all_columns + 1> columns() const;
 
   private:
@@ -59,8 +59,8 @@ class EchoOutline {
     std::vector<Tile> tiles_;
 };
 
-// Returns true if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less than 60 km2:
-// insects, birds, dust, the ground about the radar, light snow.
+// Returns true if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less than 60 km2.
+// Such echo is insects, birds, dust, the ground about the radar, or light snow.
 [[nodiscard]] bool is_clear_air(const EchoOutline& outline);
 
 }  // namespace stormcellar::render

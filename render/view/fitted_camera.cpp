@@ -11,7 +11,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double least_area_km2 = 60;  // below this, a threshold is reached by specks only
+constexpr double least_area_km2 = 60;  // below this, only specks reach a threshold
 constexpr double range_share = 0.02;   // of the columns beyond each end of the region
 constexpr double wider_share = 0.12, wider_m = 5e3;
 constexpr double least_half_m = 15e3;  // of the region, in each direction
@@ -48,8 +48,8 @@ void for_each_tile(const EchoOutline& outline, Each each) {
     }
 }
 
-// Returns the highest threshold that enough columns reach; all columns if there is none; none if
-// there is no value at all.
+// Returns the highest threshold that enough columns reach, or all columns if there is no such
+// threshold. Returns none if there is no value at all.
 std::optional<std::size_t> threshold_shown(const EchoOutline& outline) {
     const auto columns = outline.columns();
     for (std::size_t k = 0; k < all_columns; ++k) {
@@ -60,7 +60,7 @@ std::optional<std::size_t> threshold_shown(const EchoOutline& outline) {
     return all_columns;
 }
 
-// Returns the places along one axis between which all but a small share of the columns lie.
+// Returns the range along one axis that holds all but a small share of the columns.
 std::pair<int, int> middle_range(const std::vector<double>& counts) {
     double all = 0;
     for (const double count : counts)
@@ -130,7 +130,7 @@ std::vector<Column> columns_of(const EchoOutline& outline, const Region& region)
     return columns;
 }
 
-// Returns the height below which the tops of nearly all columns lie.
+// Returns the height that the tops of nearly all columns stay below.
 double usual_top_m(std::vector<Column> columns) {
     if (columns.empty()) return least_top_m;
     const auto place = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(columns.size() - 1));
@@ -158,7 +158,7 @@ double azimuth_for(const std::vector<Column>& columns) {
     const double middle = 0.5 * (xx + yy);
     const double apart = std::hypot(0.5 * (xx - yy), xy);
     if (!(middle + apart > long_ratio * long_ratio * (middle - apart))) return usual_azimuth_deg;
-    // The long axis, counterclockwise from east; it is seen from the right of it.
+    // The long axis, counterclockwise from east; the camera looks from the right of it.
     const double axis_deg = 0.5 * std::atan2(xy, 0.5 * (xx - yy)) / degree;
     const double turn_deg = std::clamp(-axis_deg, -farthest_turn_deg, farthest_turn_deg);
     return usual_azimuth_deg + 5 * std::round(turn_deg / 5);
@@ -175,8 +175,8 @@ double exaggeration_for(const Region& region) {
     return 0.5 * std::round(2 * std::clamp(wanted, 2.0, 5.0));
 }
 
-// Weak echo is a thin veil in the usual curve of opacity; where nothing else is shown, it is drawn
-// more opaque. Clear air has colors of its own, which are opaque enough.
+// In the usual curve of opacity, weak echo is a thin veil. If nothing else is shown, it is drawn
+// more opaque. Clear air has its own colors, which are opaque enough.
 double opacity_for(const Region& region) {
     constexpr std::array<double, all_columns + 1> factors = {1, 1, 2, 4, 1, 1};
     const double wide = 1 + 0.8 * wideness(region);
@@ -187,7 +187,7 @@ double fall_m(bool curved_earth, double x_m, double y_m) {
     return curved_earth ? (x_m * x_m + y_m * y_m) / earth_diameter_m : 0;
 }
 
-// The directions of a camera, and what its picture holds of the space before it.
+// The directions of a camera, and the extent of its picture.
 struct Looks {
     Vec3 right{}, up{}, forward{};
     double across = 0, upright = 0;  // tangents of half the angles that are filled
@@ -204,7 +204,7 @@ struct Looks {
     }
 };
 
-// The corners of the columns, in drawn space.
+// Returns the corners of the columns, in drawn space.
 std::vector<Vec3> corners_of(const std::vector<Column>& columns, double top_m, double exaggeration,
                              bool curved_earth) {
     std::vector<Vec3> corners;
@@ -219,11 +219,10 @@ std::vector<Vec3> corners_of(const std::vector<Column>& columns, double top_m, d
     return corners;
 }
 
-// Returns the place of a camera that looks along `looks` and has all points in its picture, as near
-// to them as it can be. Each edge of the picture is a plane through the camera; with r, u and f the
-// coordinates along right, up and forward, a point is inside the left plane if r - r0 >= -k (f -
-// f0). The largest f0 for which left and right, and below and above, leave room is the nearest
-// place.
+// Returns the nearest place for a camera that looks along `looks` and has all points in its
+// picture. Each edge of the picture is a plane through the camera. With r, u and f the coordinates
+// along right, up and forward, a point is inside the left plane if r - r0 >= -k (f - f0). The
+// nearest place has the largest f0 for which left and right, and below and above, leave room.
 Vec3 nearest_place(const std::vector<Vec3>& points, const Looks& looks) {
     constexpr double huge = std::numeric_limits<double>::infinity();
     double left = huge, right = -huge, below = huge, above = -huge;
@@ -244,7 +243,7 @@ Vec3 nearest_place(const std::vector<Vec3>& points, const Looks& looks) {
     return place;
 }
 
-// Returns how far from the focus a camera must be that looks at it.
+// Returns the least distance from the focus for a camera that looks at it.
 double least_distance(const std::vector<Vec3>& points, const Vec3& focus, const Looks& looks) {
     double distance = 0;
     for (const Vec3& p : points) {

@@ -1,12 +1,12 @@
-// render/view/fitted_camera.h -- chooses camera, exaggeration, opacity and sun from the echo that
-// is to be seen.
+// render/view/fitted_camera.h -- chooses camera, exaggeration, opacity and sun from the echo to be
+// seen.
 //
-// The outline says where echo stands, for one grid or for all grids of a loop, which then stands
-// still. fit_view() chooses what the caller leaves to it:
+// The outline says where echo is, in one grid or in all grids of a loop; for a loop the view does
+// not move. fit_view() chooses the parts that the caller leaves to it:
 //   shown    The columns that reach the highest of 40, 30, 20 and 5 dBZ that covers 60 km2 or more;
 //            else all columns with a value. Their 2 to 98 % ranges in both directions, widened by
-//            12 % and 5 km, say which region is shown. Of columns of 40 dBZ, those of 35 dBZ in the
-//            region are shown too. Moments other than REF show all columns with a value.
+//            12 % and 5 km, give the region to show. If the columns have 40 dBZ, those of 35 dBZ in
+//            the region are shown too. Moments other than REF show all columns with a value.
 //   place    The ground under these columns and their tops fill 84 % of the picture, in one of its
 //            two directions. The solution is exact, not iterated.
 //   azimuth  From the south; a long region is seen from its long side, at most 45 degrees from the
@@ -28,7 +28,7 @@
 
 namespace stormcellar::render {
 
-// The parts of the view that fit_view() chooses; all else stays as the scene has it.
+// The parts of the view that fit_view() chooses; the scene keeps all others.
 struct FitParts {
     bool azimuth = true, tilt = true, field_of_view = true, place = true;
     bool exaggeration = true, opacity = true, sun = true;
@@ -41,20 +41,20 @@ struct FitParts {
     }
 };
 
-// Where the camera looks, for a camera that moves around it.
+// The fitted view, with the point that a moving camera turns around.
 struct FittedView {
     Camera camera;
     double vertical_exaggeration = 5;
     double opacity = 1;
     double sun_azimuth_deg = 225, sun_elevation_deg = 40;
-    Eye focus;              // the middle of what is shown
+    Eye focus;              // the middle of the shown echo
     double distance_m = 0;  // from the camera to the focus, in drawn space; 0: no place was fitted
     bool has_echo = false;
 };
 
-// Chooses a view for a picture of this size (without its labels). If the camera will move around
-// the focus, `orbits` keeps what is shown in the picture from every side. A camera with parallel
-// rays, which the scene has if it asks for a field of view of 0, has no place to be fitted.
+// Chooses a view for a picture of this size (without its labels). With `orbits`, the shown echo
+// stays in the picture when the camera moves around the focus. A camera with parallel rays (a field
+// of view of 0 in the scene) has no place to fit.
 [[nodiscard]] FittedView fit_view(const EchoOutline& outline, const Scene& scene, int width,
                                   int height, const FitParts& parts = {}, bool orbits = false);
 // Returns the camera of a fitted view, turned around its focus. Positive turns go clockwise seen

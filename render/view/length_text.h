@@ -9,7 +9,7 @@
 
 namespace stormcellar::render {
 
-// Returns the number rounded to so many significant digits, without trailing zeros and never with
+// Returns the number rounded to `digits` significant digits, without trailing zeros and never with
 // an exponent: "9840".
 [[nodiscard]] std::string number_text(double number, int digits = 6);
 
@@ -18,12 +18,11 @@ namespace stormcellar::render {
 // Returns "3 km", "9.84 kft" or "9840 ft".
 [[nodiscard]] std::string height_text(double metres, const Units& units);
 
-// Returns the round length that is nearest to `metres` (above 0), by their ratio: 1, 1.5, 2, 2.5,
-// 3, 4, 5, 6 or 8 of the unit of distances, or so many tens, hundreds or tenths. Kilometers stay as
-// they are.
+// Returns the round length nearest to `metres` (above 0), by their ratio: 1, 1.5, 2, 2.5, 3, 4, 5,
+// 6 or 8 of the unit of distances, or as many tens, hundreds or tenths. Kilometers are not rounded.
 [[nodiscard]] double round_distance(double metres, const Units& units);
 
-// Returns the unit in which steps of heights are counted, in meters: 1 km, or 1000 feet.
+// Returns the unit that steps of heights are counted in, in meters: 1 km, or 1000 feet.
 [[nodiscard]] double height_step_unit_m(const Units& units);
 
 }  // namespace stormcellar::render

@@ -43,7 +43,7 @@ constexpr auto unit_facts = std::to_array<UnitFacts>({
 });
 static_assert(is_in_order(unit_facts, &UnitFacts::unit));
 
-// A quantity that a unit may be of.
+// A quantity that a unit may measure.
 struct Quantity {
     bool UnitFacts::*of = nullptr;
     Unit Units::*unit = nullptr;
@@ -74,7 +74,7 @@ Result<const UnitFacts*> unit_named(std::string_view name) {
 // The units that were named so far, in the order of `quantities`.
 using NamedUnits = std::array<const UnitFacts*, quantities.size()>;
 
-// Says for what the unit stands, where no other does.
+// Applies the unit to its quantities that no other unit has.
 Status take(const UnitFacts& facts, NamedUnits& named) {
     bool is_used = false;
     const Quantity* taken = nullptr;
@@ -112,7 +112,7 @@ Result<Units> units_from_names(std::string_view names) {
         units.push_back(*unit);
         from = to + 1;
     }
-    // A unit of several things takes what the others leave.
+    // A unit of several quantities applies to those that the others leave.
     std::stable_partition(units.begin(), units.end(),
                           [](const UnitFacts* f) { return !is_of_several(*f); });
     NamedUnits named{};
@@ -130,7 +130,7 @@ std::string unit_names(const Units& units) {
     std::string names;
     for (const Quantity& quantity : quantities) {
         const std::string_view name = facts_of(units.*quantity.unit).name;
-        // One of distances that is also of heights is named once.
+        // A unit of both distances and heights is named once.
         if (!names.empty() && names.ends_with("," + std::string(name))) continue;
         if (!names.empty()) names += ",";
         names += name;

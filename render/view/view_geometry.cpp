@@ -126,8 +126,8 @@ void ViewGeometry::fit_picture(const Camera& camera) {
     metres_per_pixel_ = margin * std::max(2 * across / width_, 2 * upright / height_) / camera.zoom;
 }
 
-// Places the camera. The field of view is that of zoom 1. A camera without a place of its own
-// stands as far back as the box needs.
+// Places the camera. The field of view is that of zoom 1. A camera without a place of its own is as
+// far back as the box needs.
 void ViewGeometry::place_eye(const Camera& camera) {
     const double half_angle = 0.5 * camera.field_of_view_deg * std::numbers::pi / 180;
     const double focal = 0.5 * width_ / std::tan(half_angle);
@@ -216,7 +216,7 @@ Vec3 ViewGeometry::point(Pixel pixel, double depth_m) const {
 }
 
 // The height of the ray above the ground is a polynomial of the depth: c d^2 + b d + a. The ground
-// is at the first root where it falls.
+// is at the first root where the height falls.
 std::optional<GroundPoint> ViewGeometry::ground(Pixel pixel) const {
     const Vec3 start = point(pixel, 0);
     const Vec3 step = along(pixel);
@@ -255,8 +255,8 @@ void ViewGeometry::ground_of_row(int y, GroundRow& row) const {
     }
 }
 
-// A row of pixels is level, because right() is, so that all of its rays fall alike and meet a
-// flat ground at one depth.
+// A row of pixels is level, because right() is level. So all of its rays fall alike and meet a flat
+// ground at one depth.
 void ViewGeometry::flat_ground_of_row(Pixel first, GroundRow& row) const {
     const double fall = along(first)[2];
     const double depth = -(point(first, 0)[2] - ground_m_ * exaggeration_) / fall;

@@ -6,9 +6,9 @@
 
 namespace stormcellar::render {
 
-// The steps of a row of tiles, and the pixels in it that wait for their rays. If few pixels of a
-// tile need a ray, those of the next tiles fill the packet; its rays then sample the steps of all
-// these tiles.
+// The steps of a row of tiles, and its pixels that wait for their rays. If few pixels of a tile
+// need a ray, pixels of the next tiles fill the packet; its rays then sample the steps of all these
+// tiles.
 class BandCaster::Tiles {
   public:
     Tiles(const BandCaster& caster, int tile_row) : caster_(caster) {
@@ -25,8 +25,8 @@ class BandCaster::Tiles {
         const auto words = words_of(tile);
         return std::any_of(words.begin(), words.end(), [](std::uint64_t w) { return w != 0; });
     }
-    // A pixel asks for its ray. The ray is cast when the packet is full, or when the row of tiles
-    // ends.
+    // Requests the ray of a pixel. The ray is cast when the packet is full, or when the row of
+    // tiles ends.
     void want(int x, int y) {
         if (!has_joined_) join();
         wanted_[count_++] = {x, y};
@@ -55,9 +55,9 @@ class BandCaster::Tiles {
         const std::size_t count = packet_words_.size();
         return std::span(words_).subspan(static_cast<std::size_t>(tile) * count, count);
     }
-    // The first pixel of a tile adds the steps of its tile to those of the packet. A ray may then
-    // sample steps of another tile; this costs time but changes nothing, because there it finds
-    // only clear values.
+    // For the first pixel of a tile, adds the steps of its tile to those of the packet. A ray may
+    // then sample steps of another tile. This costs time but changes nothing, because the ray finds
+    // only clear values there.
     void join() {
         const auto words = words_of(tile_);
         if (count_ == 0) {
@@ -89,7 +89,7 @@ BandCaster::BandCaster(const PacketVolume& volume, const RayMaker& maker, const 
       rgba_(rgba),
       light_(light) {}
 
-// Asks for the rays of every `stride`-th pixel of the row of tiles, tile by tile. A tile in which
+// Requests the rays of every `stride`-th pixel of the row of tiles, tile by tile. A tile in which
 // nothing shows stays clear, because its rays would find nothing.
 template <class Ask>
 void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
@@ -102,7 +102,7 @@ void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
         if (!tiles.enter(tile)) continue;
         const int left = tile * side;
         const int right = std::min(left + side, width_);
-        // Sixteen rays of a square find more of the same values than sixteen rays of two rows.
+        // Sixteen rays of a square share more values than sixteen rays of two rows.
         const int edge = std::max(small_tile_edge, stride);
         for (int from_y = top; from_y < bottom; from_y += edge) {
             for (int from_x = left; from_x < right; from_x += edge) {
@@ -126,7 +126,7 @@ void BandCaster::cast_first(int tile_row, int stride) const {
     for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
 }
 
-// Where the picture bends at the pixels of a grid, for the rows that a row of tiles depends on.
+// The pixels of a grid at which the picture bends, for the rows that a row of tiles depends on.
 class BandCaster::Bends {
   public:
     Bends(const BandCaster& caster, int tile_row, int stride, float most)
@@ -136,7 +136,7 @@ class BandCaster::Bends {
                 bends_.push_back(caster.bends(x, y, stride, most) ? 1 : 0);
         }
     }
-    // Returns true if it bends at a corner of the cell of the grid that begins at a pixel.
+    // Returns true if the picture bends at a corner of the grid's cell that begins at a pixel.
     [[nodiscard]] bool any(int x, int y) const {
         const char* corner = bends_.data() +
                              static_cast<std::ptrdiff_t>((y - top_) / stride_) * across_ +
@@ -174,9 +174,9 @@ bool BandCaster::bends(int x, int y, int stride, float most) const {
     return y >= stride && y + stride < height_ && bends_along(0, stride);
 }
 
-// Fills the half-way pixels of one cell of the grid: interpolates them if the picture bends at none
-// of the cell's corners, and otherwise casts their rays. Beyond the last column and the last row of
-// the picture there are no pixels to interpolate from, so their rays are cast.
+// Fills the half-way pixels of one cell of the grid. It interpolates them if the picture bends at
+// none of the cell's corners, and otherwise casts their rays. Beyond the last column and row of the
+// picture there are no pixels to interpolate from, so those rays are cast.
 void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const {
     if (x + stride < width_ && y + stride < height_ && !bends.any(x, y)) {
         return interpolate(x, y, stride);

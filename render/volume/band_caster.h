@@ -8,8 +8,8 @@
 // middle between two neighbors, a straight line is off by an eighth of them. With a stride of at
 // most the width of a cell, no cell falls between the first rays.
 //
-// Threads   Immutable. Many threads may work on the bands of one pass; a pass begins when the pass
-//           before it has ended.
+// Threads   Immutable. Many threads may work on the bands of one pass; a pass may begin only when
+//           the previous pass has ended.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class BandCaster {
 
     // Clears the row of tiles, and draws every `stride`-th pixel in both directions.
     void cast_first(int tile_row, int stride) const;
-    // Goes from a grid of `stride` pixels to one of half of it.
+    // Halves the stride of the grid, which was `stride` pixels.
     void refine(int tile_row, int stride, float tolerance) const;
 
   private:

@@ -7,15 +7,15 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/volume/block_codes.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, which compiles this file once for each target.
+// This include must come after foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// If the first code of a value is subtracted, the codes of states wrap to the top, where no value
-// is.
+// After the first value code is subtracted, the codes of states wrap to the top of the range, where
+// no value is.
 template <class Code>
 void find_in(const std::byte* bytes, int edge, BlockCodes& found) {
     constexpr int row_cells = grid::brick_edge;

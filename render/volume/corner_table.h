@@ -1,7 +1,7 @@
 // render/volume/corner_table.h -- the codes of four neighboring columns in one word for each cell.
 //
-// A sample needs the eight codes around it. In a grid file they lie in up to eight bricks; here
-// they lie in two consecutive words, which one load of 64 bits brings. Word (x, y, z) holds the
+// A sample needs the eight codes around it. In a grid file they are in up to eight bricks; here
+// they are in two consecutive words, which one load of 64 bits reads. Word (x, y, z) holds the
 // codes of the cells (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of level z, the first in its
 // low byte. Beyond the last cell of the grid along an axis, that cell is repeated. Cells of bricks
 // without any value are 0, whatever their state.
@@ -35,7 +35,7 @@ class CornerTable {
     [[nodiscard]] const std::byte* words() const {
         return reinterpret_cast<const std::byte*>(words_.get());
     }
-    // The words from one cell to the next; along z it is 1.
+    // Returns the words from one cell to the next; along z it is 1.
     [[nodiscard]] std::int32_t stride_x() const { return stride_x_; }
     [[nodiscard]] std::int32_t stride_y() const { return stride_y_; }
 

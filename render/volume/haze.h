@@ -2,7 +2,7 @@
 //
 // The opacity of the haze along a ray is most_haze * (1 - exp(-s / L)), where s is the length of
 // the ray through air that was not seen, in meters of drawn space, and L is a fifth of the depth of
-// the box. Air that was seen, with or without echo, has no haze. The haze lies behind all echo, so
+// the box. Air that was seen, with or without echo, has no haze. The haze is behind all echo, so
 // that colors stay exact.
 //
 // Accuracy  Cells that were not seen are kept as their share in coarse cells of 4 x 4 columns and 2

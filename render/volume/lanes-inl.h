@@ -1,8 +1,8 @@
 // render/volume/lanes-inl.h -- vectors of numbers, one lane for each of several rays.
 //
-// This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target. What
-// a ray finds does not depend on the rays beside it, so the number of lanes, which depends on the
-// target, changes no bit.
+// This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target. The
+// result of a ray does not depend on the rays beside it. So the number of lanes, which depends on
+// the target, changes no bit.
 #if defined(STORMCELLAR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_LANES_INL
 #undef STORMCELLAR_LANES_INL
@@ -97,8 +97,7 @@ HWY_INLINE Halves halves_of(Word word) {
 }
 #endif
 
-// Four numbers for each lane, which lie one after the other at entry(lane), sorted into four
-// vectors.
+// Loads four consecutive numbers for each lane from entry(lane), and sorts them into four vectors.
 struct Fours {
     FloatVec first, second, third, fourth;
 };

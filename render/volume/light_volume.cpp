@@ -16,7 +16,7 @@ constexpr int sky_directions = 9;  // the zenith and eight directions around it
 constexpr float sky_share = 0.45F;
 constexpr float scattered_sky_share = 0.35F;
 constexpr double forward_g = 0.4;    // parameter of the phase function
-constexpr double least_phase = 0.4;  // what is left of the sun's share where the phase is weakest
+constexpr double least_phase = 0.4;  // share of the sun's light where the phase is weakest
 
 Vec3 direction(double azimuth_deg, double elevation_deg) {
     const double azimuth = azimuth_deg * degree;
@@ -44,9 +44,9 @@ Held held(float position, int size) {
             inside - static_cast<float>(below)};
 }
 
-// The way of the light through the coarse cells: plane by plane along the main axis, from the plane
-// `first` on, by `step`. From one plane to the next it moves by (du, dv) cells across, and crosses
-// length_m of air.
+// The path of the light through the coarse cells: plane by plane along the main axis, from the
+// plane `first` on, by `step`. From one plane to the next it moves by (du, dv) cells across, and
+// crosses length_m of air.
 struct LightWay {
     std::size_t main, u, v;
     int step, first;
@@ -153,7 +153,7 @@ void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunc
 }
 
 // Computes the transmittance from the side where the light comes in, plane by plane along the axis
-// with the most planes for each meter of the way. Beyond the grid the air is clear.
+// with the most planes for each meter of the path. Beyond the grid the air is clear.
 std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
     const LightWay way = way_of(towards, widths_m_, sizes_);
     const auto place = [&](int plane, int iu, int iv) {
@@ -164,8 +164,8 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
         return index(at[0], at[1], at[2]);
     };
     std::vector<float> through(extinction_.size(), 1.0F);
-    // The light that has passed each cell of the plane before, with a border of 1, which stands for
-    // what is beyond the grid.
+    // The light that passed each cell of the previous plane. A border of 1 stands for the clear air
+    // beyond the grid.
     const std::size_t row = static_cast<std::size_t>(sizes_[way.v]) + 2 * border;
     std::vector<float> passed((static_cast<std::size_t>(sizes_[way.u]) + 2 * border) * row, 1.0F);
     const auto pass = [&](int plane) {
@@ -179,8 +179,8 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
             }
         }
     };
-    // Each cell takes the light of the plane before at the place from which it comes, which lies
-    // between four cells.
+    // Each cell takes the light of the previous plane at the place where the light came from, which
+    // is between four cells.
     for (int n = 1; n < sizes_[way.main]; ++n) {
         const int plane = way.first + n * way.step;
         pass(plane - way.step);
@@ -192,7 +192,11 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
                 const float pv = static_cast<float>(iv) + way.dv;
                 const auto v0 = static_cast<int>(std::floor(pv));
                 const float sv = pv - static_cast<float>(v0);
-                // |du| and |dv| are at most 1, so that these cells are in the border at most.
+                //
+                // du
+                //  and
+                // dv
+                //  are at most 1, so these cells are at most in the border.
                 const float* from = passed.data() +
                                     static_cast<std::size_t>(u0 + static_cast<int>(border)) * row +
                                     static_cast<std::size_t>(v0 + static_cast<int>(border));

@@ -1,10 +1,10 @@
 // render/volume/light_volume.h -- how much light reaches each part of a volume.
 //
-// On a coarse grid (4 x 4 columns, 2 levels), made once for each time step, this holds the
-// transmittance of the echo toward the sun and, as the mean over nine directions, toward the sky.
-// Each direction is a sweep from plane to plane along its steepest axis, which reads the plane
-// before it bilinearly. That blurs shadows by about one coarse cell for each coarse cell that they
-// cross.
+// The object holds, on a coarse grid (4 x 4 columns, 2 levels), the transmittance of the echo
+// toward the sun and, as the mean over nine directions, toward the sky. It is made once for each
+// time step. Each direction is a sweep from plane to plane along its steepest axis, which reads the
+// previous plane bilinearly. That blurs shadows by about one coarse cell for each coarse cell that
+// they cross.
 //
 // Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
 // Threads   Immutable. The same bits for any number of threads.
@@ -27,7 +27,7 @@ class LightVolume {
   public:
     static constexpr int cells_across = 4, cells_up = 2;
 
-    // `step_m` must be that of the transfer function.
+    // `step_m` must equal the step of the transfer function.
     LightVolume(const grid::BrickView& view, const TransferFunction& transfer, double step_m,
                 const ViewGeometry& geometry, const Light& light, int threads);
 

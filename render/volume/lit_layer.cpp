@@ -10,7 +10,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr float strength = 0.9F;  // more turns yellow to brown and red to pink
+constexpr float strength = 0.9F;  // larger values turn yellow to brown and red to pink
 constexpr float lightening = 1.6F * strength;
 constexpr float darkest_share = 0.5F, lightest = 0.98F;
 constexpr float least_alpha = 1.0F / 512;  // below it no light shows
@@ -65,7 +65,7 @@ bool is_shown(const Rgb& linear) {
     return std::ranges::all_of(linear, [](float c) { return c >= -slack && c <= 1 + slack; });
 }
 
-// Returns the color, with as much of its chroma as can be shown.
+// Returns the color, with as much of its chroma as displays can show.
 Rgb shown(const OkLab& color) {
     Rgb linear = linear_of(color);
     if (is_shown(linear)) return linear;
@@ -103,7 +103,7 @@ Rgb lit_color(const Rgb& color, float factor) {
     return {to_srgb(linear[0]), to_srgb(linear[1]), to_srgb(linear[2])};
 }
 
-// Looks at every fifth pixel in both directions, and halves the range of the exposure.
+// Reads every fifth pixel in both directions, and halves the range of the exposure.
 float exposure_of(const Layer& layer, const std::vector<float>& light) {
     struct Seen {
         float l, factor, alpha;

@@ -1,13 +1,13 @@
 // render/volume/lit_layer.h -- lights a picture of a volume: each pixel's color by one factor.
 //
-// The rays find the color and, beside it, the mean factor of the light along them
+// The rays find the color and, besides it, the mean factor of the light along them
 // (render/volume/shade_field.h), weighted as the colors are. A factor below 1 darkens and one above
 // 1 lightens, in OKLab (Ottosson 2020), where the hue stays:
 //   darker   l' = l max(0.5, 1 - 0.9 (1 - f)), chroma times sqrt(l' / l)
 //   lighter  l' = l + (0.98 - l) (1 - exp(-1.44 (f - 1)))
 // A color that no display shows has its chroma reduced until it can be shown. All factors of a
-// picture are first multiplied by its exposure, by which its echo has the mean lightness that it
-// has without light.
+// picture are first multiplied by its exposure. The exposure is chosen so that the echo keeps the
+// mean lightness that it has without light.
 //
 // Threads   Pure; the same bits for any number of threads.
 // Accuracy  The hue stays within 1 degree of OKLab, and the mean lightness of the echo within 0.002
@@ -25,8 +25,8 @@ using Rgb = std::array<float, 3>;  // sRGB, 0..1
 
 // Returns a color, lit.
 [[nodiscard]] Rgb lit_color(const Rgb& color, float factor);
-// Returns the exposure; 1 for a layer without echo. `light` has the sum of the factors of each
-// pixel times what is seen of them, so that it is the factor times alpha.
+// Returns the exposure; 1 for a layer without echo. `light` has, for each pixel, the sum of the
+// factors weighted by the seen opacity, so that it is the mean factor times alpha.
 [[nodiscard]] float exposure_of(const Layer& layer, const std::vector<float>& light);
 // Lights the layer.
 void apply_light(Layer& layer, const std::vector<float>& light, int threads);

@@ -7,7 +7,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/volume/ray_maker.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, which compiles this file once for each target.
+// This include must come after foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -102,8 +102,9 @@ struct Stretch {
         first = std::max(first, from);
         last = std::min(last, to);
     }
-    // Keeps the part where c t^2 + b t + a <= 0, for c >= 0. It lies between the two roots; they
-    // are computed as q / c and a / q, so that no root is the difference of nearly equal numbers.
+    // Keeps the part where c t^2 + b t + a <= 0, for c >= 0. This part is between the two roots.
+    // They are computed as q / c and a / q, so that no root is the difference of nearly equal
+    // numbers.
     void keep_below(double a, double b, double c) {
         if (c <= 0) {
             if (b == 0 && a > 0) last = first - 1;
@@ -189,7 +190,7 @@ RayPacket RayMaker::packet(std::span<const PixelPlace> pixels) const {
 
 // Clips rays on a curved earth. The height above the curved sea level is a polynomial of second
 // degree in the step, so the top and the bottom of the box each give an inequality of second
-// degree. A ray that falls below the box has met the earth, which hides what lies beyond.
+// degree. A ray that falls below the box has met the earth, which hides everything beyond.
 void RayMaker::clip_to_curved_box(std::span<const PixelPlace> pixels, RayPacket& rays) const {
     const double curve = geometry_.drop_per_m2() * geometry_.exaggeration();
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -10,7 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/volume/ray_packet.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, which compiles this file once for each target.
+// This include must come after foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
 #include "render/volume/ray_light-inl.h"
@@ -75,7 +75,7 @@ struct SliceFinds {
 };
 
 // Enumerates the slices at both ends of the steps whose bits are set. Two marked steps in a row
-// share the slice between them, which comes only once.
+// share the slice between them, which is visited only once.
 class MarkedSlices {
   public:
     HWY_INLINE MarkedSlices(const std::uint64_t* mask, std::size_t words, int first, float leave)
@@ -88,7 +88,7 @@ class MarkedSlices {
     // Returns false after the last slice. Sets `joined` if this slice and the one before it are the
     // two ends of a step.
     HWY_INLINE bool next(float& t, bool& joined) {
-        // The near end of this step came last; its far end comes now.
+        // The near end of this step was the last result; its far end comes now.
         if (half_done_) {
             half_done_ = false;
             joined = true;
@@ -102,8 +102,8 @@ class MarkedSlices {
         }
         const int step = static_cast<int>(word_) * 64 + std::countr_zero(bits_);
         if (static_cast<float>(step) >= leave_) return false;
-        // If the step begins at the slice that came last, only its far end is new. Otherwise its
-        // near end comes now and its far end with the next call.
+        // If the step begins at the last slice, only its far end is new. Otherwise its near end
+        // comes now and its far end with the next call.
         bits_ &= bits_ - 1;
         joined = step == last_;
         half_done_ = !joined;
@@ -117,14 +117,14 @@ class MarkedSlices {
     std::size_t words_, word_;
     float leave_;
     std::uint64_t bits_;
-    int last_ = -1;           // the slice that came last
-    bool half_done_ = false;  // only the near end of the last step has come
+    int last_ = -1;           // the last slice that was returned
+    bool half_done_ = false;  // only the near end of the last step was returned
 };
 
 // Casts the rays of one vector from front to back. Slices are sampled in batches, and then the
 // steps of the batch are added up. Within a batch no sample waits for another, so the processor
-// works on several at once. `Source` says where codes come from. Whatever a scene does not ask for
-// is not compiled in.
+// works on several at once. `Source` reads the codes. Code for options that a scene does not use is
+// not compiled in.
 template <class Source, bool curved, bool lit>
 class Caster {
   public:
@@ -142,7 +142,7 @@ class Caster {
     HWY_INLINE void cast(const std::uint64_t* mask, std::size_t words) {
         if (!(enter_ < leave_)) return;
         MarkedSlices slices(mask, words, static_cast<int>(enter_), leave_);
-        SliceFinds finds[batch + 1];  // finds[0] is the last slice of the batch before
+        SliceFinds finds[batch + 1];  // finds[0] is the last slice of the previous batch
         int count = batch;
         while (count == batch) {
             count = 0;
@@ -162,7 +162,7 @@ class Caster {
   private:
     static constexpr int batch = 8;
 
-    // Samples a batch and adds up its steps. Returns true if no light reaches through any more.
+    // Samples a batch and adds up its steps. Returns true if no more light reaches through.
     HWY_INLINE bool take_batch(SliceFinds* finds, int count) {
         for (int slice = 1; slice <= count; ++slice)
             take_samples(finds[slice]);
@@ -176,8 +176,8 @@ class Caster {
         return false;
     }
 
-    // Takes the samples at a slice. Where a ray enters or leaves the box between two slices, its
-    // sample is taken there instead.
+    // Takes the samples at a slice. If a ray enters or leaves the box between two slices, its
+    // sample is taken at that point instead.
     HWY_INLINE void take_samples(SliceFinds& finds) const {
         const Floats f;
         const Positions where = positions_at(finds.t);
@@ -204,8 +204,9 @@ class Caster {
         return {x, y, level_of(volume_, z)};
     }
 
-    // Adds the light of a step, of which this much is seen. It is that at the end with an even
-    // number, which two steps share, because the light changes little from slice to slice.
+    // Adds the light of a step, times the part of the step that is seen. The light is read at the
+    // end with an even number, which two steps share, because it changes little from slice to
+    // slice.
     HWY_INLINE void add_light(float front_t, FloatVec seen) {
         const int front = static_cast<int>(front_t);
         const int even = front + (front & 1);
@@ -222,8 +223,8 @@ class Caster {
     HWY_INLINE bool add_step(const SliceFinds& front, const SliceFinds& back) {
         const Floats f;
         const Ints i;
-        // The length of the step is that of the ray inside the box. It is scaled by the mean share
-        // of cells with values at its two ends, so that echo tapers to nothing.
+        // The length of the step is the length of the ray inside the box. The mean share of cells
+        // with values at its two ends scales it, so that echo tapers to nothing.
         const FloatVec from = hn::Max(hn::Set(f, front.t), rays_.enter);
         const FloatVec to = hn::Min(hn::Set(f, back.t), rays_.leave);
         const FloatVec inside = hn::Max(hn::Sub(to, from), hn::Zero(f));
@@ -237,8 +238,7 @@ class Caster {
         const IntVec back_bin = hn::Load(i, back.bin);
         const IntVec one = hn::IfThenElse(hn::RebindMask(i, in_front), front_bin, back_bin);
         const IntVec other = hn::IfThenElse(hn::RebindMask(i, behind), back_bin, front_bin);
-        // Each lane loads its entry of the table: red, green, blue and depth lie one after the
-        // other.
+        // Each lane loads its entry of the table: red, green, blue and depth are consecutive.
         constexpr int entry_bits = std::countr_zero(sizeof(TransferEntry));
         const LaneNumbers at(hn::ShiftLeft<entry_bits>(hn::Add(hn::ShiftLeft<8>(one), other)));
         const Fours looks =
@@ -246,9 +246,9 @@ class Caster {
         return add_looks(looks, length, front.t);
     }
 
-    // Composites a step over what the rays have seen so far, front to back: the step adds its color
-    // times its opacity times the light that still reaches through, and takes its share of that
-    // light. `looks` is red, green, blue and optical depth for each reference length.
+    // Composites a step over the earlier steps, front to back. The step adds its color times its
+    // opacity times the light that still reaches through, and takes its share of that light.
+    // `looks` is red, green, blue and optical depth for each reference length.
     HWY_INLINE bool add_looks(const Fours& looks, FloatVec length, float front_t) {
         const Floats f;
         const FloatVec enough = hn::Set(f, opaque_enough);
@@ -270,7 +270,7 @@ class Caster {
     float enter_, leave_;
     FloatVec through_, red_, green_, blue_;
     FloatVec light_sum_, light_;
-    int light_slice_ = -1;  // of which light_ is the light
+    int light_slice_ = -1;  // the slice of light_
 };
 
 template <class Source, bool curved, bool lit>

@@ -31,7 +31,7 @@ struct PacketLight {
     std::int32_t last_x = 0, last_y = 0, last_z = 0;  // coarse cells
 
     PacketLight() = default;
-    // The field must outlive this.
+    // The field must outlive the object.
     explicit PacketLight(const ShadeField& field);
 };
 
@@ -47,7 +47,7 @@ struct PacketVolume {
     const CurvedLevels* curve = nullptr;  // null: the earth is flat
     const PacketLight* light = nullptr;   // null: no light is found
 
-    // `levels` and `transfer` must outlive this.
+    // `levels` and `transfer` must outlive the object.
     PacketVolume(const grid::BrickView& view, const LevelPosition& levels,
                  const TransferFunction& transfer);
     // Makes the volume take codes from the table, which must outlive it.
@@ -58,9 +58,9 @@ struct PacketVolume {
 
 // Rays in positions of cells: position = start + t * step, where t counts slices from the near end.
 // The third axis is a level, or, with PacketVolume::levels, a height of drawn space. With a curved
-// earth it is lower by curve_x * (x - middle_x)^2 + curve_y * (y - middle_y)^2 than the height that
-// it stands for. Ray i is inside the box from enter[i] to leave[i]; if enter >= leave, it sees
-// nothing.
+// earth the position is curve_x * (x - middle_x)^2 + curve_y * (y - middle_y)^2 lower than the
+// height that it represents. Ray i is inside the box from enter[i] to leave[i]; if enter >= leave,
+// it sees nothing.
 struct RayPacket {
     float x[packet_rays], y[packet_rays], z[packet_rays];
     float step_x[packet_rays], step_y[packet_rays], step_z[packet_rays];
@@ -69,8 +69,8 @@ struct RayPacket {
 };
 
 // Computes red, green, blue (premultiplied) and alpha of each ray. Samples only the steps whose bit
-// is set. If the volume has a light, also computes the sum of the factors of the light along the
-// ray, each times what is seen there; else `light` is not used.
+// is set. If the volume has a light, also computes the sum of the light factors along the ray,
+// weighted by the seen opacity; else `light` is not used.
 void cast_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
                  std::size_t words, float* rgba, float* light);
 

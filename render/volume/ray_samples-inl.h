@@ -1,4 +1,4 @@
-// render/volume/ray_samples-inl.h -- what the rays of all lanes find at one slice.
+// render/volume/ray_samples-inl.h -- the values that the rays of all lanes find at one slice.
 //
 // This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target. The
 // eight codes around a point are loaded one ray after the other and put together in general
@@ -48,7 +48,7 @@ struct Places {
 // The eight codes around a place. The number of a code has a bit for its side in x (bit 0), y (bit
 // 1) and z (bit 2).
 struct Corners {
-    HWY_INLINE Corners() {}  // as of Samples
+    HWY_INLINE Corners() {}  // as for Samples
     IntVec code[8];
 };
 
@@ -226,8 +226,8 @@ HWY_INLINE IntVec bin_of(const PacketVolume& volume, FloatVec code) {
 }
 
 // Mixes the eight codes around each ray. Returns false if no ray finds a value; then all shares are
-// 0. If all eight cells of a ray have values, which is the usual case inside echo, the faster
-// mean_of_all() gives its value; mean_of_some() is only computed if some ray needs it.
+// 0. If all eight cells of a ray have values, which is usual inside echo, the faster mean_of_all()
+// gives its value. mean_of_some() is only computed if some ray needs it.
 HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, const Places& at,
                             Samples& samples) {
     const Floats f;

@@ -3,8 +3,8 @@
 // It draws the picture in the limit of infinitely many slices, by the rules of
 // render/volume/slicer.h but with none of its tables: the value of each sample looks up the color
 // table itself. Steps are sampled at their middles, so the error falls with the square of their
-// length where colors are smooth, and with the length where they are stepped. A ray that falls
-// below the box has met the earth, which hides what lies beyond its curve.
+// length where colors are smooth, and with the length where colors are stepped. A ray that falls
+// below the box has met the earth, which hides everything beyond its curve.
 //
 // Cost      Four bytes of memory for each cell, and some 20 ns for each step.
 // Threads   Immutable; many threads may call ray().
@@ -29,8 +29,8 @@ class ReferenceMarcher {
     // Returns red, green and blue, premultiplied, and alpha, all 0..1. There are `steps` steps
     // between the nearest and the farthest depth of the box.
     [[nodiscard]] std::array<double, 4> ray(Pixel pixel, int steps) const;
-    // The same, and the sum of the factors of the light, each times what is seen there. `shades`
-    // may be null; then they are 1.
+    // Does the same, and also returns the sum of the light factors, weighted by the seen opacity.
+    // `shades` may be null; then all factors are 1.
     struct Lit {
         std::array<double, 4> color{};
         double light = 0;
@@ -38,7 +38,7 @@ class ReferenceMarcher {
     [[nodiscard]] Lit lit_ray(Pixel pixel, int steps, const ShadeField* shades) const;
 
     // The value and the share of valued cells at a point of drawn space. If the share is 0, there
-    // is nothing.
+    // is no value.
     struct Sample {
         double value = 0, share = 0;
     };

@@ -10,7 +10,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr float lit_side = 0.4F;  // how much lighter a steep surface is that faces the sun
+constexpr float lit_side = 0.4F;  // how much lighter a steep surface becomes if it faces the sun
 constexpr float through_share = 0.45F, usual_through = 0.6F;
 constexpr float edge_share = 0.25F;    // how much lighter an edge is, seen along its surface
 constexpr float half_steep = 1.5e-3F;  // dB per meter of drawn space
@@ -45,7 +45,7 @@ class ShadeField::Baker {
             static_cast<float>(std::max(1.0, (spec.levels_m.back() - spec.levels_m.front()) /
                                                  std::max(1, spec.nz() - 1)) *
                                geometry.exaggeration());
-        // Differences reach from the coarse cell before to the one after.
+        // Differences reach from the previous coarse cell to the next one.
         per_m_ = {static_cast<float>(0.5 / (cells_across * spec.cell_width_m())),
                   static_cast<float>(0.5 / (cells_across * spec.cell_height_m())), 0.5F / level_m};
         place_eye();
@@ -119,7 +119,7 @@ class ShadeField::Baker {
         count += seen ? 1.0F : 0.0F;
     }
 
-    // Fills the levels of a coarse column that were not seen from those that were.
+    // Fills the levels of a coarse column that were not seen from those that were seen.
     static void fill_holes(std::span<float> means, std::span<const float> counts) {
         std::size_t first = 0;
         while (first < counts.size() && counts[first] == 0)
@@ -163,7 +163,7 @@ class ShadeField::Baker {
     }
 
     // Smooths rows of `count` columns that are `stride` numbers apart, each of `length` numbers.
-    // The last two columns before they were smoothed are kept, because the ones after need them.
+    // Keeps the last two columns as they were before smoothing, because the next columns need them.
     static void smooth_rows(float* from, std::size_t stride, int count, std::size_t length) {
         std::vector<float> before((smoothing_reach + 1) * length);
         const auto row = [&](int i) { return from + as_index(i) * stride; };
@@ -201,8 +201,9 @@ class ShadeField::Baker {
         });
     }
 
-    // The last pass: the factor of each coarse cell with any echo within reach of the smoothing; 1
-    // elsewhere. To leave out cells below 1 dB too was 2 % faster, and up to 3 L* off in weak snow.
+    // The last pass computes the factor of each coarse cell with any echo within reach of the
+    // smoothing; all others have 1. Leaving out cells below 1 dB as well was 2 % faster, and up to
+    // 3 L* off in weak snow.
     void shade(int x) {
         const Vec3 sun_drawn = sun_direction(light_);
         const std::array<float, 3> sun = {static_cast<float>(sun_drawn[0]),
@@ -259,7 +260,7 @@ class ShadeField::Baker {
         return factor + edge;
     }
 
-    // Returns the direction in which a cell is looked at.
+    // Returns the direction of the view at a cell.
     [[nodiscard]] std::array<float, 3> view_at(float x, float y, int z) const {
         const std::array<float, 3> away = {x * cell_m_[0] + from_eye_m_[0],
                                            y * cell_m_[1] + from_eye_m_[1],
@@ -296,7 +297,7 @@ class ShadeField::Baker {
     const LightVolume* volume_;
     std::array<int, 3> sizes_;
     std::array<float, 3> per_m_{};
-    // From the camera to the first cell, and from there to others, in drawn space.
+    // From the camera to the first cell, and from that cell to others, in drawn space.
     std::array<float, 3> forward_{}, from_eye_m_{};
     std::array<float, 2> cell_m_{};
     std::vector<float> height_m_;

@@ -1,17 +1,18 @@
 // render/volume/shade_field.h -- how much lighter or darker than its own color each part of a
-// volume is.
+// volume is drawn.
 //
 // On a grid of 2 x 2 columns and single levels, made once for each time step, this holds the factor
-//   shade = S T + 0.25 s (1 - |n v|)^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)
-// where n is the direction in which the values fall, v the view, u the sun, s = g / (g + 1.5 dB per
-// km of drawn space) how much of a surface there is where the values fall by g, and t the light
-// that gets through from the sun and the sky (render/volume/light_volume.h). Surfaces are
-// `gradient`, the light that gets through is `shadow` and `scattering`
-// (stormcellar/render/light.h); what a scene does not ask for counts as s = 0 or T = 1. Around 1
-// the factor leaves a color as it is.
+//   shade = S T + 0.25 s (1 -
+// n v
+// )^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)
+// where n is the direction in which the values fall, v the view and u the sun. s = g / (g + 1.5 dB
+// per km of drawn space) tells how much of a surface there is where the values fall by g. t is the
+// light that gets through from the sun and the sky (render/volume/light_volume.h). s belongs to
+// `gradient`, and t to `shadow` and `scattering` (stormcellar/render/light.h). If a scene does not
+// ask for them, s = 0 or T = 1. A factor of 1 leaves a color as it is.
 //
 // The values are those of reflectivity from 0 to 60 dBZ (or from the lowest color of the table, if
-// that is lower), for other moments 30 wherever there is a value. They are averaged over 2 x 2
+// that is lower); other moments count as 30 wherever there is a value. They are averaged over 2 x 2
 // columns and smoothed along each axis by 1-4-6-4-1. Air without echo counts as 0. Cells that were
 // not seen or are range folded take the value of the nearest seen cell of their column, so that
 // neither the cone of silence nor the lowest beam looks like a surface.
@@ -36,15 +37,16 @@ class ShadeField {
     static constexpr int cells_across = 2;
     static constexpr float of_code = 1.0F / 128;
 
-    // `light` may be null, if neither shadow nor scattering is asked for.
+    // `light` may be null if neither shadow nor scattering is asked for.
     ShadeField(const grid::BrickView& view, const ColorTable& table, const ViewGeometry& geometry,
                const Light& light, const LightVolume* volume, int threads);
 
-    // Returns the factor at a place in cells and levels: trilinear, constant beyond the edges. This
-    // is what the rays of the slicer read, in double precision.
+    // Returns the factor at a place in cells and levels: trilinear, constant beyond the edges. The
+    // rays of the slicer read the same factor, in single precision.
     [[nodiscard]] double at(double x, double y, double z) const;
 
-    // The codes of four neighboring columns in one word for each coarse cell, as in a CornerTable.
+    // Returns the codes of four neighboring columns in one word for each coarse cell, as in a
+    // CornerTable.
     [[nodiscard]] const std::byte* words() const {
         return reinterpret_cast<const std::byte*>(words_.data());
     }

@@ -36,7 +36,7 @@ void set_bits(std::uint64_t* words, int first, int last) {
 }
 
 // Returns the edge of the blocks. Blocks about as wide as a tile of the picture tell all that tiles
-// can use; smaller blocks, or too many, cost more than they save.
+// can use; smaller blocks, or more of them, cost more than they save.
 int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
     constexpr double most_blocks = 1 << 18;
     const double cell_m = std::min(spec.cell_width_m(), spec.cell_height_m());
@@ -50,8 +50,8 @@ int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
 }
 
 // Computes the interval along one axis that the cells from `first` to before `past` color. Values
-// are interpolated between cells, so it reaches to the centers of the neighboring cells, or to the
-// edge of the box if there are none.
+// are interpolated between cells, so the interval reaches to the centers of the neighboring cells,
+// or to the edge of the box if there are none.
 template <class Centre>
 void reach(int first, int past, int cells, double edge_low, double edge_high, Centre centre,
            double& low, double& high) {
@@ -61,7 +61,7 @@ void reach(int first, int past, int cells, double edge_low, double edge_high, Ce
 
 }  // namespace
 
-// A range of cells: along each axis from the first to before the last.
+// A range of cells, along each axis from the first to before the last.
 struct SliceMask::Cells {
     int first[3], past[3];
 };
@@ -132,7 +132,7 @@ void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& t
         return codes.largest[at] >= grid::first_value_code &&
                transfer.shows(codes.least[at], codes.largest[at]);
     };
-    // Visible blocks that lie one above the other make one box.
+    // Visible blocks that are above each other make one box.
     const int across = codes.across;
     for (int column = 0; column < across * across; ++column) {
         for (int z = 0; z < across; ++z) {
@@ -165,8 +165,8 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes&
     reach(
         cells.first[2], cells.past[2], spec.nz(), geometry_.bottom_m(), geometry_.top_m(),
         [&](int i) { return spec.levels_m[static_cast<std::size_t>(i)]; }, box.low[2], box.high[2]);
-    // The curve lowers the box least where it is nearest to the middle of the grid, and most where
-    // it is farthest.
+    // The curve lowers the part of the box nearest to the middle of the grid least, and the
+    // farthest part most.
     const auto nearest = [&](std::size_t axis) {
         return std::clamp(0.0, box.low[axis], box.high[axis]);
     };
@@ -180,7 +180,7 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes&
     if (place_in_picture(box)) boxes.push_back(box);
 }
 
-// Where a box is in the picture, in pixels, and how far away its farthest corner is.
+// The place of a box in the picture, in pixels, and the distance of its farthest corner.
 struct SliceMask::Outline {
     double left, right, top, bottom, farthest_m;
 
@@ -192,7 +192,8 @@ struct SliceMask::Outline {
     }
 };
 
-// With parallel rays a box is as wide as the projections of its three edges together.
+// With parallel rays, the outline of a box is as wide as the projections of its three edges
+// together.
 SliceMask::Outline SliceMask::parallel_outline(const Box& box) const {
     Vec3 middle{};
     double across = 0, down = 0;

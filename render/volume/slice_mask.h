@@ -1,11 +1,10 @@
 // render/volume/slice_mask.h -- which slices of which part of the picture may show anything.
 //
-// The picture is divided into square tiles. There is a bit for each tile and each step (between two
-// slices). It says whether any point of that step under any pixel of the tile may find a visible
-// value. Bits err on the safe side only: a set bit may be useless, a cleared bit never hides
-// anything. The least and the largest code of each brick say whether the brick can be visible.
-// Inside a brick the codes of its blocks say so; these are 2 to 16 cells wide, about as wide as 8
-// pixels.
+// The picture is divided into square tiles. Each tile has a bit for each step (between two slices).
+// The bit says whether any point of that step under any pixel of the tile may find a visible value.
+// Bits err only on the safe side: a set bit may be useless, but a cleared bit never hides anything.
+// The least and the largest code of each brick decide whether the brick can be visible. Inside a
+// brick the codes of its blocks decide; blocks are 2 to 16 cells wide, about as wide as 8 pixels.
 //
 // Threads   Immutable; many threads may call fill_band().
 #pragma once
@@ -20,7 +19,8 @@
 
 namespace stormcellar::render {
 
-// In pixels. A small tile has the size of one packet of rays, so fewer steps are sampled in vain.
+// Edges of tiles in pixels. A small tile has the size of one packet of rays, so fewer steps are
+// sampled in vain.
 inline constexpr int tile_edge = 8, small_tile_edge = 4;
 
 class SliceMask {
@@ -39,9 +39,9 @@ class SliceMask {
     bool fill_band(int tile_row, std::vector<std::uint64_t>& words) const;
 
   private:
-    // The space that visible cells may color: the cells, and all between them and their neighbors.
+    // The space that visible cells may color: the cells, and the space up to their neighbors.
     struct Box {
-        Vec3 low, high;  // in drawn space, widened by half a tile where the box is farthest
+        Vec3 low, high;  // in drawn space, widened by half a tile at the box's farthest corner
         int first_tile, last_tile, first_row, last_row;
     };
     // The motion of the rays along each axis; `per_step` is 1 / step, if the ray moves at all.

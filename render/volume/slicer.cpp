@@ -49,15 +49,16 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
     return std::move(room.layer);
 }
 
-// Prepares what the rays need: the mask of steps that may show anything, the light in the volume if
-// the scene is lit, and the table of corners if there are enough samples for each cell.
+// Prepares the tables that the rays need: the mask of steps that may show anything, the light in
+// the volume if the scene is lit, and the table of corners if there are enough samples for each
+// cell.
 void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     Layer& layer = room.layer;
     layer.width = geometry_.width();
     layer.height = geometry_.height();
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
-    // Where the picture is interpolated between rays, about half of the rays are cast.
+    // If the picture is interpolated between rays, about half of the rays are cast.
     const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
     room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads,
                       all_rays ? small_tile_edge : tile_edge);
@@ -77,9 +78,9 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     if (room.has_corners) room.corners.fill(view, threads);
 }
 
-// Casts the rays, one band of tiles after another on several threads: first those on a grid of
-// `stride` pixels, then, halving the stride each time, those where the picture is not smooth enough
-// to be interpolated.
+// Casts the rays, one band of tiles after another on several threads. First come the rays on a grid
+// of `stride` pixels. Then the stride is halved each time, and only rays where the picture is not
+// smooth enough for interpolation are cast.
 void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     const LevelPosition levels(*view.spec, geometry_.exaggeration());
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);

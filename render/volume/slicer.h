@@ -6,16 +6,16 @@
 //   sample   Trilinear over the 8 cells around it, of which only those with a value count. The
 //            value is their weighted mean, and the sum of their weights is the sample's share. So
 //            echo tapers to nothing over one cell toward cells without a value, whatever their
-//            state, and no state ever lends a color. Half a cell beyond the outermost centers of
+//            state, and no state ever adds a color. Half a cell beyond the outermost centers of
 //            cells, the value is that of the cell.
 //   step     The entry of the TransferFunction for the values at its two ends. Its optical depth is
 //            multiplied by the mean of their shares and by the length of the ray through the step,
-//            also where the box cuts the step. An end without any value takes that of the other
-//            end. Colors mix in sRGB, as drawn.
+//            also where the box cuts the step. An end without any value takes the value of the
+//            other end. Colors mix in sRGB, as drawn.
 //   light    If the scene asks for it, one factor for each sample (stormcellar/render/light.h); a
 //            step takes the mean of both its ends.
 //   skipped  Stretches of a ray in bricks whose range of values is clear (this is exact), and
-//            whatever lies behind an opacity of 0.999 (this changes no channel by more than 0.26 of
+//            everything behind an opacity of 0.999 (this changes no channel by more than 0.26 of
 //            255).
 //
 // Accuracy  docs/rendering.md has the measured order of convergence of each Integration. The oracle
@@ -39,7 +39,7 @@
 
 namespace stormcellar::render {
 
-// The memory for a picture while it is drawn. If it is kept from picture to picture, it need not be
+// The memory for a picture while it is drawn. If it is kept for the next picture, it need not be
 // allocated again.
 struct SlicerRoom {
     Layer layer;  // of the last picture
@@ -54,25 +54,26 @@ struct VolumeOptions {
     int slices = 256;  // at least 1
     Integration integration = Integration::second_order;
     double opacity = 1;  // scales the table's extinction; above 0
-    // Where cells are larger than pixels, the picture is interpolated between rays whose channels
+    // If cells are larger than pixels, the picture is interpolated between rays whose channels
     // differ by no more than this (of 1). 0: a ray for each pixel.
     double pixel_tolerance = 0;
     Light light = {};  // none: the table's own colors
 };
 
-// Draws grids of one quantization in one view; what they share is made once. It is immutable, and
+// Draws grids of one quantization in one view, and makes what they share once. It is immutable, and
 // many threads may call draw().
 class VolumeSlicer {
   public:
-    // The geometry must outlive this object; `cache` may be null. `threads` make what is shared.
+    // The geometry must outlive this object; `cache` may be null. `threads` threads make the shared
+    // tables.
     VolumeSlicer(const ColorTable& table, const grid::Quantization& quantization,
                  const ViewGeometry& geometry, const VolumeOptions& options,
                  TransferCache* cache = nullptr, int threads = 1);
 
-    // Draws a grid, which must be that of the geometry.
+    // Draws a grid, which must have the geometry's spec.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
-    // The same in two steps, into memory that no other thread uses: what the rays need of a grid,
-    // and the rays themselves.
+    // These do the same in two steps, into memory that no other thread uses: prepare() makes the
+    // tables for a grid, and cast() casts the rays.
     void prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const;
     void cast(const grid::BrickView& view, int threads, SlicerRoom& room) const;
 

@@ -1,7 +1,7 @@
 // render/volume/step_integrals.h -- the second-order integrals of a transfer function, for many
 // steps at once.
 //
-// A step over `distance` bins begins in the middle of one bin and ends in the middle of another, so
+// A step over `distance` bins begins in the middle of one bin and ends in the middle of another. So
 // it shows half a bin, whole bins, and half a bin again, each with its share of the step.
 //
 // Threads   Pure.
@@ -14,7 +14,7 @@
 namespace stormcellar::render {
 
 inline constexpr std::size_t step_bins = 256;
-// Vectors may read so far beyond the last bin; what they read there is not used.
+// Vectors may read this far beyond the last bin; those numbers are not used.
 inline constexpr std::size_t bins_of_a_vector = 8;
 using OfBins = std::array<double, step_bins + bins_of_a_vector>;
 
@@ -29,8 +29,8 @@ struct PieceOpacities {
     OfBins whole{}, half{};  // for each bin
 };
 
-// At i, the step with bin i at its lower end: the color that gets out at its front, the light that
-// gets through it, and the sum of the depths of its bins.
+// Entry i describes the step with bin i at its lower end: the color that leaves its front, the
+// light that gets through it, and the sum of the depths of its bins.
 struct StepIntegrals {
     std::array<OfBins, 3> color;
     OfBins through, depth;

@@ -1,6 +1,6 @@
 // render/volume/transfer_cache.h -- keeps the transfer function of the last picture.
 //
-// It takes milliseconds to make, and is the same for all frames of a loop.
+// The function takes milliseconds to make, and is the same for all frames of a loop.
 //
 // Threads   One thread at a time.
 #pragma once

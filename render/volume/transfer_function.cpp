@@ -20,7 +20,7 @@ TransferEntry entry_of(double red, double green, double blue, double depth) {
             static_cast<float>(depth)};
 }
 
-// The nearer value alone: the second bin does not matter.
+// Uses only the nearer value; the second bin does not matter.
 void fill_riemann(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         const auto entry =
@@ -29,7 +29,7 @@ void fill_riemann(const BinLooks& look, Entries& entries) {
     }
 }
 
-// Sums over the bins: whole bins between the ends, and half of each end.
+// Sums over the bins: whole bins between the ends, and half of the bin at each end.
 void fill_first_order(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         double depth = 0;
@@ -58,7 +58,7 @@ void fill_first_order(const BinLooks& look, Entries& entries) {
     }
 }
 
-// Sets what all steps over `distance` bins look like in one direction.
+// Sets the look of all steps over `distance` bins in one direction.
 void put_steps(const StepIntegrals& steps, std::size_t distance, StepDirection direction,
                Entries& entries) {
     const double piece = 1.0 / static_cast<double>(distance);
@@ -125,7 +125,7 @@ void TransferFunction::choose_bins(const ColorTable& table) {
     double gap = range;
     for (std::size_t i = 1; i < stops.size(); ++i)
         gap = std::min(gap, static_cast<double>(stops[i].from - stops[i - 1].from));
-    // One bin is for what is clear below, and one for what begins at the highest value.
+    // One bin is for the clear values below, and one for values from the highest stop on.
     const double finest = range / (bin_count - 2);
     const double bins_a_gap = std::floor(gap / finest * (1 + 1e-9));
     bin_width_ = bins_a_gap >= 1 ? gap / bins_a_gap : finest;
@@ -142,8 +142,9 @@ TransferFunction::TransferFunction(const ColorTable& table, const grid::Quantiza
     bin_slope_ = static_cast<float>(step / bin_width_);
     bin_offset_ = static_cast<float>((code_zero - lowest_) / bin_width_ + 1 + bin_slack);
 
-    // First the look of each bin, by its middle value; then the count of visible bins, from which
-    // shows() answers for any range with one subtraction; then the entries for all pairs of bins.
+    // Computes the look of each bin, from its middle value. Then counts visible bins, so that
+    // shows() answers for any range with one subtraction. Then makes the entries for all pairs of
+    // bins.
     BinLooks look;
     for (int i = 1; i < bin_count; ++i) {
         const auto at = static_cast<std::size_t>(i);

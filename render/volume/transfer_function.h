@@ -3,11 +3,11 @@
 // A path of length s through an extinction k (ColorTable::extinction) has the optical depth k s
 // and the opacity 1 - exp(-k s). Lengths are those of the drawn scene, with heights exaggerated.
 //
-// Values are sorted into bins, and all values of a bin look like its middle. Bin 0 is clear: it
-// holds what lies below the table or its first extinction. The other bins have equal widths, such
-// that the last bin holds the highest stop of the table and, where possible, each stop begins a
-// bin. For each pair of bins at the two ends of a step, the table holds what the step looks like
-// from its first end, as stormcellar/render/integration.h says.
+// Values are sorted into bins, and all values of a bin look like its middle. Bin 0 is clear and
+// holds the values below the table or below its first extinction. The other bins have equal widths,
+// such that the last bin holds the highest stop of the table and, where possible, each stop begins
+// a bin. For each pair of bins at the two ends of a step, the table holds the look of the step from
+// its first end, as stormcellar/render/integration.h says.
 //
 // Threads   Immutable.
 #pragma once
@@ -48,16 +48,15 @@ class TransferFunction {
         return static_cast<int>(
             std::clamp(bin_offset_ + bin_slope_ * code, 0.0F, bin_count - 1.0F));
     }
-    // Returns the value that a bin looks like. Bin 0 has none.
+    // Returns the value whose look a bin has. Bin 0 has none.
     [[nodiscard]] double value_of(int bin) const { return lowest_ + (bin - 0.5) * bin_width_; }
     [[nodiscard]] double bin_width() const { return bin_width_; }
-    // Returns what a step from one bin to another looks like, the nearer one first.
+    // Returns the look of a step from one bin to another, the nearer one first.
     [[nodiscard]] const TransferEntry& entry(int bin, int other_bin) const {
         return entries_[static_cast<std::size_t>(bin) * bin_count +
                         static_cast<std::size_t>(other_bin)];
     }
-    // Returns true if any value from that of one code to that of the other, both included, is not
-    // clear.
+    // Returns true if any value between the values of the two codes, ends included, is not clear.
     [[nodiscard]] bool shows(std::uint16_t least_code, std::uint16_t largest_code) const {
         const auto first = static_cast<std::size_t>(bin(least_code));
         const auto last = static_cast<std::size_t>(bin(largest_code));

@@ -13,8 +13,8 @@
 // writes them; it is loaded when such a writer is created.
 //
 // Loops repeat without end if the format can say so (MP4, WebM and PNG files cannot). Video has
-// even sizes, so a picture with an odd size gets its last column or row twice. Alpha is dropped
-// where it is not named above.
+// even sizes, so a picture with an odd size gets its last column or row twice. Formats drop alpha
+// unless the list above says that they keep it.
 //
 // The file appears whole, by rename, at finish(), and replaces an old one. A writer that does not
 // finish leaves nothing behind. A directory is replaced if it is empty or holds only frames. This
@@ -58,16 +58,16 @@ struct AnimationOptions {
 [[nodiscard]] std::string known_animation_endings();
 
 // Checks a name without making anything. Returns bad_argument for a name that no build can write:
-// an unknown ending (the message names those that this build knows), or an existing directory
-// without its "/". Videos pass in every build.
+// an unknown ending (the message lists the endings that this build knows), or an existing directory
+// without its "/". Names of videos pass in every build.
 [[nodiscard]] Status check_animation_name(const std::string& output);
 
 class AnimationWriter {
   public:
     // Creates a writer. `file_system` must outlive it. Errors: bad_argument for an ending that this
-    // build does not know (the message names those that it does) or options outside their range;
-    // unsupported if the module for videos is missing; the system's reason if the file could not be
-    // written, so that nobody draws frames in vain.
+    // build does not know (the message lists the endings that it knows) or options outside their
+    // range; unsupported if the module for videos is missing; the system's reason if the file
+    // cannot be written, so that nobody draws frames in vain.
     static Result<std::unique_ptr<AnimationWriter>> create(
         const std::string& output, const AnimationOptions& options,
         FileSystem& file_system = real_file_system());
@@ -76,8 +76,8 @@ class AnimationWriter {
     AnimationWriter& operator=(const AnimationWriter&) = delete;
     virtual ~AnimationWriter() = default;
 
-    // Adds a frame. All frames must have the size of the first; otherwise add() returns
-    // bad_argument. After an error the writer is useless: every later call returns the same error.
+    // Adds a frame. All frames must have the size of the first, or add() returns bad_argument.
+    // After an error the writer is useless: every later call returns the same error.
     virtual Status add(const Image& frame) = 0;
     virtual Status finish() = 0;  // bad_argument if there was no frame, or if called twice
 };

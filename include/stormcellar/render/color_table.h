@@ -1,4 +1,4 @@
-// stormcellar/render/color_table.h -- what values look like: colors, and how opaque echo is.
+// stormcellar/render/color_table.h -- the look of values: their colors, and how opaque echo is.
 //
 // A table is a list of stops that rise in value. From one stop to the next the color goes from
 // `color` to `until`. In a stepped table, which shows classes, both are the same; in a smooth
@@ -44,8 +44,8 @@ struct ColorTable {
     level2::Moment moment = level2::Moment::ref;
     std::string unit;              // "dBZ"; empty: no unit
     std::vector<ColorStop> stops;  // at least one
-    float end = 0;                 // where the last class ends in a color bar; above the last stop
-    // Where a color bar begins, if not with the first class, which may reach far down.
+    float end = 0;                 // upper end of the last class in a color bar
+    // Where a color bar begins. If empty, it begins with the first class, which may reach far down.
     std::optional<float> bar_begin;
     Rgba8 range_folded{};
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly
@@ -54,7 +54,8 @@ struct ColorTable {
     bool operator==(const ColorTable&) const = default;
 };
 
-// A table may have no more stops than this. No display shows more apart, and it bounds files.
+// A table may have no more stops than this. No display shows more colors, and the limit bounds
+// files.
 inline constexpr std::size_t most_stops = 4096;
 
 // Checks a table. Returns bad_argument, with a message that follows the name of a table, unless

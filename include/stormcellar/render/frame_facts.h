@@ -20,7 +20,8 @@ struct FrameFacts {
     UtcTime time;
     std::vector<grid::SitePosition> sites;
     bool partial = false;
-    // The members below may be left empty. The time at some place: "1999-05-03 18:56:21 CDT".
+    // The local time of the grid: "1999-05-03 18:56:21 CDT". This and the following members may be
+    // empty.
     std::string local_time = {};
     // The time from the newest radial to now, for a picture that is made while its data are new.
     std::optional<std::chrono::seconds> antenna_to_picture = {};

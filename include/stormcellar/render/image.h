@@ -17,14 +17,14 @@ using Rgba8 = std::array<std::uint8_t, 4>;  // sRGB; alpha is not premultiplied
 // Returns the color that results from drawing `color` over the opaque color `below`.
 [[nodiscard]] Rgba8 over(const Rgba8& color, const Rgba8& below);
 
-// Row 0 is the top. All pixels are opaque unless stated otherwise.
+// Pixels in rows; row 0 is the top. All pixels are opaque unless stated otherwise.
 struct Image {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;  // width * height * 4, R G B A
 
     Image() = default;
     Image(int w, int h, Rgba8 fill);
-    // The pixel must exist.
+    // Returns the color of a pixel, which must exist.
     [[nodiscard]] Rgba8 at(int x, int y) const {
         const std::size_t first = offset(x, y);
         return {rgba[first], rgba[first + 1], rgba[first + 2], rgba[first + 3]};

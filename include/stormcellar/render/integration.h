@@ -8,9 +8,9 @@
 
 namespace stormcellar::render {
 
-//   riemann       Uses the nearer value alone. The error is of first order in the step.
+//   riemann       Uses only the nearer value. The error is of first order in the step.
 //   first_order   Mixes all values between the two ends, each weighted by its extinction. It
-//                 ignores what the near part of the step hides of the far part.
+//                 ignores that the near part of the step hides the far part.
 //   second_order  Uses all values in their order: the integral over a straight change from one end
 //                 to the other (Engel, Kraus, Ertl 2001). The error is of second order.
 enum class Integration { riemann, first_order, second_order };

@@ -4,12 +4,12 @@
 // applied once. The echo of a picture keeps the mean lightness that it has without light. With the
 // light off, echo has exactly the colors of the table.
 //   gradient    Surfaces are lighter where they face the sun and darker where they face away. The
-//               effect follows the gradient of the values, as far as it is steep; a cell without
-//               echo counts as 0 dBZ, and one that was not seen as the nearest seen cell of its
-//               column.
-//   shadow      Whatever lies between a place and the sun takes light from it, and whatever
-//               surrounds the place takes light from the sky (ambient occlusion).
-//   scattering  As shadow, but brightest toward the sun through echo: single scattering by the
+//               effect follows the gradient of the values and grows with its steepness. A cell
+//               without echo counts as 0 dBZ, and a cell that was not seen takes the value of the
+//               nearest seen cell of its column.
+//   shadow      Echo between a place and the sun dims sunlight there, and echo around the place
+//               dims the light of the sky (ambient occlusion).
+//   scattering  Like shadow, but brightest toward the sun through echo: single scattering by the
 //               phase function of Henyey and Greenstein with g = 0.4.
 //
 // Units     Degrees.
@@ -28,7 +28,7 @@ struct Light {
     bool shadow = false;
     bool scattering = false;
     double sun_azimuth_deg = 225;   // direction of the sun, clockwise from north
-    double sun_elevation_deg = 40;  // render/scene.h has its range
+    double sun_elevation_deg = 40;  // range: limits in stormcellar/render/scene.h
 
     [[nodiscard]] bool any() const { return gradient || shadow || scattering; }
     [[nodiscard]] bool needs_volume() const { return shadow || scattering; }

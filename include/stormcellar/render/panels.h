@@ -1,14 +1,12 @@
-// stormcellar/render/panels.h -- several views in one picture: one title, one camera, and for each
-// view a map and a legend of its own.
+// stormcellar/render/panels.h -- draws several views in one picture, with one title and one camera.
+// Each view has its own map and legend.
 //
-// The views are those of one place and time, such as the moments of a volume. The panels have one
-// size and stand in rows, in the order that is given; how many stand in a row follows from the size
-// of the picture.
+// The views show one place and time, such as the moments of a volume. The panels have one size and
+// are in rows, in the given order. The size of the picture determines how many are in a row.
 //
 // Units     Pixels.
 // Threads   Any thread may call; render_panels() uses `threads` threads of its own. A FrameCache
-// may
-//           be used by one call at a time.
+//           may be used by one call at a time.
 // Errors    See render_panels().
 #pragma once
 
@@ -27,16 +25,16 @@ struct FrameCache;  // render/frame/frame_cache.h
 
 inline constexpr std::size_t most_panels = 9;
 
-// A grid, and how it is to be seen. The title is that of the first panel; the size of the picture,
-// its theme and whether it has labels are those of the first scene.
+// A grid with its facts and its scene. The first panel gives the title of the picture; its scene
+// gives the size, the theme and whether there are labels.
 struct Panel {
     grid::BrickView view;
     FrameFacts facts;
     Scene scene;
 };
 
-// Draws the panels. Errors: bad_argument if there are none or more than most_panels, for a section,
-// and for a picture that is too small for them; those of render_frame().
+// Draws the panels. Errors: bad_argument if there are no panels or more than most_panels, if a
+// panel is a section, or if the picture is too small for the panels; those of render_frame().
 [[nodiscard]] Result<Image> render_panels(std::span<const Panel> panels, int threads,
                                           FrameCache* cache = nullptr);
 

@@ -16,16 +16,16 @@ namespace stormcellar::render {
 
 enum class PngAlpha { when_needed, always };
 
-// Returns the bytes of a PNG file with 8 bits in sRGB. It is RGB if every pixel is opaque and alpha
-// is only kept when needed, else RGBA. `texts` become tEXt chunks: a keyword of 1 to 79 characters
-// and a text in Latin-1. Errors: bad_argument for an image whose bytes do not fit its size, or a
-// text with a zero byte.
+// Returns the bytes of a PNG file with 8 bits in sRGB. The file is RGB if every pixel is opaque and
+// alpha is only kept when needed, else RGBA. `texts` become tEXt chunks, with a keyword of 1 to 79
+// characters and a text in Latin-1. Errors: bad_argument for an image whose bytes do not fit its
+// size, or a text with a zero byte.
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(
     const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {},
     PngAlpha alpha = PngAlpha::when_needed);
 
-// The same pixels in few bytes and little time, for pictures of few colors such as tiles of a map:
-// an image of up to 256 colors becomes one with a palette (8 bits or fewer a pixel), any other
+// Returns the same pixels as a smaller file in less time, for pictures of few colors such as map
+// tiles. An image of up to 256 colors gets a palette (8 bits or fewer for a pixel); any other is
 // RGBA. Errors: those of encode_png().
 [[nodiscard]] Result<std::vector<std::byte>> encode_png_of_few_colors(const Image& image);
 

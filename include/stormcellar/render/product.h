@@ -1,8 +1,10 @@
-// stormcellar/render/product.h -- the products that a picture can show, and what is known of each.
+// stormcellar/render/product.h -- the products that a picture can show, and the facts about each.
 //
-// This is the one list of products. How a map's numbers are made is in
-// render/products/flat_field.h; CONTRIBUTING.md says how to add a product. Which options of
-// the command line a product uses is a fact of the options. Threads: constants and pure functions.
+// This is the only list of products. render/products/flat_field.h says how the numbers of a map are
+// made, and CONTRIBUTING.md says how to add a product. The table of options knows which options of
+// the command line a product uses.
+//
+// Threads   Constants and pure functions.
 #pragma once
 
 #include <span>
@@ -41,7 +43,7 @@ enum class View {
 struct ProductFacts {
     Product product = Product::volume;
     std::string_view name = {};   // on the command line and in scene files
-    std::string_view aside = {};  // what help adds to the name in brackets
+    std::string_view aside = {};  // text that help adds to the name in brackets
     View view = View::map;
     std::string (*title)(const Scene&) = nullptr;  // "Echo tops, 18.5 dBZ"
     std::string_view unit = {};                    // empty: the moment's
@@ -49,11 +51,11 @@ struct ProductFacts {
     bool needs_reflectivity = false;
     // The value that echo must reach for a column to have a value.
     double Scene::*threshold_dbz = nullptr;
-    bool may_be_higher = false;  // of tops: the picture says where the true value may be larger
-    // Columns that were seen may be without a value: no echo, or range folded.
+    bool may_be_higher = false;  // for tops: the picture marks where the true value may be larger
+    // True if a column that was seen may have no value: no echo, or range folded.
     bool has_echo_states = true;
-    bool is_smooth = false;  // may be drawn smoothly: no levels of the grid, no gates as they are
-    // Shows a sweep (BrickView::sweep) instead of a grid.
+    bool is_smooth = false;  // true if the map may be drawn smoothly
+    // True for a sweep (BrickView::sweep) instead of a grid.
     bool is_of_sweep = false;
 };
 
@@ -61,7 +63,8 @@ struct ProductFacts {
 [[nodiscard]] const ProductFacts& facts_of(Product product);
 [[nodiscard]] std::string_view product_name(Product product);
 [[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
-// The names with what help adds: "volume, composite (column maximum), ... or highest-seen".
+// Returns the names with the additions of help: "volume, composite (column maximum), ... or
+// highest-seen".
 [[nodiscard]] std::string products_for_help();
 [[nodiscard]] View view_of(Product product);
 [[nodiscard]] bool is_map(Product product);
@@ -72,7 +75,7 @@ struct ProductFacts {
 [[nodiscard]] const ColorTable& colors_of(const Scene& scene);
 // Returns the unit of the product's values: "dBZ", "km"; empty for a number without one.
 [[nodiscard]] std::string unit_shown(const Scene& scene);
-// Returns the unit in which the picture writes these values.
+// Returns the unit in which the picture writes the product's values.
 [[nodiscard]] ShownUnit written_unit(const Scene& scene);
 
 }  // namespace stormcellar::render

@@ -20,23 +20,22 @@ namespace stormcellar::render {
 
 struct FrameCache;  // render/frame/frame_cache.h
 
-// Draws a picture. If a loop hands the same cache to all its frames, the map and the colors are
+// Draws a picture. If a loop passes the same cache for all its frames, the map and the colors are
 // prepared only once and memory is allocated only once; the pixels are the same with or without it.
-// A ppi needs a view of a sweep (BrickView::sweep), every other product one of a grid. Errors:
-// bad_argument if the moment of the view is not that of the scene, if the view is of the other
-// kind, for heights beyond those of the grid, and for a section outside the grid; those of
-// check_frame().
+// A ppi needs a view of a sweep (BrickView::sweep), every other product a view of a grid. Errors:
+// bad_argument if the view has another moment than the scene or is of the wrong kind, for heights
+// beyond the grid, and for a section outside the grid; those of check_frame().
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          FrameCache* cache = nullptr);
 
-// Checks, before anything is drawn, what render_frame() requires. Also returns unsupported for a
-// volume of more than 2^31 codes.
+// Checks the requirements of render_frame() before anything is drawn. Also returns unsupported for
+// a volume of more than 2^31 codes.
 [[nodiscard]] Status check_frame(const grid::BrickView& view, const FrameFacts& facts,
                                  const Scene& scene);
-// Returns the scene with what its view decides: of a ppi the angle of the sweep.
+// Returns the scene with the values that its view decides: for a ppi, the angle of the sweep.
 [[nodiscard]] Scene scene_shown(const grid::BrickView& view, Scene scene);
-// Returns how a volume or a map is seen in a picture of this size. A map is seen from straight
+// Returns the geometry of a volume or a map in a picture of this size. A map is seen from straight
 // above, with north up.
 [[nodiscard]] ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene,
                                             int width, int height);

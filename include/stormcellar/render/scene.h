@@ -1,4 +1,4 @@
-// stormcellar/render/scene.h -- what to show: product, camera, colors, labels.
+// stormcellar/render/scene.h -- the description of a picture: product, camera, colors, labels.
 //
 // Units     Each member names its unit in its name or its comment; heights are above mean sea
 //           level.
@@ -28,7 +28,7 @@ namespace stormcellar::render {
 namespace limits {
 inline constexpr NumberRange side_px{16, 8192};        // width and height
 inline constexpr NumberRange tilt_deg{0, 90};          // of a camera that looks from outside
-inline constexpr NumberRange tilt_of_eye_deg{0, 180};  // of one with a place of its own
+inline constexpr NumberRange tilt_of_eye_deg{0, 180};  // of a camera with a place of its own
 inline constexpr NumberRange zoom{0.01, 1000};
 inline constexpr NumberRange field_of_view_deg{1, 150};  // or 0
 inline constexpr NumberRange eye_m{-1e7, 1e7};           // to the east, and to the north
@@ -48,23 +48,23 @@ inline constexpr NumberRange opacity{1e-3, 1e3};
 inline constexpr NumberRange ring_spacing_m{1e3, 1e6};
 }  // namespace limits
 
-// The place of a camera, or of what it looks at: meters east and north of the middle of the grid,
-// and a height above sea level.
+// The place of a camera, or of the point that it looks at: meters east and north of the middle of
+// the grid, and a height above sea level.
 struct Eye {
     double x_m = 0, y_m = 0, height_m = 0;
 };
 
-// Without a place of its own, the camera looks from outside at the middle of the box that holds the
-// cells and the ground under them.
+// A camera without a place of its own is outside the grid and looks at the middle of the box that
+// holds the cells and the ground under them.
 struct Camera {
-    double azimuth_deg = 180;  // from where it looks: 180 is from the south, north is up
+    double azimuth_deg = 180;  // where the camera is: from 180, the south, north is up
     double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground, and for a
                                // camera with a place of its own 180 straight up
     double zoom = 1;           // 1: the whole grid fits into the image
     double field_of_view_deg = 0;           // across the image at zoom 1; 0: orthographic
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
-    // The point in the middle of the picture. A camera with a place of its own turns to it,
-    // whatever its azimuth and tilt are; one that looks from outside keeps these two.
+    // The point in the middle of the picture. A camera with a place of its own turns to it and
+    // ignores its azimuth and tilt; a camera that looks from outside keeps both.
     std::optional<Eye> look_at = std::nullopt;
 };
 
@@ -78,10 +78,10 @@ struct Scene {
     level2::Moment moment = level2::Moment::ref;        // of the grid; some products need REF
     std::optional<ColorTable> colors = std::nullopt;    // none: see colors_of()
     double cappi_height_m = 3000;                       // above sea level
-    std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
+    std::optional<SectionLine> section = std::nullopt;  // required for a section
     double echo_top_dbz = 18.5;
-    // For a ppi: the elevation and number by which the sweep is looked up in a volume. The picture
-    // shows the sweep of its view, whose angle scene_shown() puts here.
+    // For a ppi: the elevation and the number that select the sweep of a volume. The picture shows
+    // the sweep of its view, and scene_shown() puts the angle of that sweep here.
     static constexpr double lowest_sweep = -90;
     static constexpr int no_number = -1;
     double elevation_deg = lowest_sweep;
@@ -95,17 +95,18 @@ struct Scene {
     Integration integration = Integration::second_order;
     double pixel_tolerance = 0;  // 0..0.1
     Light light;                 // off unless asked for
-    bool haze = false;           // volumes: air that was not seen veils what is behind it
+    bool haze = false;           // volumes: air that was not seen is drawn as a veil
     bool smooth = false;         // maps: values go smoothly from cell to cell
     double opacity = 1;          // scales the transfer function's opacity; 0.001..1000
-    // 1..1000 km, or 50 km and more by the size of the grid.
+    // Spacing of range rings: 1 to 1000 km, or this value, which chooses 50 km or more by the size
+    // of the grid.
     static constexpr double usual_rings = 0;
     double range_ring_spacing_m = usual_rings;
     bool labels = true;  // color bar, title, time, map
     Theme theme = Theme::dark;
-    Units units;  // of what is written
+    Units units;  // units of written numbers
 };
-// Checks a scene. Returns bad_argument, naming the first member that is outside its range. NaN is
+// Checks a scene. Returns bad_argument and names the first member that is outside its range. NaN is
 // outside every range.
 [[nodiscard]] Status validate(const Scene& scene);
 

@@ -1,15 +1,15 @@
 // stormcellar/render/still.h -- the formats of a single picture, and of a map as data for other
 // programs.
 //
-// Formats of pictures take the pixels of any product, drawn by render_frame():
+// Formats of pictures encode the pixels of any product that render_frame() draws:
 //   PNG      lossless; alpha is kept; metadata as tEXt chunks
 //   JPEG     quality 92 without subsampling of colors; alpha is dropped; metadata as XMP
 //   WebP     lossless; alpha is kept; metadata as XMP
 // Formats of maps take a 2D product of a grid, without the map and the labels around it:
 //   GeoTIFF  the values of the cells in the grid's own projection: a cloud-optimized file for GIS
 //   KMZ      the map's colors over latitude and longitude, with a legend, for Google Earth
-// One row a format. What writes a still takes the format from the name of the file; help and
-// messages list what the registry holds.
+// Each format has one row in a registry. A writer of stills chooses the format by the name of the
+// file; help and messages list the registry.
 //
 // Threads   Any thread may call.
 // Errors    See each function.
@@ -33,9 +33,9 @@ namespace stormcellar::render {
 
 // The kinds of pixels that a GeoTIFF may hold.
 enum class TiffContent {
-    values,  // float: what the product shows, in its unit; NaN where a column has no value
+    values,  // float: the shown number in its unit; NaN where a column has no value
     states,  // byte: 0 not seen, 1 no echo, 2 range folded, 3 value, 4 value or more (tops)
-    colors,  // red, green, blue, alpha: as the color table has it
+    colors,  // red, green, blue, alpha: the colors of the color table
 };
 struct TiffContentFacts {
     TiffContent content = TiffContent::values;
@@ -55,7 +55,7 @@ struct StillOptions {
     int threads = 1;
 };
 
-// A 2D product of a grid. What is referred to must outlive it.
+// A 2D product of a grid. The objects that it refers to must outlive it.
 struct StillMap {
     const grid::BrickView& view;
     const FrameFacts& facts;
@@ -66,8 +66,8 @@ struct StillFormat {
     std::string_view name;                      // "JPEG"
     std::span<const std::string_view> endings;  // of its files; the first one is the usual one
     std::string_view media_type;                // "image/jpeg"
-    // Exactly one of these is there. Errors: bad_argument for a picture that the format does not
-    // hold, for example because it is too large; internal if a library refuses.
+    // Exactly one of the two encoders is set. Errors: bad_argument for a picture that the format
+    // cannot hold, for example because it is too large; internal if a library refuses.
     Result<std::vector<std::byte>> (*encode_picture)(const Image& picture,
                                                      const StillOptions& options) = nullptr;
     // Errors: bad_argument for a product that is no map, and those of check_frame(); unsupported
@@ -76,11 +76,12 @@ struct StillFormat {
                                                  const StillOptions& options) = nullptr;
 };
 
-// The first one is the default, where no name says which.
+// Returns all formats. The first one is the default if no file name chooses one.
 [[nodiscard]] std::span<const StillFormat> still_formats();
-// By the ending of a file's name. Null: no format has this ending.
+// Finds a format by the ending of a file's name. Returns null if no format has this ending.
 [[nodiscard]] const StillFormat* still_format_of(std::string_view file_name);
-// The endings of all formats, and the names with them: "PNG (.png), JPEG (.jpg, .jpeg), ...".
+// still_endings() returns the endings of all formats; known_still_formats() the names with them:
+// "PNG (.png), JPEG (.jpg, .jpeg), ...".
 [[nodiscard]] std::vector<std::string_view> still_endings();
 [[nodiscard]] std::string known_still_formats();
 

@@ -1,4 +1,4 @@
-// stormcellar/render/theme.h -- whether a picture is drawn on a dark or on a light page.
+// stormcellar/render/theme.h -- the themes of a picture: a dark or a light page.
 //
 // A theme changes the page, the ground, lines and letters, never the colors of echo.
 //
@@ -16,7 +16,8 @@ namespace stormcellar::render {
 enum class Theme { dark, light };
 
 [[nodiscard]] std::string_view theme_name(Theme theme);
-// Returns bad_argument, which lists the names, for any other name.
+// Returns a theme by its name. Errors: bad_argument for any other name; the message lists the
+// names.
 [[nodiscard]] Result<Theme> theme_from_name(std::string_view name);
 // Returns "dark or light".
 [[nodiscard]] std::string themes_for_help();

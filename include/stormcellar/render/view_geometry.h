@@ -6,9 +6,9 @@
 //              drawn curved, a point at the distance r from the middle lies r^2 / (2 R) lower, R =
 //              6,371 km, which is exaggerated too. This parabola differs from the sphere by less
 //              than 1 % of the drop within 1,000 km.
-// Camera       Orthographic or perspective. Without a place of its own it looks at the middle of
-//              the box that holds the grid (the cells and the ground below them). At zoom 1 that
-//              box just fits into the picture. Another point to look at moves the picture and keeps
+// Camera       Orthographic or perspective. A camera without a place of its own looks at the middle
+//              of the box that holds the grid (the cells and the ground below them). At zoom 1 that
+//              box just fits into the picture. A given point to look at moves the picture and keeps
 //              its scale.
 // Pixels       (0, 0) is the top left corner of the picture, (0.5, 0.5) the middle of its first
 //              pixel.
@@ -38,7 +38,7 @@ struct GroundPoint {
     double x_m = 0, y_m = 0;
 };
 
-// The ground under the middles of a row of pixels; not a number where there is sky.
+// The ground under the middles of a row of pixels; NaN where there is sky.
 struct GroundRow {
     std::vector<double> x_m, y_m;
     [[nodiscard]] bool is_sky(std::size_t x) const { return std::isnan(x_m[x]); }
@@ -53,14 +53,14 @@ class ViewGeometry {
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
     [[nodiscard]] bool is_perspective() const { return focal_pixels_ > 0; }
-    // At the middle of the box.
+    // Returns the size of a pixel at the middle of the box, or at a depth.
     [[nodiscard]] double metres_per_pixel() const { return metres_per_pixel_; }
     [[nodiscard]] double metres_per_pixel(double depth_m) const {
         return is_perspective() ? depth_m / focal_pixels_ : metres_per_pixel_;
     }
 
-    // Unit vectors of drawn space: to the right in the picture, up in the picture, and away from
-    // the camera.
+    // Unit vectors of drawn space: right() points to the right in the picture, up() up in the
+    // picture, and forward() away from the camera.
     [[nodiscard]] const Vec3& right() const { return right_; }
     [[nodiscard]] const Vec3& up() const { return up_; }
     [[nodiscard]] const Vec3& forward() const { return forward_; }
@@ -76,25 +76,25 @@ class ViewGeometry {
     // Returns the ground under a pixel, also beyond the grid, or none where there is sky.
     [[nodiscard]] std::optional<GroundPoint> ground(Pixel pixel) const;
 
-    // Puts the ground under all pixels of a row, from left to right, into `row`, whose memory is
-    // used again. The numbers are those of ground(), to the bit.
+    // Fills `row` with the ground under all pixels of a row, from left to right, and reuses its
+    // memory. The numbers equal those of ground() to the bit.
     void ground_of_row(int y, GroundRow& row) const;
 
-    // The depths between which the box of the grid's cells lies, in front of the camera. far_m() is
-    // always the larger.
+    // Return the least and the largest depth of the box of the grid's cells, in front of the
+    // camera. far_m() is always the larger.
     [[nodiscard]] double near_m() const { return near_m_; }
     [[nodiscard]] double far_m() const { return far_m_; }
 
-    // The box: half its widths, the lowest and highest height of its cells (not exaggerated), and
-    // the height of the ground.
+    // Return the box: half its widths, the lowest and highest height of its cells (not
+    // exaggerated), and the height of the ground.
     [[nodiscard]] double half_x_m() const { return half_x_m_; }
     [[nodiscard]] double half_y_m() const { return half_y_m_; }
     [[nodiscard]] double bottom_m() const { return bottom_m_; }
     [[nodiscard]] double top_m() const { return top_m_; }
     [[nodiscard]] double ground_m() const { return ground_m_; }
 
-    // Returns how much the drawn curve of the earth lowers a point, not exaggerated; and the factor
-    // of r^2.
+    // drop_m() returns how much the drawn curve of the earth lowers a point, not exaggerated;
+    // drop_per_m2() returns the factor of r^2.
     [[nodiscard]] double drop_m(double x_m, double y_m) const {
         return drop_per_m2_ * (x_m * x_m + y_m * y_m);
     }
@@ -123,8 +123,8 @@ class ViewGeometry {
     double near_m_ = 0, far_m_ = 0;
 };
 
-// Returns the camera with the azimuth and the tilt by which it looks at its look_at, if it has a
-// place of its own. A camera that is right above or below that point keeps its azimuth.
+// Returns the camera with the azimuth and the tilt that point it at its look_at, if it has a place
+// of its own. A camera right above or below that point keeps its azimuth.
 [[nodiscard]] Camera aimed(const Camera& camera, double vertical_exaggeration,
                            bool curved_earth = false);
 
