@@ -15,7 +15,7 @@ namespace stormcellar::level2 {
 inline constexpr std::size_t archive_header_bytes = 24;
 
 // Reads the header at the start of `bytes`, which begins with "AR2V" or "ARCHIVE2" and a dot.
-// Returns none if there is no header. An ICAO that cannot be one (blanks, zeros) is left empty.
+// Returns none if there is no header. An impossible ICAO (blanks, zeros) is left empty.
 [[nodiscard]] std::optional<VolumeHeader> read_archive_header(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

@@ -116,8 +116,8 @@ std::optional<BzipBlocks::Mark> BzipBlocks::find_mark(std::uint64_t from_bit) co
     std::uint64_t window = eight_bytes(bytes_, static_cast<std::size_t>(from_bit / 8));
     auto at = static_cast<std::size_t>(from_bit / 8);
     for (; at + 6 <= bytes_.size(); ++at) {
-        // The window holds the bytes at .. at + 7, with the mark at all eight places that begin in
-        // `at`.
+        // The window holds the bytes at .. at + 7, which include the mark at all eight bit offsets
+        // in the byte at `at`.
         for (int shift = 0; shift < 8; ++shift) {
             const std::uint64_t here = (window >> (64 - mark_bits - shift)) & mark_mask;
             if (here != block_mark && here != end_mark) continue;
@@ -133,7 +133,7 @@ std::optional<BzipBlocks::Mark> BzipBlocks::find_mark(std::uint64_t from_bit) co
 
 bunzip::Status BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit,
                                   std::size_t limit) {
-    // After its mark a block has its checksum, which is also that of a stream of one block.
+    // After its mark, a block has its checksum, which equals the checksum of a stream of one block.
     const std::uint64_t checksum_bit = begin_bit + mark_bits;
     if (end_bit < begin_bit + least_block_bits) return bunzip::Status::truncated;
     const std::uint64_t window = eight_bytes(bytes_, static_cast<std::size_t>(checksum_bit / 8));

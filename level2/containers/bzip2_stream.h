@@ -1,9 +1,9 @@
 // level2/containers/bzip2_stream.h -- finds bzip2 streams, and recovers the whole blocks of a
 // damaged stream.
 //
-// bunzip gives out a block before it has checked it, so the output of a stream that fails must not
-// be used. BzipBlocks then reads the blocks of the stream one at a time and gives only those whose
-// checksum is right, including those after a damaged block.
+// bunzip returns a block before it has checked it, so the output of a stream that fails must not be
+// used. BzipBlocks then reads the blocks of the stream one at a time and returns only those with
+// the right checksum, including those after a damaged block.
 //
 // Threads   Pure functions. A BzipBlocks may be used by one thread at a time.
 #pragma once
@@ -41,7 +41,7 @@ class BzipBlocks {
         std::size_t position = 0;                       // in `bytes`, rounded down
         std::size_t compressed_bytes = 0;
         // The bytes that were unpacked in vain in all tries for this block, halved, because damage
-        // costs several tries where a good block costs one. They count because they took time.
+        // costs several tries and a good block costs one. They count because they took time.
         std::uint64_t wasted_bytes = 0;
     };
     static constexpr std::uint64_t least_try_bytes = std::uint64_t{256} << 10;
@@ -49,8 +49,8 @@ class BzipBlocks {
     [[nodiscard]] static std::uint64_t waste_of(std::uint64_t unpacked_bytes) {
         return std::max(unpacked_bytes, least_try_bytes) / 2;
     }
-    // Returns the next block, or none after the last one or after max_bad_blocks bad ones. A block
-    // of more than `limit` bytes is too_large, and has no data.
+    // Returns the next block, or none after the last one or after max_bad_blocks bad blocks. A
+    // block of more than `limit` bytes is too_large, and has no data.
     static constexpr int max_bad_blocks = 1000;
     [[nodiscard]] std::optional<Block> next(std::size_t limit);
     // Returns true if the last stream had its end mark.

@@ -45,7 +45,7 @@ std::optional<ChunkKind> kind_of(char letter) {
     }
 }
 
-// Reads a number from 1 to 999 at `at`, and moves `at` behind it. Returns 0 if there is none.
+// Reads a number from 1 to 999 at `at`, and moves `at` past it. Returns 0 if there is none.
 int read_number(std::string_view text, std::size_t& at) {
     int number = 0;
     for (std::size_t digits = 0; digits < most_digits && at < text.size() && is_digit(text[at]);
@@ -73,8 +73,8 @@ std::optional<PlacedChunkName> read_chunk(std::string_view name, std::size_t num
     return chunk;
 }
 
-// Returns where the volume's part of the name ends and the number of the chunk begins, if the name
-// can begin at `at`.
+// Returns the place where the number of the chunk begins, after the volume's part of the name, if a
+// name can begin at `at`.
 std::optional<std::size_t> number_behind_volume(std::string_view name, std::size_t at) {
     const std::string_view rest = name.substr(at);
     if (begins_as(dashed_volume, rest)) return at + dashed_volume.size();

@@ -7,8 +7,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// A volume header with the first bytes of a record, or a record with the checksum of its first
-// block: no other chunk begins so.
+// A chunk begins with a volume header and the first bytes of a record, or with a record and the
+// checksum of its first block. No other chunk begins with the same bytes.
 constexpr std::size_t sign_bytes = 32;
 
 }  // namespace

@@ -1,7 +1,8 @@
-// level2/containers/chunk_once.h -- takes a chunk's file once whose bytes were appended again.
+// level2/containers/chunk_once.h -- removes repetitions from the file of a chunk that was appended
+// again.
 //
 // After a crash, LDM's pqact files products again. If it appends, a file of one chunk then holds
-// the chunk twice, or a part of it and all of it.
+// the chunk twice, or a part of it and then all of it.
 //
 // Threads   Pure function.
 #pragma once
@@ -11,7 +12,8 @@
 
 namespace stormcellar::level2 {
 
-// Returns the part of the bytes that holds each of them once; all of them if nothing is repeated.
+// Returns the part of the bytes that holds each byte of the chunk once; all bytes if nothing is
+// repeated.
 [[nodiscard]] std::span<const std::byte> chunk_once(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

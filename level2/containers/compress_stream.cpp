@@ -103,7 +103,7 @@ std::span<const std::byte> CompressStream::next() {
     output_.clear();
     while (end_ == CompressEnd::none && output_.size() < piece_bytes) {
         // The writer widens its codes once the table fills their width. By a quirk of compress it
-        // does so even if 9 bits are the most, although no code then needs the tenth.
+        // does so even if the largest width is 9 bits, although no code then needs the tenth.
         if (width_ < std::max(limit_, least_width + 1) && next_entry_ >= (1U << width_))
             begin_group(width_ + 1);
         const auto code = next_code();

@@ -1,7 +1,7 @@
 // level2/containers/compress_stream.h -- expands Unix compress (.Z), as in archives of the 1990s,
 // piece by piece.
 //
-// Whatever was expanded before damage is given out. Damage is a state at the end and never lost.
+// Bytes expanded before the damage are returned. Damage is a state at the end and never lost.
 //
 // Format    3 bytes (1F 9D, then the largest code width, 9 to 16, and 0x80 if code 256 clears the
 //           table). Then follow codes, low bits first, beginning with 9 bits. Codes of one width

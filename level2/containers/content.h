@@ -1,4 +1,4 @@
-// level2/containers/content.h -- finds out from the bytes what they hold.
+// level2/containers/content.h -- recognizes the content of a file by its bytes.
 //
 // Threads   Pure functions.
 #pragma once
@@ -18,11 +18,11 @@ enum class Content : std::uint8_t {
     unknown
 };
 
-// Looks only at the start. A first frame that is not a message is allowed if messages follow it.
+// Reads only the start. A first frame that is not a message is allowed if messages follow it.
 [[nodiscard]] Content content_at_start(std::span<const std::byte> bytes);
 
-// The same, but if the start is damaged, searches all of it for an LDM record or a message. A start
-// that is another format's, such as PNG's or that of a cache's grids, is not damaged: unknown.
+// Does the same, but if the start is damaged, searches all bytes for an LDM record or a message.
+// The start of another format, such as PNG or the grids of a cache, is not damaged but unknown.
 [[nodiscard]] Content content_anywhere(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

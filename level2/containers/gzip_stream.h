@@ -1,7 +1,7 @@
 // level2/containers/gzip_stream.h -- inflates gzip with zlib, piece by piece, with one member after
 // the other.
 //
-// Whatever was inflated before damage is given out. Damage is a state at the end and never lost.
+// Bytes inflated before the damage are returned. Damage is a state at the end and never lost.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -53,8 +53,8 @@ class GzipStream {
     GzipEnd end_ = GzipEnd::none;
 };
 
-// The bytes without their gzip layer, as far as it can be read; without such a layer a copy. For
-// files that are trusted: the length is not bounded.
+// Returns the bytes without their gzip layer, as far as it can be read; without such a layer, a
+// copy. For trusted files only, because the length is not bounded.
 [[nodiscard]] std::vector<std::byte> without_gzip(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

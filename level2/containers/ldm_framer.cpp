@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t control_word_bytes = 4;
 
-// Returns true if what follows can follow a record with the right length; none while there are too
-// few bytes to decide.
+// Returns true if `rest` may follow a record with the right length; none while there are too few
+// bytes to decide.
 std::optional<bool> may_begin(std::span<const std::byte> rest, bool last) {
     if (rest.size() < archive_header_bytes && !last) return std::nullopt;
     // a remainder, or the end
@@ -34,7 +34,7 @@ void LdmStreamFramer::end_part(std::size_t bytes) {
     searched_behind_ = 0;
 }
 
-// Does what find_bzip2() does, but continues where it stopped when there are more bytes.
+// Does the work of find_bzip2(), but continues where it stopped when there are more bytes.
 std::optional<std::size_t> LdmStreamFramer::find_stream(std::span<const std::byte> rest,
                                                         std::size_t from) {
     const auto found = find_bzip2(rest, std::max(from, searched_));

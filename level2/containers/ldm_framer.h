@@ -1,8 +1,7 @@
 // level2/containers/ldm_framer.h -- cuts a file into LDM records (ICD 2620010, section 7.3.4).
 //
 // A record is a signed 4-byte length, whose sign usually marks the last record, and a bzip2 stream.
-// A length that contradicts the bytes is not believed; the framer then searches for the next
-// stream.
+// If a length contradicts the bytes, the framer ignores it and searches for the next stream.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -17,8 +16,8 @@
 
 namespace stormcellar::level2 {
 
-// The largest known volume has 12 MB. A larger length is wrong, and known to be wrong before that
-// many bytes have come.
+// The largest known volume has 12 MB. So a larger length is wrong, which is clear before that many
+// bytes have come.
 inline constexpr std::size_t longest_record_bytes = std::size_t{32} << 20;
 
 struct LdmPart {
@@ -37,13 +36,13 @@ struct LdmPart {
     bool bad_length = false;  // the control word contradicts the bytes
 };
 
-// Cuts a file that grows. It decides nothing that later bytes could change, with one exception: a
-// record whose length ends at the end mark of a bzip2 stream is accepted at once.
+// Cuts a file that grows. It decides nothing that later bytes could change, with one exception: it
+// accepts a record at once if its length ends at the end mark of a bzip2 stream.
 class LdmStreamFramer {
   public:
     // Returns the next part, or none if more bytes are needed, or at the end. `rest` holds the
     // bytes from position() on, as far as they have come. `last` means that no more will come. The
-    // bytes of the part lie in `rest`.
+    // bytes of the part are inside `rest`.
     [[nodiscard]] std::optional<LdmPart> next(std::span<const std::byte> rest, bool last);
     [[nodiscard]] std::size_t position() const { return at_; }
 
@@ -56,7 +55,7 @@ class LdmStreamFramer {
     void end_part(std::size_t bytes);
 
     std::size_t at_ = 0;
-    std::size_t searched_ = 0;  // no stream begins in this many bytes of the part that is due
+    std::size_t searched_ = 0;         // no stream begins in this many bytes of the next part
     std::size_t searched_behind_ = 0;  // nor after its own stream, for a part without a length
 };
 

@@ -24,8 +24,8 @@ namespace {
 
 constexpr int most_layers = 4;  // gzip around bzip2 around gzip ...
 
-// The output of a compressed layer: either messages, which are read at once, or something to peel
-// further, which is held until it is complete.
+// The output of a compressed layer: either messages, which are read at once, or another layer,
+// which is held until it is complete.
 struct LayerOutput {
     LayerOutput(std::uint64_t limit_bytes, const Selection& selection)
         : room(limit_bytes), builder(room, rows_of_a_stretch, selection) {}
@@ -51,7 +51,7 @@ class Decoder {
     // These return an error only if nothing can be kept: for limits, and for content of another
     // kind.
     Status read_layer(std::span<const std::byte> bytes, int depth);
-    // Reads everything that a stream of pieces gives.
+    // Reads all pieces of a stream.
     template <class Stream>
     Status take_all(Stream& stream, LayerOutput& output);
     Status read_gzip(std::span<const std::byte> bytes, int depth);
@@ -63,7 +63,7 @@ class Decoder {
     Status read_messages(std::span<const std::byte> bytes);
     Status take_output(LayerOutput& output, std::span<const std::byte> piece);
     Status end_output(LayerOutput& output, int depth);
-    // Hands on what has been read.
+    // Passes on the messages that have been read.
     Status flush(LayerOutput& output);
     void report_container(const LayerOutput& output, Severity severity, std::string_view code,
                           std::string message, std::uint64_t position);
@@ -86,8 +86,8 @@ Status Decoder::flush(LayerOutput& output) {
     return taken;
 }
 
-// Peels one layer. What it holds is found by content; a compressed layer is read by this function
-// again.
+// Peels one layer. Its content is recognized by its bytes; for a compressed layer this function
+// calls itself.
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (depth == most_layers) {
         return fail(ErrorCode::unsupported, "has more than {} layers of compression",
@@ -114,7 +114,7 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
             break;
     }
     if (read_archive_header(bytes)) {
-        // The bytes are too few to know what they begin.
+        // There are too few bytes to recognize the content.
         if (bytes.size() < archive_header_bytes + message_header_bytes) {
             return fail(ErrorCode::truncated, "holds a volume header and almost nothing else");
         }
@@ -135,7 +135,7 @@ Status Decoder::read_messages(std::span<const std::byte> bytes) {
 }
 
 // Takes a piece of the output of a compressed layer. The first piece decides: messages are read at
-// once, piece by piece, and anything else is another layer, which is collected first.
+// once, piece by piece; anything else is another layer, which is collected first.
 Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piece) {
     if (Status counted = builder_.count_output(piece.size()); !counted) return counted;
     if (std::exchange(output.first, false)) {
@@ -181,8 +181,8 @@ Status Decoder::take_all(Stream& stream, LayerOutput& output) {
     }
 }
 
-// Reports a damaged container: the stream of messages is wrong from the reader's place on, or ends
-// there.
+// Reports a damaged container. From the reader's place on, the stream of messages is wrong or
+// missing.
 void Decoder::report_container(const LayerOutput& output, Severity severity, std::string_view code,
                                std::string message, std::uint64_t position) {
     DecodeReport& report = builder_.report_data();
@@ -239,8 +239,8 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
     }
 }
 
-// A file that is compressed as a whole by bzip2 is read block by block, because each block has a
-// checksum of its own. After a damaged block, the reader must search for the next message.
+// Reads a file that bzip2 compressed as a whole block by block, because each block has its own
+// checksum. After a damaged block, the reader must search for the next message.
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     bunzip::Workspace workspace;
     BzipBlocks blocks{bytes, workspace};
@@ -273,8 +273,8 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     return end_output(output, depth);
 }
 
-// Decodes the parts that the source gives, in order. Returns false if `check` rejects one; then the
-// builder is useless except for the time that it has spent.
+// Decodes the parts of the source in order. Returns false if `check` rejects one; then the builder
+// is useless except for the time that it has spent.
 Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
                                  const std::function<bool(const Fragment&)>& check) {
     RecordQueue queue{source, options_.threads, options_.output_limit_bytes, options_.selection};
@@ -289,8 +289,8 @@ Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
 }
 
 // Reads a file of LDM records. If only some cuts are selected, it first tries a plan that skips the
-// records of the others; the plan works on a copy of the builder's state, which is restored if the
-// file does not follow it.
+// records of the others. The plan works on a copy of the builder's state, which is restored if the
+// file does not follow the plan.
 Status Decoder::read_ldm(std::span<const std::byte> bytes) {
     builder_.report_data().ldm_records = 0;
     builder_.report_data().negative_control_words = 0;

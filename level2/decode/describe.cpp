@@ -39,7 +39,7 @@ double rounded(double value, double step) {
     return std::round(value / step) * step;
 }
 
-// Returns a number that came as tenths or hundredths exactly so, and not as the nearest float.
+// Returns a number of tenths or hundredths exactly, and not as the nearest float.
 double decimal(float value, int digits) {
     const double power = std::pow(10.0, digits);
     return std::round(static_cast<double>(value) * power) / power;

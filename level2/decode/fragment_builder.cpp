@@ -9,7 +9,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-constexpr std::size_t most_rows = 720;  // the most rows for which room is made
+constexpr std::size_t most_rows = 720;  // room is made for at most this many rows
 
 }  // namespace
 
@@ -44,12 +44,12 @@ bool FragmentBuilder::begins_sweep_here(const RadialMessage& message) const {
 }
 
 bool FragmentBuilder::begin_piece(const RadialMessage& message) {
-    // With whole sweeps one after the other, room for the next one is made at once.
+    // Whole sweeps follow each other here, so make room for the next one at once.
     if (!fragment_.pieces.empty()) {
         const std::size_t newest = fragment_.pieces.back().sweep.radials.size();
         expected_rows_ = std::clamp(newest, expected_rows_, std::max(expected_rows_, most_rows));
     }
-    // The first piece may continue a sweep of the fragment before.
+    // The first piece may continue a sweep of the previous fragment.
     bool has_room = true;
     if (fragment_.pieces.empty()) {
         room_.continue_sweep();
@@ -115,7 +115,7 @@ bool FragmentBuilder::add(const RadialMessage& message) {
     note_volume_facts(message);
     Fragment::Piece& piece = fragment_.pieces.back();
     if (!piece.left_out) {
-        // Room is made with the second radial, so that a piece with one radial stays small.
+        // Room is made with the second radial, so that a piece of one radial stays small.
         if (piece.sweep.radials.size() == 1) reserve_rows(piece.sweep);
         return add_rows(piece.sweep, message);
     }

@@ -4,8 +4,8 @@
 // A piece ends where the elevation number or the message type changes, at a radial with status 0, 3
 // or 5, and at a 24-byte header. Codes are copied once, from the message into the arrays.
 //
-// Memory    A fragment stays within the given room. When it is full, add() and add_pattern() say so
-//           and the builder accepts no more.
+// Memory    A fragment stays within the given room. When it is full, add() and add_pattern() return
+//           false and the builder accepts no more.
 // Threads   One thread at a time.
 #pragma once
 
@@ -20,13 +20,13 @@
 
 namespace stormcellar::level2 {
 
-// Radials that are compressed inside messages may expand to this much in a fragment, because each
-// of them takes time.
+// Radials that are compressed inside messages may expand to at most this much in a fragment,
+// because expanding takes time.
 inline constexpr std::uint64_t most_expanded_bytes = std::uint64_t{512} << 20;
 
 // Returns true if the status of the radial begins a sweep: 0, 3 or 5.
 [[nodiscard]] bool begins_sweep(const Radial& radial);
-// Returns true if it ends a sweep: 2 or 4.
+// Returns true if the status of the radial ends a sweep: 2 or 4.
 [[nodiscard]] bool ends_sweep(const Radial& radial);
 
 // The number of radials in a record of a live volume.
@@ -34,7 +34,7 @@ inline constexpr std::size_t rows_of_a_record = 120;
 
 class FragmentBuilder {
   public:
-    // `expected_rows` is the number of radials in a piece, for which room is made. The room and the
+    // `expected_rows` is the number of radials in a piece for which room is made. The room and the
     // selection must outlive the builder.
     FragmentBuilder(ArrayRoom& room, std::size_t expected_rows, const Selection& selection)
         : room_(room), expected_rows_(expected_rows), selection_(selection) {}
@@ -51,8 +51,7 @@ class FragmentBuilder {
     [[nodiscard]] ReportWriter report() { return ReportWriter{fragment_.report}; }
     [[nodiscard]] DecodeReport& report_data() { return fragment_.report; }
 
-    // Returns the fragment. The builder continues with an empty one, which takes nothing of its
-    // room.
+    // Returns the fragment. The builder continues with an empty one, which takes no room.
     [[nodiscard]] Fragment take();
 
   private:
@@ -68,7 +67,7 @@ class FragmentBuilder {
     const Selection& selection_;
     Fragment fragment_;
     std::uint64_t errors_at_last_radial_ = 0;
-    // since the last piece began; a pattern within a sweep applies to later sweeps
+    // facts since the last piece began; a pattern within a sweep applies to later sweeps
     FragmentMarks marks_;
 };
 

@@ -9,7 +9,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The slowest pattern takes ten minutes for a volume, and little more than one for a turn.
+// The slowest pattern takes ten minutes for a volume, and little more than one minute for a turn.
 constexpr std::chrono::minutes longest_volume{15};
 constexpr std::chrono::minutes longest_turn{2};
 
@@ -40,7 +40,7 @@ LateFit fit_at(const Sweep& sweep, std::size_t at, const Radial* before, const R
 
 std::optional<std::size_t> place_of_late(const Sweep& sweep, const Radial& radial) {
     const auto& radials = sweep.radials;
-    // A TDWR counts whole seconds, so many radials have one time.
+    // A TDWR counts whole seconds, so many radials share a time.
     const auto order = [](const Radial& r) { return std::tuple(r.time, r.azimuth_number); };
     const auto not_older = std::find_if(radials.begin(), radials.end(), [&](const Radial& other) {
         return order(other) >= order(radial);

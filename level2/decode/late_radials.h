@@ -1,9 +1,8 @@
-// level2/decode/late_radials.h -- finds the gap of a sweep in which a radial belongs that comes
-// late.
+// level2/decode/late_radials.h -- finds the gap of a sweep that a late radial belongs in.
 //
-// Two records that come in the wrong order leave a gap in a sweep, and the radials that fill it
-// come after radials that are newer. A gap is one in the radials' numbers, and the times on both
-// sides must agree.
+// If two records come in the wrong order, they leave a gap in a sweep, and the radials that fill it
+// come after newer radials. A gap is a gap in the radials' numbers, and the times on both sides
+// must agree.
 //
 // Threads   Pure functions.
 #pragma once
@@ -16,17 +15,17 @@
 
 namespace stormcellar::level2 {
 
-// Returns true if the radial is older than another one, by no more than a volume lasts.
+// Returns true if the radial is older than `newer`, by no more than a volume lasts.
 [[nodiscard]] bool goes_back(const Radial& radial, UtcTime newer);
 
 enum class LateFit : std::uint8_t { none, fills_gap, repeats };
 
-// Says what a radial is to a sweep at a place: it repeats the radial `at`, or belongs between that
-// one and `before` (null: nothing is before it).
+// Returns how a radial fits into a sweep: it repeats the radial `at`, or belongs between that
+// radial and `before` (null: nothing is before it).
 [[nodiscard]] LateFit fit_at(const Sweep& sweep, std::size_t at, const Radial* before,
                              const Radial& radial);
 
-// Returns the place in the sweep where the radial fits; none if it does not.
+// Returns the place in the sweep where the radial fits, or none.
 [[nodiscard]] std::optional<std::size_t> place_of_late(const Sweep& sweep, const Radial& radial);
 
 }  // namespace stormcellar::level2

@@ -1,4 +1,4 @@
-// The part of the VolumeBuilder that puts radials which come late where they belong.
+// This part of the VolumeBuilder puts late radials where they belong.
 #include <algorithm>
 #include <utility>
 
@@ -13,12 +13,12 @@
 namespace stormcellar::level2 {
 namespace {
 
-// A file that was made to take time must not succeed: no more rows are moved, and no more sweeps
-// are looked at for one radial, than the worst order of a real volume needs.
+// A file that was made to take time must not succeed. So no more rows are moved, and no more sweeps
+// are searched for one radial, than the worst order of a real volume needs.
 constexpr std::uint64_t most_late_bytes = std::uint64_t{4} << 30;
 constexpr std::size_t most_candidates = 8;
 
-// Returns what the arrays of the sweep take at most with these rows in it.
+// Returns the most bytes that the arrays of the sweep take with these rows in it.
 std::uint64_t bytes_with(const Sweep& sweep, const Sweep& rows_of) {
     const std::uint64_t radials = sweep.radials.size() + rows_of.radials.size();
     std::uint64_t bytes = empty_sweep_bytes + radials * sizeof(Radial);
@@ -62,7 +62,7 @@ bool VolumeBuilder::header_is_repeated() const {
            own->date == pending_header_->date && own->ms == pending_header_->ms;
 }
 
-// Fetches a sweep back if it was dropped.
+// Fetches a dropped sweep back.
 Status VolumeBuilder::fetch_back(std::size_t index) {
     if (!volume_.sweeps[index].radials.empty()) return {};
     if (!dropped_) return fail(ErrorCode::internal, "a sweep that was dropped is missing");
@@ -73,7 +73,7 @@ Status VolumeBuilder::fetch_back(std::size_t index) {
     return {};
 }
 
-// Returns true if the radial may follow the late ones before it.
+// Returns true if the radial may follow the late radials before it.
 bool VolumeBuilder::may_follow_late(const Sweep& from, std::size_t radial) const {
     if (!late_place_ || pending_header_) return false;
     const Sweep& sweep = volume_.sweeps[late_place_->sweep];
@@ -107,8 +107,8 @@ Result<bool> VolumeBuilder::find_late_place(const Sweep& from, std::size_t radia
     return false;
 }
 
-// The radials of a late run fill a gap one after the other, or repeat what is there. The run ends
-// with the first radial that does neither.
+// Takes a run of late radials, which fill a gap one after the other or repeat present radials. The
+// run ends with the first radial that does neither.
 Result<std::size_t> VolumeBuilder::take_late(Sweep& from, std::size_t first) {
     const std::size_t count = from.radials.size();
     std::size_t at = first;
@@ -141,7 +141,7 @@ Result<std::size_t> VolumeBuilder::take_late(Sweep& from, std::size_t first) {
     return at;
 }
 
-// `before` is the radial before it that is not in the sweep yet; null: there is none.
+// `before` is the previous radial that is not in the sweep yet; null: there is none.
 LateFit VolumeBuilder::fit_of_late(const Radial& radial, const Radial* before) const {
     const auto [index, at] = *late_place_;
     const Sweep& sweep = volume_.sweeps[index];
@@ -174,7 +174,7 @@ Status VolumeBuilder::insert_late(Sweep& from, std::size_t first, std::size_t en
     return {};
 }
 
-// Sweeps of one record that came in the wrong order stand in the order of their times.
+// Sorts sweeps that came in the wrong order in one record by their times.
 void VolumeBuilder::put_sweeps_in_order() {
     std::vector<std::size_t> starts = report_.further_volume_starts;
     starts.push_back(volume_.sweeps.size());

@@ -21,8 +21,8 @@ constexpr std::size_t longest_message_bytes = std::size_t{1} << 22;
 // The length of an uncompressed radial has 16 bits.
 constexpr std::size_t longest_expanded_bytes = std::size_t{1} << 16;
 
-// Returns true if what follows a message proves that the message ends there: another message, a
-// fill frame, a further volume header, or the end.
+// Returns true if the next bytes prove that a message ends there: another message, a fill frame, a
+// further volume header, or the end.
 bool surely_follows(std::span<const std::byte> next, bool last, bool after_radial) {
     if (next.size() < message_header_bytes) return last && all_zero(next);
     if (read_archive_header(next)) return true;
@@ -35,8 +35,8 @@ bool is_radial(const MessageHeader& header) {
     return header.type == 1 || header.type == 31;
 }
 
-// Returns true if this can follow a message inside which no other message begins: as above, or a
-// radial however odd, or zeros.
+// Returns true if these bytes can follow a message inside which no other message begins: as above,
+// or a radial however odd, or zeros.
 bool plausibly_follows(std::span<const std::byte> next, bool last) {
     if (next.size() < message_header_bytes) return last && all_zero(next);
     if (all_zero(next.first(message_header_bytes)) || read_archive_header(next)) return true;
@@ -44,7 +44,7 @@ bool plausibly_follows(std::span<const std::byte> next, bool last) {
 }
 
 // Returns true if these bytes can be the header of a message although one of its fields is
-// impossible. What follows the message must confirm it.
+// impossible. The bytes after the message must confirm it.
 bool may_be_odd(const MessageHeader& header, std::span<const std::byte> bytes) {
     if (is_radial(header)) return places_its_gates(header, bytes);
     return header.type != 0 && !header.has_own_length() && is_known_message_type(header.type) &&
@@ -59,8 +59,8 @@ std::size_t longest(int type) {
 
 }  // namespace
 
-// Reads message by message. At the end of a block no message goes on, so open damage ends there and
-// the next block begins in step.
+// Reads message by message. No message continues past the end of a block, so open damage ends there
+// and the next block begins in step.
 std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     std::size_t at = 0;
     while (at < data.size() && !full()) {
@@ -119,8 +119,8 @@ std::size_t MessageReader::read_fill(std::span<const std::byte> rest, bool last)
     return frame.size();
 }
 
-// Reads a message whose header looks possible. The question is whether the message really ends
-// where its header says.
+// Reads a message with a plausible header, and checks that the message really ends where its header
+// says.
 std::size_t MessageReader::read_message(const MessageHeader& header,
                                         std::span<const std::byte> rest, bool last) {
     const std::size_t length = header.length_bytes();
@@ -132,13 +132,13 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
     }
     if (!last && rest.size() < length + sure_message_bytes) return 0;
     const auto message = rest.first(length);
-    // A firm message is a radial that agrees with its length, followed by a sure successor. Nearly
-    // all messages are firm, and nothing more is checked.
+    // A message is firm if it is a radial that agrees with its length and a sure successor follows.
+    // Nearly all messages are firm, and nothing more is checked.
     const bool firm = is_firm_radial(header, message) &&
                       surely_follows(rest.subspan(length), last, is_radial(header));
     if (!firm) {
-        // A message that begins inside this one shows that this one has lost bytes, or that its
-        // header is not a header.
+        // If another message begins inside this one, this one has lost bytes, or its header is not
+        // a header.
         const auto search = rest.first(std::min(rest.size(), length + sure_message_bytes));
         const auto next = find_message(search, message_header_bytes);
         if (next && *next < length) {
@@ -150,9 +150,9 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
             return resynchronise(rest, *next, last, {});
         }
     }
-    // The message lost nothing, since no other begins inside it. It is framed if what follows is at
-    // least plausible. An unframed message must at least have a plausible header; its content is
-    // then read more strictly.
+    // No other message begins inside this one, so it lost nothing. It is framed if the next bytes
+    // are at least plausible. An unframed message must at least have a plausible header; its
+    // content is then read more strictly.
     const bool framed = firm || ((!is_radial(header) || places_its_gates(header, message)) &&
                                  plausibly_follows(rest.subspan(length), last));
     if (!framed && !is_plausible(header)) {
@@ -218,12 +218,12 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
         return;
     }
     ++builder_.report_data().message_counts[header.type];
-    // Whatever follows its own length only fills the frame.
+    // Bytes after the message's own length only fill the frame.
     const std::size_t own_bytes = terminal_manager_bytes + std::size_t{2} * header.size_halfwords;
     const auto body =
         message.first(std::min(message.size(), own_bytes)).subspan(message_header_bytes);
     if (header.type == 2) {
-        // A frame of zeros says nothing.
+        // A frame of zeros holds no status.
         auto status = all_zero(body) ? std::nullopt : read_rda_status(header, body);
         if (status) builder_.report_data().rda_status = std::move(*status);
     }
@@ -250,7 +250,7 @@ std::optional<std::span<const std::byte>> MessageReader::expand(std::span<const 
                                                                 std::vector<std::byte>& store) {
     const auto body = message.subspan(message_header_bytes);
     auto whole = expand_message_31(body);
-    // Damaged data took time, too.
+    // Expanding damaged data took time, too.
     if (!builder_.add_expanded(whole ? whole->size() : longest_expanded_bytes)) {
         failure_ = Fragment::Failure::too_much_output;
         return std::nullopt;
@@ -284,8 +284,8 @@ void MessageReader::note_oddities(const MessageHeader& header, std::span<const s
         builder_.report().refuse("lost_moment", lost.reason, offset_, lost.bytes);
 }
 
-// Reads a radial: expands it if it is compressed, reads its blocks, notes what is odd about it, and
-// hands it to the builder.
+// Reads a radial: expands it if it is compressed, reads its blocks, notes its oddities, and passes
+// it to the builder.
 void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message,
                                 Framing framing, bool firm) {
     auto body = message.subspan(message_header_bytes);
@@ -297,7 +297,7 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
     const int compression = is_31 ? message_31_compression(body) : 0;
     std::vector<std::byte> expanded;
     if (compression != 0) {
-        // The radial may also not be compressed although it says so.
+        // The radial may also be plain although it claims to be compressed.
         const bool is_plain = framing == Framing::proven && read_message_31(body).has_value();
         if (is_plain) {
             builder_.report().oddity(Severity::note, "odd_radials",

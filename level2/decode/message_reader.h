@@ -1,10 +1,11 @@
-// level2/decode/message_reader.h -- walks a stream of messages and keeps what is whole.
+// level2/decode/message_reader.h -- walks a stream of messages and keeps whole messages.
 //
-// A message counts only if the next one begins where it ends, or the data end there. Otherwise the
-// reader searches for the next place at which a message surely begins. If that place lies inside
-// the message before, this message has lost bytes and is dropped too, so that no half radial is
-// kept. If the next message does begin there, a radial is kept however odd it is, unless its gates
-// cannot be read (docs/level2.md has the table). The strict rules are for searching after damage.
+// A message counts only if the next one begins where it ends, or if the data end there. Otherwise
+// the reader searches for the next place at which a message surely begins. If that place is inside
+// the current message, this message has lost bytes and is dropped too, so that no half radial is
+// kept. If the next message does begin at the end, a radial is kept however odd it is, unless its
+// gates cannot be read (docs/level2.md has the table). The strict rules are for searching after
+// damage.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -31,8 +32,8 @@ class MessageReader {
     // block; all of it is then consumed, because messages do not cross the end of an LDM record.
     std::size_t read(std::span<const std::byte> data, bool last);
 
-    // Tells the reader that bytes of the stream are missing here, so it must search before it
-    // believes anything.
+    // Tells the reader that bytes of the stream are missing here, so that it searches for a message
+    // before it accepts anything.
     void lose_sync() { in_sync_ = false; }
 
     // Returns the place of the next byte in the message stream, including 24-byte headers inside
@@ -41,7 +42,7 @@ class MessageReader {
     // Returns the fragment up to here, or none while damage is still open, since it might continue.
     // After this, offsets count from here.
     [[nodiscard]] std::optional<Fragment> take_fragment();
-    // Returns why the reader stopped, if the fragment would exceed a limit; else none.
+    // Returns the reason why the reader stopped, if the fragment would exceed a limit; else none.
     [[nodiscard]] Fragment::Failure failure() const { return failure_; }
 
   private:
@@ -80,7 +81,7 @@ class MessageReader {
     std::optional<OpenDamage> open_damage_;
 };
 
-// Feeds a MessageReader with pieces of any size. It holds back less than one message.
+// Feeds a MessageReader with pieces of any size. It keeps less than one message back.
 class MessageFeed {
   public:
     explicit MessageFeed(MessageReader& reader) : reader_(reader) {}

@@ -1,10 +1,10 @@
-// level2/decode/part_decoder.h -- makes a Fragment from an LDM record, or from what is between two
-// records.
+// level2/decode/part_decoder.h -- makes a Fragment from an LDM record, or from the bytes between
+// two records.
 //
-// A record is decompressed and read in small pieces, so its messages are never held whole. If its
-// checksum then proves wrong, all of that is thrown away, and the record is read again block by
-// block, keeping the whole blocks. A block is held whole and may be large, so all room is requested
-// first.
+// A record is decompressed and read in small pieces, so its messages are never held as a whole. If
+// its checksum then proves wrong, the result is discarded, and the record is read again block by
+// block to keep its whole blocks. A block is held as a whole and may be large, so all room is
+// requested first.
 //
 // Threads   One thread at a time; each thread has its own decoder.
 #pragma once
@@ -28,8 +28,8 @@ class PartDecoder {
     PartDecoder(std::uint64_t output_limit_bytes, const Selection& selection)
         : limit_bytes_(output_limit_bytes), selection_(selection) {}
 
-    // Decodes a part. The arrays of the fragment stay within the room. A lack of memory is not
-    // thrown; the fragment says so.
+    // Decodes a part. The arrays of the fragment stay within the room. A lack of memory is no
+    // exception; Fragment::failure reports it.
     [[nodiscard]] Fragment decode(const LdmPart& part, ArrayRoom room);
     [[nodiscard]] Fragment decode(const LdmPart& part) {
         return decode(part, ArrayRoom{limit_bytes_});

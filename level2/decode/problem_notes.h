@@ -9,7 +9,7 @@
 
 namespace stormcellar::level2 {
 
-// Returns the messages of the first 20 problems, and the number of the others.
+// Returns the messages of the first 20 problems, and how many more there are.
 [[nodiscard]] std::vector<std::string> notes_of(const DecodeReport& report);
 
 }  // namespace stormcellar::level2

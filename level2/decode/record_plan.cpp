@@ -30,7 +30,7 @@ std::optional<Vcp> pattern_in(const LdmPart& part) {
     const Selection everything;
     PartDecoder decoder{most_metadata_bytes, everything};
     const Fragment fragment = decoder.decode(part);
-    // Radials among the metadata: the order of records is not known.
+    // If there are radials among the metadata, the order of records is not known.
     if (!fragment.pieces.empty() || fragment.behind.patterns.empty()) return std::nullopt;
     return fragment.behind.patterns.front();
 }
@@ -101,8 +101,8 @@ bool RecordPlan::agrees(const Fragment& fragment) {
     if (fragment.failure != Fragment::Failure::none) return true;  // an error, whatever the plan
     if (record.cut == 0) return fragment.pieces.empty();
     if (fragment.pieces.size() != 1 || fragment.report.bytes_dropped != 0) return false;
-    // A whole decode takes the volume block, and with it the station, from where they come first;
-    // the pattern gives the VCP.
+    // A whole decode takes the volume block, and thus the station, from its first occurrence; the
+    // pattern gives the VCP.
     if (at == 1 && !fragment.block) return false;
     const Fragment::Piece& piece = fragment.pieces.front();
     const bool is_first = begins_sweep(piece.sweep.radials.front());

@@ -5,14 +5,14 @@
 // radials of each, and a record holds up to 120 radials of one cut. So the place of each cut's
 // records is known before they are decompressed. The decoded records must agree with the plan: the
 // first and the last record of each cut by the status of their radials, and also the records on
-// either side of a wanted cut. If something does not agree (lost, repeated or longer records,
-// restarted cuts, several volumes, metadata beside decoded radials), the plan is void.
+// either side of a wanted cut. If they do not agree (lost, repeated or longer records, restarted
+// cuts, several volumes, metadata besides decoded radials), the plan is void.
 //
-// Limits    The content of a skipped record is not seen. If there were metadata, a message 5 would
+// Limits    The content of a skipped record is not seen. If it held metadata, a message 5 would
 //           give later sweeps another vcp_elevation_deg, and a message 2 would give the report
-//           another status; but the RDA sends the pattern in the first record only. Also, the
-//           skipped cuts may be others than in the plan if as many of their records came twice as
-//           were lost; sweeps_left_out is the plan's number.
+//           another status; but the RDA sends the pattern in the first record only. If as many
+//           records of the skipped cuts came twice as were lost, the skipped cuts may differ from
+//           the plan; sweeps_left_out is the plan's number.
 // Memory    As many records as the pattern has, some hundreds.
 // Threads   next() and agrees() may be called by different threads, each by one at a time.
 #pragma once
@@ -40,9 +40,9 @@ class RecordPlan {
 
     // Returns the records to decode, in order.
     [[nodiscard]] std::optional<LdmPart> next();
-    // Returns true if the fragment of the next record, in the same order, is what the plan expects.
+    // Returns true if the fragment of the next record, in the same order, agrees with the plan.
     [[nodiscard]] bool agrees(const Fragment& fragment);
-    // Adds to the report what was skipped.
+    // Adds the skipped sweeps and records to the report.
     void report(DecodeReport& report) const;
 
   private:

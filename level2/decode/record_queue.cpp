@@ -26,9 +26,9 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
         for (int i = 1; i < threads; ++i)
             workers_.emplace_back(&RecordQueue::run, this);
     } catch (const std::system_error&) {
-        // The system has no more threads, so those that exist do the work.
+        // The system has no more threads, so the present threads do the work.
     } catch (const std::bad_alloc&) {
-        // likewise
+        // The same as above.
     }
 }
 
@@ -62,12 +62,12 @@ bool RecordQueue::has_turn(const Slot& slot) const {
     return turn_bytes_ && &slot == &slots_[head_];
 }
 
-// Returns the first slot that waits for work. A slot that outgrew its share, or any slot once the
-// caller decodes alone, is left to the caller when it is at the head.
+// Returns the first slot that waits for work. If a slot outgrew its share, only the caller takes
+// it, once it is the head. When the caller decodes alone, this holds for every slot.
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
-        // the thread that works on it may find that it is large
+        // the thread that works on a slot may find that it is large, so read the state first
         if (slot.state != State::waiting) continue;
         const bool is_head = who == Who::caller && has_turn(slot);
         if (is_head || !(slot.large || alone_)) return &slot;
@@ -88,7 +88,7 @@ ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
     if (who == Who::worker && may_wait_) {
         return ArrayRoom{share_bytes_, [this, &slot] { return wait_for_turn(slot); }};
     }
-    // The caller never waits, because the caller is the one who takes the head.
+    // The caller never waits, because only the caller takes the head.
     return ArrayRoom{share_bytes_, [&slot] {
                          slot.large = true;
                          return std::uint64_t{0};
@@ -133,9 +133,9 @@ void RecordQueue::decode_alone(Slot& head) {
     work(head, own_decoder_, Who::caller);
 }
 
-// Hands out the head of the ring. If it is not ready, the caller decodes too: the head, or any
-// other part that waits. When less room is left than a share, parts that were decoded ahead might
-// not fit, so from then on the caller decodes everything alone.
+// Returns the head of the ring. If it is not ready, the caller decodes too: the head, or any other
+// part that waits. When less room is left than a share, parts that were decoded ahead might not
+// fit, so from then on the caller decodes everything alone.
 std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
     const MutexLock lock(mutex_);
     if (used_ == 0) return std::nullopt;

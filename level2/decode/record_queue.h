@@ -1,13 +1,13 @@
-// level2/decode/record_queue.h -- decodes LDM records ahead with several threads, and hands them
-// out in order.
+// level2/decode/record_queue.h -- decodes LDM records ahead with several threads, and returns them
+// in order.
 //
 // The caller of next() decodes too, so `threads` includes it. At most two fragments for each thread
-// are held, and each is small. One that outgrows its share waits until it is the next to be handed
-// out. With more than a few threads it is instead decoded anew by the caller at that time, because
+// are held, and each is small. A fragment that outgrows its share waits until it is the next to be
+// returned. With more than a few threads the caller instead decodes it anew at that time, because
 // the C library keeps freed memory for each thread.
 //
-// The output does not depend on the number of threads: when less room is left than a share, nothing
-// is decoded ahead any more, and what was decoded ahead is thrown away.
+// The output does not depend on the number of threads. When less room is left than a share, no more
+// records are decoded ahead, and fragments decoded ahead are discarded.
 //
 // Threads   next() may be called by one thread.
 #pragma once
@@ -28,8 +28,7 @@ namespace stormcellar::level2 {
 
 class RecordQueue {
   public:
-    // Returns the parts in order, and none after the last one. It is called by one thread at a
-    // time.
+    // Returns the parts in order, and none after the last one. One thread at a time calls it.
     using Source = std::function<std::optional<LdmPart>()>;
 
     // The data of the parts and the selection must outlive the queue.
@@ -47,7 +46,7 @@ class RecordQueue {
     static constexpr int most_threads = 32;
     static constexpr int most_waiting_threads = 4;
     // The share of each fragment that is decoded ahead. Records of a live volume take 1 MB; the
-    // largest seen, of whole sweeps, take 5.
+    // largest known records, of whole sweeps, take 5 MB.
     static constexpr std::uint64_t most_share_bytes = std::uint64_t{8} << 20;
     static constexpr std::uint64_t all_shares_bytes = std::uint64_t{128} << 20;
 
@@ -56,7 +55,7 @@ class RecordQueue {
     enum class Who : std::uint8_t { caller, worker };
     struct Slot {
         State state = State::empty;
-        bool large = false;  // outgrew its share; it is decoded again when its turn has come
+        bool large = false;  // outgrew its share; it is decoded again when it is next
         LdmPart part;
         Fragment fragment;
     };

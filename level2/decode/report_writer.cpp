@@ -45,7 +45,7 @@ void ReportWriter::add(Problem problem) {
     const auto many = std::count_if(problems.begin(), problems.end(), of_one_place);
     if (static_cast<std::size_t>(many) >= DecodeReport::max_problems) {
         ++report_.problems_left_out;
-        // The last of the least severe problems makes room.
+        // Removes the last of the least severe problems to make room.
         auto least = problems.end();
         for (auto p = problems.begin(); p != problems.end(); ++p) {
             if (of_one_place(*p) && (least == problems.end() || p->severity <= least->severity)) {
@@ -58,7 +58,7 @@ void ReportWriter::add(Problem problem) {
     problems.push_back(std::move(problem));
 }
 
-// There are few kinds, whatever the input.
+// There are few kinds of counted problems, whatever the input.
 void ReportWriter::add_counted(Problem problem) {
     if (problem.severity == Severity::error) report_.errors += problem.count;
     const auto same = [&](const Problem& other) {

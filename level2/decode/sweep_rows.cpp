@@ -44,7 +44,7 @@ void append_rows(std::vector<Code>& codes, std::size_t stride, const std::vector
     }
 }
 
-// Frees what was reserved and is not in use.
+// Frees memory that was reserved and is not in use.
 void release_unused(SweepMoment& moment) {
     const auto largest = *std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
     if (largest < moment.gate_stride) set_stride(moment, largest);
@@ -61,7 +61,7 @@ std::uint16_t native_from_big_endian(std::uint16_t number) {
     return static_cast<std::uint16_t>((number >> 8) | (number << 8));
 }
 
-// A block and a moment describe their gates by the same names.
+// Blocks and moments name the members that describe their gates alike.
 template <class Described>
 bool is_same_kind(const SweepMoment& a, const Described& b) {
     return a.moment == b.moment && a.first_gate_m == b.first_gate_m &&
@@ -203,7 +203,7 @@ Sweep part_of(Sweep& sweep, std::size_t first, std::size_t end) {
     part.message_type = sweep.message_type;
     part.azimuth_spacing_deg = sweep.azimuth_spacing_deg;
     part.radials = rows_of(sweep.radials, first, end, 1);
-    // Kinds are in the order in which the radials of this part bring them.
+    // Kinds are in the order in which they first occur in the radials of this part.
     std::vector<std::pair<std::size_t, const SweepMoment*>> kinds;
     for (SweepMoment& moment : sweep.moments) {
         pad(moment, sweep.radials.size());

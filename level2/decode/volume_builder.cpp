@@ -39,14 +39,14 @@ std::uint64_t held_by(const Sweep& sweep) {
     return bytes;
 }
 
-// Returns true if a radial of a piece may be late after the one before it.
+// Returns true if a radial of a piece may be late after the previous radial.
 bool falls_back(const Sweep& sweep, std::size_t radial) {
     const Radial& before = sweep.radials[radial - 1];
     const Radial& own = sweep.radials[radial];
     return own.azimuth_number <= before.azimuth_number && goes_back(own, before.time);
 }
 
-// The end that has come stands until a radial comes that is not older.
+// Notes the end of a volume. It is valid until a radial comes that is not older.
 void note_end_of_volume(std::optional<UtcTime>& end, const Radial& radial) {
     if (end && *end <= radial.time) end.reset();
     if (status_of(radial) == RadialStatus::end_of_volume) end = radial.time;
@@ -93,8 +93,8 @@ bool VolumeBuilder::note_marks(FragmentMarks marks) {
     return true;
 }
 
-// A first header after the first radials, but not newer than they, is the header of their volume
-// that comes late. A copy of the volume's own header begins no other one.
+// If the first header comes after the first radials but is not newer than they are, it is the late
+// header of their volume. A copy of the volume's own header begins no other volume.
 void VolumeBuilder::note_header(VolumeHeader header) {
     constexpr std::chrono::seconds apart{15};  // of the header and the first radial
     const bool is_first = !volume_.header && report_.further_volume_starts.empty();
@@ -127,8 +127,8 @@ void VolumeBuilder::note_volume_facts(const Fragment& fragment) {
     }
 }
 
-// Returns what is known about the pattern of a volume that begins with this piece. An old message 5
-// counts only as long as the radials name its pattern.
+// Returns the known facts about the pattern of a volume that begins with this piece. An old message
+// 5 counts only while the radials name its pattern.
 DecodeReport::FurtherPattern VolumeBuilder::pattern_of(const Fragment::Piece& piece) {
     if (current_vcp_ && !vcp_is_new_ && piece.vcp != 0 &&
         piece.vcp != current_vcp_->pattern_number) {
@@ -154,13 +154,13 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
     if (!previous_) return false;
     const Radial& first = piece.sweep.radials.front();
     if (pending_header_) return true;
-    // Records in the wrong order make the numbers fall too, but then time goes back. Of these, only
-    // a second start begins another volume.
+    // Records in the wrong order make the numbers fall too, but then time goes back. In that case
+    // only a second start begins another volume.
     const bool marked = status_of(first) == RadialStatus::start_of_volume;
     if (goes_back(first, previous_->time)) return marked && start_has_come_;
     if (marked) return true;
     // The cuts of a pattern only count upward, so a lower number begins another pass, even if the
-    // radials that would say so are lost.
+    // radials that mark its start are lost.
     return piece.sweep.elevation_number < previous_->elevation_number ||
            (previous_->end_of_volume &&
             piece.sweep.elevation_number == previous_->elevation_number);
@@ -206,7 +206,7 @@ void VolumeBuilder::end_sweep() {
     sweep_is_open_ = false;
 }
 
-// Counts what the open sweep takes with these radials too.
+// Counts the bytes of the open sweep together with these radials.
 bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
     std::size_t next = sweep.moments.size();
     for (const SweepMoment& moment : from.moments) {
@@ -222,8 +222,8 @@ bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
 }
 
 // Appends the rows of a piece to the open sweep. Each moment of the piece finds the rows of the
-// same kind, or begins a new kind; rows are widened if the piece has more gates, and padded for
-// radials that lacked the kind.
+// same kind, or begins a new kind. Rows are widened if the piece has more gates, and padded for
+// radials that lack the kind.
 void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     const std::size_t before = sweep.radials.size();
     sweep.radials.insert(sweep.radials.end(), from.radials.begin(), from.radials.end());
@@ -244,9 +244,9 @@ void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     }
 }
 
-// Appends a piece whose first radial is not late, or has no place in an earlier sweep: it continues
-// the open sweep or begins a new one, and perhaps a new volume. A piece of a cut that is not
-// selected is only counted.
+// Appends a piece whose first radial is not late, or has no place in an earlier sweep. The piece
+// continues the open sweep or begins a new one, and perhaps a new volume. A piece of a cut that is
+// not selected is only counted.
 bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
     Sweep& from = piece.sweep;
     const Radial& first = from.radials.front();
@@ -288,8 +288,8 @@ bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
     return true;
 }
 
-// Returns true if a radial is older than the one before it and does not go on where that one is:
-// its number does not rise, or it is of another sweep. The answer does not depend on where
+// Returns true if a radial is older than the previous one and does not continue its sweep: its
+// number does not rise, or it belongs to another sweep. The answer does not depend on where
 // fragments end.
 bool VolumeBuilder::is_late(const Sweep& sweep, std::size_t radial) const {
     const Radial& own = sweep.radials[radial];
@@ -300,7 +300,7 @@ bool VolumeBuilder::is_late(const Sweep& sweep, std::size_t radial) const {
            previous_->message_type != sweep.message_type;
 }
 
-// Appends a piece. Of its radials, those that come late go where they belong; the others follow.
+// Appends a piece. Its late radials go where they belong; the others are appended.
 bool VolumeBuilder::append_piece(Fragment::Piece piece) {
     if (!note_marks(std::move(piece.before))) return false;
     if (piece.left_out) {
@@ -393,7 +393,7 @@ Status VolumeBuilder::hold(std::uint64_t bytes) {
 
 // Returns false if the arrays exceed their limit.
 bool VolumeBuilder::append_all(Fragment& fragment) {
-    // A fragment never takes more than the volume takes for it.
+    // A fragment never takes more than its share of the volume.
     if (fragment.array_bytes > arrays_left()) return false;
     for (Fragment::Piece& piece : fragment.pieces) {
         if (!append_piece(std::move(piece))) return false;
@@ -402,7 +402,7 @@ bool VolumeBuilder::append_all(Fragment& fragment) {
     return note_marks(std::move(fragment.behind));
 }
 
-// Errors after the last radial of a volume take nothing from it.
+// Errors after the last radial of a volume do not make it incomplete.
 void VolumeBuilder::count_errors(const Fragment& fragment) {
     if (fragment.pieces.empty()) {
         errors_behind_ += fragment.report.errors;
@@ -438,8 +438,8 @@ Status VolumeBuilder::append(Fragment fragment) {
     return {};
 }
 
-// Checks whether anything is whole, settles the station, and lets check_volume() find what is
-// missing.
+// Checks whether anything is whole, settles the station, and calls check_volume() to find missing
+// parts.
 Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     const bool last_is_newest = sweep_is_open_;
     end_sweep();

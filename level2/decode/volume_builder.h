@@ -3,15 +3,15 @@
 // A sweep continues in the next fragment unless the elevation number or the message type changes, a
 // radial has status 0, 3 or 5, or there is a 24-byte header in between.
 //
-// Records may come in another order than the radar sent them, as in a file to which LDM appends. A
-// radial that is older than the one before it is put into the gap of the sweep that it left, and a
-// radial that is there already is left out, so the volume is that of the right order. A volume
-// begins at a radial marked so, after a further header, or where the elevation number falls while
-// time goes on.
+// Records may come in another order than the radar sent them, for example in a file to which LDM
+// appends. A radial that is older than the previous one is put into the gap that it left in its
+// sweep, and a repeated radial is left out, so the volume is that of the right order. A volume
+// begins at a radial marked as its start, after a further header, or where the elevation number
+// falls while time goes on.
 //
-// Limits    Neither the decompressed bytes nor the arrays exceed the given limits: append() then
-//           returns unsupported, and the builder must not be used any more. The arrays of one sweep
-//           do not exceed most_sweep_bytes.
+// Limits    Neither the decompressed bytes nor the arrays exceed the given limits. Beyond them
+//           append() returns unsupported, and the builder must not be used any more. The arrays of
+//           one sweep do not exceed most_sweep_bytes.
 // Threads   One thread at a time.
 #pragma once
 
@@ -33,22 +33,22 @@
 
 namespace stormcellar::level2 {
 
-// Messages are read, and their radials handed on, in stretches of this size, so that few of them
+// Messages are read, and their radials passed on, in stretches of this size, so that few of them
 // are held.
 inline constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
-// Places for late radials are looked for this often in a file: more than a file of known records
-// needs, however they are ordered, and few enough for a file that was made to take time.
+// Largest number of searches for places of late radials in a file. A file of known records needs
+// fewer, however they are ordered, and a file that was made to take time cannot take much.
 inline constexpr std::size_t most_late_searches = 500;
 inline constexpr std::size_t rows_of_a_stretch = 128;  // radials for which room is made
 
-// Returns true if a piece continues the sweep of the piece before it, provided that no header is
+// Returns true if a piece continues the sweep of the previous piece, provided that no header is
 // between them.
 [[nodiscard]] bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece);
 
 class VolumeBuilder {
   public:
     explicit VolumeBuilder(std::uint64_t limit_bytes) : VolumeBuilder(limit_bytes, limit_bytes) {}
-    // The same with a separate limit for the arrays.
+    // Makes a builder with a separate limit for the arrays.
     VolumeBuilder(std::uint64_t limit_bytes, std::uint64_t array_limit_bytes)
         : limit_bytes_(limit_bytes),
           array_limit_bytes_(array_limit_bytes),
@@ -61,12 +61,12 @@ class VolumeBuilder {
     [[nodiscard]] Status count_output(std::uint64_t bytes);
     [[nodiscard]] Status too_much_output() const;
     [[nodiscard]] std::uint64_t output_left() const { return limit_bytes_ - output_bytes_; }
-    // Counts what is held beside the arrays until the end.
+    // Counts memory besides the arrays that is held until the end.
     [[nodiscard]] Status hold(std::uint64_t bytes);
-    // Returns what the arrays of the next fragment may take.
+    // Returns how many bytes the arrays of the next fragment may take.
     [[nodiscard]] std::uint64_t arrays_left() const { return room_.left_bytes(); }
-    // Takes the bytes with which a stream of messages or LDM records begins, and returns what
-    // follows the 24-byte header, if there is one.
+    // Takes the first bytes of a stream of messages or LDM records, and returns the bytes after the
+    // 24-byte header, if there is one.
     [[nodiscard]] std::span<const std::byte> begin_stream(std::span<const std::byte> bytes);
     void set_header(VolumeHeader header) { volume_.header = std::move(header); }
 
@@ -74,7 +74,7 @@ class VolumeBuilder {
     [[nodiscard]] DecodeReport& report_data() { return report_; }
     void set_cut() { cut_ = true; }  // the input ends too early
     [[nodiscard]] bool is_cut() const { return cut_; }
-    // Something in the volume is known to be missing or wrong.
+    // Notes that something in the volume is missing or wrong.
     void set_incomplete() { incomplete_ = true; }
     // Returns the volume up to now. Its last sweep may continue, and may have too few or too long
     // rows.
@@ -82,37 +82,37 @@ class VolumeBuilder {
     [[nodiscard]] bool so_far_holds_one() const { return report_.further_volume_starts.empty(); }
     // Returns a sweep of so_far() with complete rows.
     [[nodiscard]] Sweep whole_sweep(std::size_t index) const;
-    // Returns the number of sweeps that are closed by what follows them.
+    // Returns the number of sweeps that later radials have closed.
     [[nodiscard]] std::size_t closed_sweeps() const;
-    // Frees the arrays of a closed sweep that is not the last. An equal sweep must be put back in
-    // its place before finish().
+    // Frees the arrays of a closed sweep that is not the last. Before finish(), an equal sweep must
+    // be put back in its place.
     void drop_sweep(std::size_t index);
-    // Gives the function that returns a sweep that was dropped, for radials of it that come late.
+    // Sets the function that returns a dropped sweep, for late radials of that sweep.
     using DroppedSweeps = std::function<Result<Sweep>(std::size_t)>;
     void set_dropped_sweeps(DroppedSweeps dropped) { dropped_ = std::move(dropped); }
-    // Returns the closed sweeps that have got late radials since the last call, and those that were
-    // fetched back and are as they were dropped.
+    // Returns the closed sweeps that got late radials since the last call, and those that were
+    // fetched back unchanged.
     struct Touched {
         std::set<std::size_t> changed, fetched;
     };
     [[nodiscard]] Touched take_touched() { return std::exchange(touched_, {}); }
-    // Does nothing if the sweep was fetched back before.
+    // Puts a dropped sweep back. Does nothing if the sweep was fetched back before.
     void put_back(std::size_t index, Sweep sweep);
-    // Returns what the arrays of the sweeps take that were not dropped.
+    // Returns the bytes of the arrays of all sweeps that were not dropped.
     [[nodiscard]] std::uint64_t held_bytes() const;
-    // Returns the part of it that the open sweep takes.
+    // Returns the part of held_bytes() that the open sweep takes.
     [[nodiscard]] std::uint64_t open_sweep_bytes() const;
-    // Returns true if the sweep after these has had its last radial by its status. More may follow
-    // all the same.
+    // Returns true if the open sweep has had its last radial by its status. More radials may still
+    // follow.
     [[nodiscard]] bool last_has_ended() const { return sweep_is_open_ && previous_->ended_sweep; }
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }
     // Returns everything but the sweeps.
     [[nodiscard]] Volume facts(const std::string& fallback_station) const;
     [[nodiscard]] bool volume_has_ended() const { return previous_ && previous_->end_of_volume; }
 
-    // Returns the volume with its report, which names what is missing and where it contradicts
-    // itself. The builder is empty afterward. The station is the fallback if the file does not name
-    // it. Errors: truncated or corrupt if nothing is whole, neither a radial nor metadata.
+    // Returns the volume with its report, which lists missing parts and contradictions. The builder
+    // is empty afterward. The station is the fallback if the file does not name it. Errors:
+    // truncated or corrupt if nothing is whole, neither a radial nor metadata.
     [[nodiscard]] Result<Decoded> finish(const std::string& fallback_station);
 
   private:
@@ -121,7 +121,7 @@ class VolumeBuilder {
         int elevation_number = 0;
         int message_type = 0;
         bool ended_sweep = false;  // its last radial had status 2 or 4
-        // The time of the volume's last radial (status 4), if it has come and is not older.
+        // The time of the volume's last radial (status 4), if it has come and no newer radial has.
         std::optional<UtcTime> end_of_volume;
         UtcTime time;
         std::uint16_t azimuth_number = 0;
@@ -147,7 +147,7 @@ class VolumeBuilder {
     [[nodiscard]] bool may_follow_late(const Sweep& from, std::size_t radial) const;
     [[nodiscard]] LateFit fit_of_late(const Radial& radial, const Radial* before) const;
     [[nodiscard]] Result<bool> find_late_place(const Sweep& from, std::size_t radial);
-    // Takes the radials from `first` on that come late, and returns where they end.
+    // Takes the late radials from `first` on, and returns the end of their run.
     [[nodiscard]] Result<std::size_t> take_late(Sweep& from, std::size_t first);
     [[nodiscard]] Status insert_late(Sweep& from, std::size_t first, std::size_t end);
     void put_sweeps_in_order();
@@ -177,14 +177,14 @@ class VolumeBuilder {
     bool vcp_is_new_ = false;  // came after the newest sweep began
     std::optional<VolumeHeader> pending_header_;
     std::optional<UtcTime> first_time_;  // of the first radial
-    // The first header came after radials of its volume.
+    // True if the first header came after radials of its volume.
     bool header_is_late_ = false;
     bool start_has_come_ = false;  // the newest volume has a radial that is marked as its first
     std::optional<LatePlace> late_place_;
     std::size_t late_searches_ = 0;
     std::uint64_t late_bytes_ = 0;  // moved to make room for late radials
     std::uint64_t late_radials_ = 0, repeated_radials_ = 0;
-    bool is_disordered_ = false;  // a sweep is older than the one before it
+    bool is_disordered_ = false;  // a sweep is older than the sweep before it
     Status late_failure_;
     DroppedSweeps dropped_;
     Touched touched_;

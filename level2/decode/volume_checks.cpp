@@ -13,7 +13,7 @@ namespace {
 
 using Sweeps = std::span<const Sweep>;
 
-// beyond the 720 that an ICD allows, and beyond what test radars are known to send
+// more than the 720 that an ICD allows, and more than test radars are known to send
 constexpr int greatest_azimuth_number = 1000;
 
 void check_position(const Volume& volume, ReportWriter& report) {
@@ -36,12 +36,12 @@ void check_time(const Volume& volume, ReportWriter& report) {
                                  : "impossible, and no radial has a better one"));
 }
 
-// The number of sweeps without all radials that are named one by one, as far as a person would
-// read.
+// Sweeps without all their radials are listed one by one up to this number, as many as a person
+// would read.
 constexpr int most_named_sweeps = 8;
 
-// Checks for sweeps whose last radials are lost, except the last sweep, which has a problem of its
-// own. A cut that begins again was given up by the radar.
+// Checks for sweeps that lost their last radials, except the last sweep, which has a problem of its
+// own. If a cut begins again, the radar gave up its first pass.
 bool check_ends(Sweeps all, bool last_is_newest, ReportWriter& report) {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -86,7 +86,7 @@ std::int64_t check_missing(Sweeps all, const std::vector<RadialGaps>& gaps, Repo
     return missing;
 }
 
-// Checks for volumes inside the file that stop before their end and are followed by another volume.
+// Checks for volumes inside the file that stop before their end and precede another volume.
 bool check_given_up(Sweeps all, const std::vector<std::size_t>& volume_starts,
                     ReportWriter& report) {
     std::vector<std::size_t> numbers;
@@ -173,7 +173,7 @@ void check_repeated(Sweeps all, const std::vector<RadialGaps>& gaps, ReportWrite
                fmt::format("the radials' numbers go back inside {}", where));
 }
 
-// Numbers that no radar sends say nothing about what is missing.
+// Reports numbers that no radar sends; they say nothing about missing radials.
 void check_numbers(Sweeps all, ReportWriter& report) {
     std::size_t odd = 0;
     for (const Sweep& sweep : all) {

@@ -1,5 +1,5 @@
-// level2/decode/volume_checks.h -- finds what a whole volume lacks, and where it contradicts
-// itself.
+// level2/decode/volume_checks.h -- finds the missing parts and the contradictions of a whole
+// volume.
 //
 // Threads   Pure functions.
 #pragma once
@@ -16,12 +16,12 @@
 
 namespace stormcellar::level2 {
 
-// What a Volume does not say itself.
+// Facts that a Volume does not hold itself.
 struct VolumeFacts {
     bool has_radials = true;  // true also if all radials belong to cuts that are not selected
     bool has_ended = true;    // the last radial was marked as the last of the volume
     bool all_cuts = true;     // no cut was left out because it is not selected
-    // No radial came after the last sweep, not even one that is not selected.
+    // True if no radial came after the last sweep, not even one that is not selected.
     bool last_sweep_is_newest = true;
     std::vector<std::size_t> volume_starts = {};  // sweeps at which a further volume begins
     std::optional<RdaStatus> status = {};
@@ -35,8 +35,7 @@ struct VolumeFacts {
                                 ReportWriter report);
 
 // Returns true if nothing of this one volume is missing from its first cut to its last radial, as
-// far as the radials show. Bytes that were dropped without a trace in their numbers are only in the
-// report.
+// far as the radials show. Dropped bytes that leave no gap in the numbers are only in the report.
 [[nodiscard]] bool is_complete(const Volume& volume);
 [[nodiscard]] bool is_complete(std::span<const Sweep> sweeps);
 
@@ -52,7 +51,8 @@ struct VolumePart {
 // Returns the volumes in the order of the file, at least one.
 [[nodiscard]] std::vector<VolumePart> volumes_in(const Decoded& decoded);
 
-// The radials of a sweep are numbered from 1. 0, and numbers above 1000, are no numbers.
+// The gaps in the radials of a sweep, which are numbered from 1. The number 0, and numbers above
+// 1000, do not count.
 struct RadialGaps {
     std::int64_t missing = 0;
     int first_missing = 0;

@@ -97,7 +97,7 @@ Status RecordMaker::add_record(EncodedVolume& encoded, std::span<const std::byte
 }
 
 Status RecordMaker::add_metadata(EncodedVolume& encoded) {
-    // Not every date is accepted as one, and a Volume does not keep the date of its metadata.
+    // Some dates are not accepted, and a Volume does not keep the date of its metadata.
     const bool is_dated = nexrad_from_time(encoded.start).day <= latest_day;
     ByteWriter messages;
     Status written = append_metadata(messages, volume_, is_dated ? encoded.start : UtcTime{}, run_);

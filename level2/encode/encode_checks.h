@@ -15,9 +15,9 @@ tl::unexpected<Error> refuse(fmt::format_string<Args...> format, Args&&... args)
                 fmt::format(format, std::forward<Args>(args)...));
 }
 
-// Checks that the arrays hold what they say, that the radials separate the sweeps, and that message
-// 31 gets the station and the block that it needs. read_back.h checks what messages do with the
-// numbers.
+// Checks that the arrays have their stated sizes, that the radials separate the sweeps, and that
+// message 31 gets the station and the block that it needs. read_back.h checks whether messages keep
+// the numbers.
 [[nodiscard]] Status check_encodable(const Volume& volume);
 
 }  // namespace stormcellar::level2

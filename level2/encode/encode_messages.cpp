@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t communications_header_bytes = 12;
 constexpr std::size_t frame_body_bytes = 2400;  // 1,208 halfwords with the header
 constexpr std::uint8_t orda_channel = 8;        // single channel, Open RDA
-// This stands for a number that the radar does not know, inside a block that it does send.
+// Replaces a number that the radar does not know, in a block that it does send.
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 std::int16_t to_i16(double number) {
@@ -86,9 +86,9 @@ std::uint16_t build_of(const Volume& volume) {
     return version == 2 ? build_17 : build_13;
 }
 
-// Writes message 2, ICD table IV: the radar operates under remote control, is on line, sends
-// reflectivity, velocity and width, and has no alarm. What a Volume does not know (power, maps,
-// corrections) is zero.
+// Writes message 2, ICD table IV, for a radar that operates under remote control, is on line, sends
+// reflectivity, velocity and width, and has no alarm. Facts that a Volume does not hold (power,
+// maps, corrections) are zero.
 void append_status(ByteWriter& out, const Volume& volume, UtcTime time, MessageRun& run) {
     constexpr std::uint16_t build_18 = 1800, version_of_build_19 = 9;
     constexpr std::uint16_t operate = 0x10, on_line = 2, remote = 4, utility_power = 2;
@@ -209,7 +209,7 @@ std::uint8_t azimuth_spacing_code(float spacing_deg) {
 // Writes the blocks of one radial and the table of pointers to them.
 class BlockTable {
   public:
-    // `start` is where pointers count from. The table is at the end of what was written.
+    // Pointers count from `start`. The table is at the end of the bytes written so far.
     BlockTable(ByteWriter& out, std::size_t start, std::size_t slots)
         : out_(out), start_(start), next_(out.size()) {
         out_.zeros(4 * slots);
@@ -257,7 +257,7 @@ MessageRun::MessageRun(const Volume& volume) {
 }
 
 Status append_metadata(ByteWriter& out, const Volume& volume, UtcTime time, MessageRun& run) {
-    // An RDA before the Open RDA has another message 2, about which a Volume knows nothing.
+    // An RDA before the Open RDA has another message 2, whose content a Volume does not hold.
     const bool legacy = !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
     const std::size_t used_frames = (volume.vcp_message ? 1U : 0U) + (legacy ? 0U : 1U);
     out.zeros((metadata_frames - used_frames) * frame_bytes);

@@ -21,7 +21,7 @@ namespace stormcellar::level2 {
 // The metadata record of a volume always holds this many frames, most of them empty.
 inline constexpr std::size_t metadata_frames = 134;
 
-// What continues from message to message of one volume.
+// The state that continues from message to message of one volume.
 struct MessageRun {
     explicit MessageRun(const Volume& volume);
 
@@ -42,8 +42,8 @@ struct MessageRun {
 void end_message(ByteWriter& out, std::size_t size_position);
 
 // Appends radial `index` of a sweep as a frame of message 1. The sweep must be consistent. Errors:
-// bad_argument if the frame cannot hold its gates. Numbers beyond their fields are cut; read_back.h
-// finds them.
+// bad_argument if the frame cannot hold its gates. Numbers that do not fit their fields are cut;
+// read_back.h detects them.
 [[nodiscard]] Status append_radial_1(ByteWriter& out, const Volume& volume, const Sweep& sweep,
                                      std::size_t index, MessageRun& run);
 

@@ -1,8 +1,8 @@
-// level2/encode/read_back.h -- checks what the decoder makes of a volume while it is written;
+// level2/encode/read_back.h -- decodes a volume while it is written and compares the result;
 // internal to the writer.
 //
 // The decoder's own reader gets the messages of each record before they are compressed. Its volume
-// must equal the one that is written, to the bit, within the default limits of decode().
+// must equal the written volume, to the bit, within the default limits of decode().
 //
 // Memory    A second copy of the volume.
 // Threads   One thread at a time.
@@ -26,10 +26,10 @@ class ReadBack {
     explicit ReadBack(const Volume& volume) : volume_(volume) {}
 
     // Reads the 24 bytes. Errors: bad_argument if they are not recognized as a header, or if the
-    // header that was made for a volume without one does not give its station.
+    // volume has no header and the one made for it does not give its station.
     [[nodiscard]] Status read_header(std::span<const std::byte> bytes);
 
-    // Why the decoder does not accept all of a record.
+    // The reason why the decoder does not accept all of a record.
     struct Fault {
         std::size_t offset = 0;  // in the messages of the record
         std::string reason;
@@ -37,8 +37,8 @@ class ReadBack {
     // Reads the messages of the next record. Returns none if they are read without a problem.
     [[nodiscard]] std::optional<Fault> read_record(std::span<const std::byte> messages);
 
-    // Compares the volumes after the last record. Errors: bad_argument, naming the first
-    // difference, if they differ.
+    // Compares the volumes after the last record. Errors: bad_argument if they differ; the message
+    // names the first difference.
     [[nodiscard]] Status finish();
 
   private:

@@ -24,7 +24,8 @@ bool is_temporary(const fs::path& path) {
            name.ends_with('~');
 }
 
-// Names of both forms begin with the time, with a separator or without.
+// Returns the digits of a name. Names of both forms begin with the time, with a separator or
+// without.
 std::string digits_of(const std::string& text) {
     std::string digits;
     std::ranges::copy_if(text, std::back_inserter(digits),
@@ -53,7 +54,7 @@ Result<std::vector<ChunkSet>> chunk_sets(const fs::path& directory) {
             error == std::errc::permission_denied ? ErrorCode::permission : ErrorCode::not_found,
             "{}: {}", directory.string(), error.message());
     }
-    // By time and by number. If a number comes twice, LiveVolume takes the better chunk.
+    // The chunks by time and by number. If a number comes twice, LiveVolume takes the better chunk.
     std::map<std::pair<std::string, std::string>, std::multimap<int, fs::path>> found;
     for (; entry != fs::directory_iterator{}; entry.increment(error)) {
         std::error_code ignored;
@@ -61,7 +62,7 @@ Result<std::vector<ChunkSet>> chunk_sets(const fs::path& directory) {
         if (!name || is_temporary(entry->path()) || !entry->is_regular_file(ignored)) continue;
         found[{digits_of(name->volume), name->volume}].emplace(name->number, entry->path());
     }
-    // The loop also ends at an error.
+    // The loop also ends after an error.
     if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
     if (found.empty()) {
         return fail(ErrorCode::not_found,
@@ -97,7 +98,7 @@ Result<Decoded> decode_chunks(const std::vector<fs::path>& chunks, const DecodeO
         if (!added && added.error().code == ErrorCode::exhausted) {
             return fail(ErrorCode::exhausted, "{}: {}", path.string(), added.error().message);
         }
-        // a chunk that is not accepted is named in the volume's report
+        // the volume's report lists a chunk that is not accepted
     }
     auto decoded = volume.finish();
     if (!decoded) {

@@ -16,13 +16,13 @@ namespace stormcellar::level2 {
 namespace {
 
 // Enough bytes to tell LDM records and compressed files from other files, and messages from
-// anything.
+// anything else.
 constexpr std::size_t decide_container_bytes = archive_header_bytes + 16;
 constexpr std::size_t decide_messages_bytes =
     archive_header_bytes + frame_bytes + sure_message_bytes;
-// The longest record, and what is appended at once.
+// The longest record, plus the bytes that are appended at once.
 constexpr std::size_t most_unframed_bytes = longest_record_bytes + (std::size_t{2} << 20);
-// This much is searched if the start holds nothing known.
+// Bytes that are searched if the start holds nothing known.
 constexpr std::size_t most_unknown_bytes = std::size_t{16} << 20;
 constexpr std::size_t kept_bytes = std::size_t{16} << 10;
 
@@ -51,7 +51,7 @@ class GrowingVolume::Reader {
         volume_.set_dropped_sweeps(std::move(dropped));
     }
     Result<Decoded> finish();
-    // The system has no more memory for this file.
+    // Fails because the system has no more memory for this file.
     Status give_up() { return failed_ = no_memory(); }
 
   private:
@@ -66,7 +66,7 @@ class GrowingVolume::Reader {
 
     DecodeOptions options_;
     Kind kind_ = Kind::undecided;
-    bool is_unknown_ = false;  // held, and the start holds nothing known
+    bool is_unknown_ = false;  // bytes are held, and the start holds nothing known
     Status failed_;
     std::vector<std::byte> held_;  // bytes that are not consumed yet
     VolumeBuilder volume_{options_.output_limit_bytes, options_.most_array_bytes()};
@@ -76,9 +76,9 @@ class GrowingVolume::Reader {
     FragmentBuilder fragment_{room_, rows_of_a_stretch, options_.selection};
     MessageReader reader_{fragment_};
     MessageFeed feed_{reader_};
-    std::size_t next_sweep_ = 0;      // sweeps below this one are closed and were handed out
+    std::size_t next_sweep_ = 0;      // sweeps below this one are closed and were returned
     std::size_t radials_handed_ = 0;  // radials of that sweep
-    std::set<std::size_t> changed_;   // sweeps that have got late radials since
+    std::set<std::size_t> changed_;   // sweeps that got late radials since the last take_sweeps()
 };
 
 void GrowingVolume::Reader::decide() {
@@ -184,7 +184,7 @@ Status GrowingVolume::Reader::append(std::span<const std::byte> bytes) {
     return failed_;
 }
 
-// Sweeps that were only looked at are dropped again.
+// Sweeps that were fetched only for a search are dropped again.
 void GrowingVolume::Reader::note_late_radials() {
     VolumeBuilder::Touched touched = volume_.take_touched();
     for (const std::size_t index : touched.fetched) {
@@ -208,7 +208,7 @@ std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
     const auto& sweeps = volume_.so_far().sweeps;
     while (!changed_.empty() && bytes < most_live_bytes) {
         const std::size_t index = changed_.extract(changed_.begin()).value();
-        if (index >= next_sweep_) continue;  // it comes by itself
+        if (index >= next_sweep_) continue;  // the loop below returns it anyway
         const std::size_t handed = radials_handed_;
         hand_out(index);
         radials_handed_ = handed;

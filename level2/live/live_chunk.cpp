@@ -20,9 +20,9 @@ constexpr std::size_t rows_of_a_chunk = 120;
 constexpr std::size_t most_records = 1000;
 constexpr std::uint64_t bytes_of_a_problem = 256;
 
-// Returns what a fragment takes while it is held by itself. The count of a fragment leaves out its
-// first piece but for the rows, because that piece may continue a sweep; here the piece is counted
-// fully.
+// Returns the bytes of a fragment that is held by itself. The fragment's own count leaves out its
+// first piece except for the rows, because that piece may continue a sweep; here the piece is
+// counted fully.
 std::uint64_t held_bytes(const Fragment& fragment) {
     std::uint64_t bytes = fragment.array_bytes + sizeof(Fragment) +
                           fragment.report.problems.size() * bytes_of_a_problem;
@@ -145,7 +145,7 @@ Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes, const Decode
     const Content content = content_anywhere(bytes);
     auto header = read_archive_header(bytes);
     const auto body = bytes.subspan(header ? archive_header_bytes : 0);
-    // A header with the first bytes of a record tells which volume it is.
+    // A header with the first bytes of a record identifies its volume.
     const bool has_records = content == Content::ldm || (content == Content::unknown && header);
     if (!has_records && content != Content::messages) {
         return fail(ErrorCode::not_level2, "not a chunk of a Level II volume");

@@ -56,7 +56,7 @@ Result<LiveVolume::Added> LiveVolume::keep_better(int number, LiveChunk chunk,
         return Added::added;
     }
     LiveChunk& old = there->second;
-    // A name that says that the chunk is the last is believed, whatever another name says.
+    // If one name marks the chunk as the last, it is the last, whatever another name says.
     if (chunk.kind == ChunkKind::end) old.kind = ChunkKind::end;
     if (old.bytes == chunk.bytes && old.checksum == chunk.checksum) return Added::repeated;
     const auto worth = [](const LiveChunk& c) { return std::tie(c.radials, c.bytes, c.checksum); };
@@ -88,7 +88,7 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
             return kept;
         }
         if (chunk.error().cause() == Cause::data && !chunks_.contains(number)) {
-            // Of several reasons, the same one is kept in any order.
+            // If there are several reasons, the same one is kept in any order.
             std::string& reason = refused_[number];
             if (reason.empty() || chunk.error().message < reason) reason = chunk.error().message;
         }
@@ -101,8 +101,8 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
 bool LiveVolume::has_ended() const {
     return std::any_of(chunks_.begin(), chunks_.end(), [](const auto& entry) {
         const LiveChunk& chunk = entry.second;
-        // A start chunk alone may have a negative control word, because its record is the last of
-        // the metadata.
+        // In a start chunk alone, a negative control word does not count, because its record is the
+        // last of the metadata.
         return chunk.kind == ChunkKind::end || chunk.ended_volume ||
                (chunk.negative && chunk.radials > 0);
     });

@@ -1,4 +1,4 @@
-// level2/live/open_sweep.h -- finds the pieces of a live volume's chunks that make up a sweep.
+// level2/live/open_sweep.h -- finds the pieces in a live volume's chunks that make up a sweep.
 //
 // Threads   Pure functions.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace stormcellar::level2 {
 
-// Refers to the chunks from which it was made.
+// A sweep by its pieces. It refers to the chunks from which it was made.
 struct OpenSweep {
     // The serial number of the chunk of a piece, and the index of the piece in the chunk.
     using PieceId = std::pair<std::uint64_t, std::size_t>;
@@ -35,8 +35,8 @@ struct OpenSweep {
 // numbers.
 [[nodiscard]] std::vector<OpenSweep> sweeps_of(const std::map<int, LiveChunk>& chunks);
 
-// Joins the pieces as the VolumeBuilder does. Returns a sweep without radials if that exceeds the
-// limit. Errors: those of the depot (null: nothing lies in a depot).
+// Joins the pieces in the same way as the VolumeBuilder. Returns a sweep without radials if that
+// exceeds the limit. Errors: those of the depot (null: no sweep is in a depot).
 [[nodiscard]] Result<Sweep> join(const OpenSweep& sweep, std::uint64_t limit_bytes,
                                  const SweepDepot* depot);
 

@@ -16,7 +16,7 @@ struct Gates {
 
 constexpr std::size_t data_bytes = 100;  // before the gates
 
-// Where the gates of a moment begin and end in the message.
+// The place of a moment's gates in the message.
 struct Extent {
     std::size_t begin = 0;  // 0: the radial lacks the moment
     std::size_t end = 0;
@@ -41,8 +41,7 @@ bool add_moment(RadialMessage& message, MomentBlock block, const Gates& gates,
     return !reader.failed() && message.add(block);
 }
 
-// Returns how REF, VEL and SW are coded. Velocity comes in steps of 0.5 m/s (resolution 2) or 1 m/s
-// (4).
+// Returns the coding of REF, VEL and SW. Velocity has steps of 0.5 m/s (resolution 2) or 1 m/s (4).
 std::array<MomentBlock, 3> moment_blocks(std::uint16_t velocity_resolution, float threshold_db) {
     std::array<MomentBlock, 3> blocks;
     blocks[0].moment = Moment::ref;

@@ -58,7 +58,7 @@ Reason read_elevation_block(Radial& radial, std::span<const std::byte> block) {
     return std::nullopt;
 }
 
-// The bytes of the block end where the next block begins.
+// Reads a moment's block, whose bytes end where the next block begins.
 Reason read_moment_block(RadialMessage& message, Moment moment, std::span<const std::byte> bytes) {
     ByteReader reader{bytes};
     reader.skip(8);
@@ -93,7 +93,7 @@ Reason read_moment_block(RadialMessage& message, Moment moment, std::span<const 
     return std::nullopt;
 }
 
-// What a fault in a block costs.
+// The part of a radial that a fault in a block costs.
 enum class Loss : std::uint8_t { nothing, moment, radial };
 
 struct Fault {
@@ -136,8 +136,8 @@ BlockFault read_block(RadialMessage& message, std::span<const std::byte> block) 
     if (name.front() == 'D' && known) {
         return fault_of(Loss::moment, read_moment_block(message, *known, block));
     }
-    // A name that is in no ICD is from a later build, unless it is not even text: then a pointer is
-    // wrong.
+    // A name that is in no ICD belongs to a later build, unless it is not even text; then a pointer
+    // is wrong.
     for (const char c : name) {
         if (c < ' ' || c > '~') return Fault{Loss::radial, "a block has no name"};
     }
@@ -145,7 +145,7 @@ BlockFault read_block(RadialMessage& message, std::span<const std::byte> block) 
     return std::nullopt;
 }
 
-// Where the blocks begin, in the order of the message, and after them where the message ends.
+// The starts of the blocks, in the order of the message, and then the end of the message.
 struct BlockPlaces {
     std::array<std::uint32_t, most_blocks> pointers{};
     std::size_t count = 0;
@@ -203,7 +203,7 @@ RadialResult read_message_31(std::span<const std::byte> body, Framing framing) {
     radial.azimuth_indexing = reader.u8();
     const std::uint16_t blocks = reader.u16();
     if (reader.failed()) return tl::unexpected(std::string_view{"message 31 is too short"});
-    // Written so that a NaN fails.
+    // The comparison is written so that a NaN fails.
     const bool angles_possible = is_within(radial.azimuth_deg, 0.0F, 360.0F) &&
                                  is_within(radial.elevation_deg, -90.0F, 90.0F);
     if (!angles_possible) return tl::unexpected(std::string_view{"angles are impossible"});

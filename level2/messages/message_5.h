@@ -16,8 +16,8 @@ namespace stormcellar::level2 {
 // pattern have zeros there.
 inline constexpr std::size_t vcp_header_bytes = 22;
 
-// `body` is the message after its 28 bytes of header. Returns none if it holds no pattern, or fewer
-// cuts than it counts.
+// Reads a pattern. `body` is the message after its 28 bytes of header. Returns none if it holds no
+// pattern, or fewer cuts than it counts.
 [[nodiscard]] std::optional<Vcp> read_vcp(int message_type, std::span<const std::byte> body);
 
 }  // namespace stormcellar::level2

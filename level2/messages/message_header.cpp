@@ -144,7 +144,7 @@ bool agrees_with_message_1(const MessageHeader& header, std::span<const std::byt
     return start && all_hold(checks_of_1(header, *start));
 }
 
-// The same; but zeros, which agree with many things, do not count as gates.
+// Does the same, but does not count zeros as gates, because zeros agree with many things.
 bool is_surely_message_1(const MessageHeader& header, std::span<const std::byte> body) {
     return agrees_with_message_1(header, body) && !all_zero(body.subspan(gate_counts_at, 4));
 }
@@ -192,7 +192,7 @@ bool places_gates_of_31(const MessageHeader& header, std::span<const std::byte> 
     return any;
 }
 
-// Checks a frame of another kind. Nothing in its body is fixed, so its header must be beyond doubt.
+// Checks a frame of another type. Nothing in its body is fixed, so its header must be beyond doubt.
 bool is_surely_other_message(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool one_of_the_archived = header.type == 2 || header.type == 3 || header.type == 5 ||
                                      header.type == 13 || header.type == 15 || header.type == 18 ||

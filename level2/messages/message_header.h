@@ -1,5 +1,5 @@
-// level2/messages/message_header.h -- the 28 bytes at the head of every message, and whether bytes
-// can be such a header.
+// level2/messages/message_header.h -- reads the 28 bytes at the head of every message, and checks
+// whether bytes can be such a header.
 //
 // A message has 12 bytes of a channel terminal manager, which are not interpreted, then the header
 // of ICD 2620002 table II. Message 31 (and 29) has the length that its header says. Every other
@@ -44,9 +44,8 @@ struct MessageHeader {
 // Returns true if the ICD has this type.
 [[nodiscard]] bool is_known_message_type(int type);
 
-// Returns true if the fields are within their ranges. That is so for every header in a good stream,
-// but also for about one in a million random ones, so it proves little where the place is not
-// known.
+// Returns true if the fields are within their ranges. This holds for every header in a good stream,
+// but also for about one in a million random ones, so it proves little if the place is not known.
 [[nodiscard]] bool is_plausible(const MessageHeader& header);
 
 // Returns true if a message surely begins at the start of `bytes`: a plausible header, and a body
@@ -54,19 +53,20 @@ struct MessageHeader {
 inline constexpr std::size_t sure_message_bytes = 128;  // it reads no farther than this
 [[nodiscard]] bool is_surely_message(std::span<const std::byte> bytes);
 
-// Returns true if the body of a radial (message 1 or 31) agrees with its header in time and in the
-// ranges of its numbers.
+// Returns true if the body of a radial (message 1 or 31) agrees with its header in time and its
+// numbers are within their ranges.
 [[nodiscard]] bool is_credible_radial(const MessageHeader& header, std::span<const std::byte> body);
-// Returns what is odd about a radial that is not credible, each in a few words.
+// Returns the oddities of a radial that is not credible, each in a few words.
 [[nodiscard]] std::vector<std::string_view> oddities_of(const MessageHeader& header,
                                                         std::span<const std::byte> body);
 
-// Returns true if the message at the start of `bytes` is a radial that says where its gates are in
-// a way that chance does not: for message 31 its pointers are inside it, for message 1 counts and
-// pointers fit into its frame. Name, date, time, numbers and angles do not count.
+// Returns true if the message at the start of `bytes` is a radial that gives the places of its
+// gates in a way that chance does not: for message 31 its pointers are inside it, for message 1
+// counts and pointers fit into its frame. Name, date, time, numbers and angles do not count.
 [[nodiscard]] bool places_its_gates(const MessageHeader& header, std::span<const std::byte> bytes);
-// The same, but the length must also be beyond doubt: it is that of a frame, or the one that
-// message 31 itself gives (as all known ones do). `message` is as long as the header says.
+// Does the same, but the length must also be beyond doubt: it is the length of a frame, or the
+// length that message 31 itself gives (as all known ones do). `message` is as long as the header
+// says.
 [[nodiscard]] bool is_firm_radial(const MessageHeader& header, std::span<const std::byte> message);
 
 // Returns the first place at or after `from` where a message surely begins.

@@ -18,7 +18,7 @@ constexpr std::size_t pointers_at = 32;
 constexpr int bzip2_indicator = 1;
 constexpr int zlib_indicator = 2;
 
-// Returns where the plain header ends, or 0 if the pointers cannot be right.
+// Returns the end of the plain header, or 0 if the pointers cannot be right.
 std::size_t header_bytes(std::span<const std::byte> body) {
     ByteReader reader{body};
     reader.seek(block_count_at);
@@ -49,7 +49,7 @@ bool inflate_all(std::span<const std::byte> from, std::span<std::byte> out) {
 }
 
 bool bunzip_all(std::span<const std::byte> from, std::span<std::byte> out) {
-    static thread_local bunzip::Workspace workspace;  // empty if no radial is compressed so
+    static thread_local bunzip::Workspace workspace;  // empty if no radial uses bzip2
     bunzip::Reader reader{from, workspace};
     const std::size_t made = reader.read(out);
     std::byte surplus{};

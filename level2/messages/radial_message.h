@@ -1,5 +1,4 @@
-// level2/messages/radial_message.h -- one radial as a message gives it: message 31, or the old
-// message 1.
+// level2/messages/radial_message.h -- one radial from a message: message 31, or the old message 1.
 //
 // The codes are views into the message, so a RadialMessage must not outlive the message's bytes.
 // Every length, pointer and count has been checked against the message and against the neighboring
@@ -72,7 +71,7 @@ struct RadialMessage {
 // The reason, in a few words, why a message holds no usable radial.
 using RadialResult = tl::expected<RadialMessage, std::string_view>;
 
-// Whether the surroundings of a message show where it begins and ends. If they do not, a fault in
+// Proven if the surroundings of a message show where it begins and ends. If unproven, a fault in
 // any of its blocks may mean that bytes are lost inside it.
 enum class Framing : std::uint8_t { unproven, proven };
 

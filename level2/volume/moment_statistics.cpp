@@ -10,7 +10,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// How often each code occurs in one kind of the moment.
+// The number of times that each code occurs in one kind of the moment.
 using Histogram = std::vector<std::uint64_t>;
 
 void count_codes(const SweepMoment& moment, std::size_t radial, Histogram& histogram) {

@@ -12,13 +12,14 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The two differ by up to 10 s in sound volumes, and by more if the first records are lost.
+// The time of the header differs from the radials' by up to 10 s in sound volumes, and by more if
+// the first records are lost.
 constexpr std::chrono::hours header_tolerance{1};
 
 constexpr double altitude_tolerance_m = 30;
 constexpr double position_tolerance_deg = 0.01;
-// Sites have been moved by some kilometers, so the radar is believed within this distance. A radar
-// that claims to be farther from its site is mistaken.
+// Sites have moved by some kilometers, so the radar is believed within this distance. A radar that
+// claims to be farther from its site is wrong.
 constexpr double position_limit_deg = 1;
 
 std::optional<AntennaPosition> position_of_block(const VolumeBlock& block) {
@@ -55,7 +56,7 @@ AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) 
     if (step_deg > position_limit_deg) {
         position = position_of_station(station);
     } else if (altitude_differs && step_deg <= position_tolerance_deg) {
-        // If the site has moved, its height differs, too.
+        // A site that has moved has another height, too.
         position.altitude_m = station.antenna_altitude_m;
         position.from_table = true;
     }
@@ -80,8 +81,8 @@ std::optional<UtcTime> middle_of(const Sweep& sweep) {
     return *middle;
 }
 
-// Returns the time of the first radial that others of its sweep confirm, because a single radial
-// may have any time.
+// Returns the time of the first radial that other radials of its sweep confirm, because a single
+// radial may have any time.
 std::optional<UtcTime> first_of(const std::vector<Sweep>& sweeps) {
     for (const Sweep& sweep : sweeps) {
         const auto middle = middle_of(sweep);

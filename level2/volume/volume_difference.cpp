@@ -33,7 +33,7 @@ std::string_view first_other(std::initializer_list<Field> fields) {
     return {};
 }
 
-// Each overload of other() names the first field in which two parts differ; empty if none does.
+// Each overload of other() returns the first field in which two parts differ, or an empty text.
 std::string_view other(const Radial& a, const Radial& b) {
     return first_other({
         {"time", same(a.time, b.time)},
@@ -150,7 +150,7 @@ std::string other_part(std::string_view name, const std::optional<T>& a,
     return field.empty() ? std::string{} : fmt::format("{}: {}", name, field);
 }
 
-// Returns the first of two rows of parts that differ, counting a part that the other row lacks.
+// Returns the first difference between two rows of parts, counting a part that the other row lacks.
 template <class T>
 std::string other_of(std::string_view name, const std::vector<T>& a, const std::vector<T>& b) {
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {

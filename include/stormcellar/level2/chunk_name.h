@@ -31,14 +31,14 @@ struct ChunkName {
 // Parses a file name. There may be a prefix ("KLOT-") or a directory before the name, and an ending
 // (".bz2", "-V06") after it. Returns none if it is not the name of a chunk.
 [[nodiscard]] std::optional<ChunkName> parse_chunk_name(std::string_view name);
-// The same, with the places in the name of the parts that differ between the chunks of a volume.
+// A chunk name, with the places of the parts that differ between the chunks of a volume.
 struct PlacedChunkName {
     ChunkName name;
     std::size_t number_at = 0;  // where the number begins
     std::size_t behind = 0;     // just after the letter of the kind
 };
 [[nodiscard]] std::optional<PlacedChunkName> place_chunk_name(std::string_view name);
-// Writes "20220317-000842-001-S".
+// Returns a name such as "20220317-000842-001-S".
 [[nodiscard]] std::string to_string(const ChunkName& name);
 
 }  // namespace stormcellar::level2

@@ -1,10 +1,10 @@
 // stormcellar/level2/decode.h -- decodes the bytes of a Level II file into a Volume.
 //
-// Containers are found by content, never by name, and peeled in a loop: gzip, bzip2 or .Z around
-// the whole file, then a 24-byte header or none, then LDM bzip2 records, or plain 2432-byte frames
-// and messages 31. The input is hostile, so every length is bounded before it is used. The decoder
-// keeps what is whole and names the rest in the report. It never makes up a sweep and never returns
-// half a radial.
+// The decoder recognizes containers by content, never by name, and peels them in a loop: gzip,
+// bzip2 or .Z around the whole file, then a 24-byte header or none, then LDM bzip2 records, or
+// plain 2432-byte frames and messages 31. The input is hostile, so every length is bounded before
+// it is used. The decoder keeps whole parts and lists the rest in the report. It never makes up a
+// sweep and never returns half a radial.
 //
 // Units     Those of stormcellar/level2/volume.h; limits are in bytes.
 // Threads   Pure functions. decode() may use `threads` threads of its own.
@@ -26,7 +26,7 @@
 
 namespace stormcellar::level2 {
 
-// A file whose content is compressed twice is held whole in memory, up to this size. No known
+// A file whose content is compressed twice is held in memory as a whole, up to this size. No known
 // volume comes near it.
 inline constexpr std::size_t most_packed_bytes = std::size_t{64} << 20;
 
@@ -34,13 +34,13 @@ struct DecodeOptions {
     int threads = 1;
     // Limits the decompressed messages. Only a few of them are held at a time.
     std::uint64_t output_limit_bytes = std::uint64_t{512} << 20;
-    // Limits what is made of them and held; 0: output_limit_bytes.
+    // Limits the arrays that are made from the messages; 0: output_limit_bytes.
     std::uint64_t array_limit_bytes = 0;
     [[nodiscard]] std::uint64_t most_array_bytes() const {
         return array_limit_bytes == 0 ? output_limit_bytes : array_limit_bytes;
     }
-    // Limits the sweep that is still open in a volume that grows; 0: no limit of its own. It is
-    // checked after each record. Beyond it, appending fails with over_budget.
+    // Limits the open sweep of a growing volume; 0: no separate limit. It is checked after each
+    // record. Beyond it, appending fails with over_budget.
     std::uint64_t open_sweep_limit_bytes = 0;
     // Arrays are made only for these moments and cuts. A cut that is not selected gives no sweep.
     Selection selection;
@@ -52,14 +52,14 @@ struct DecodeOptions {
                                      const DecodeOptions& options = {});
 
 // Reads and decodes a file. If the file does not name its station, the first four characters of its
-// name do, provided that the station table knows them. Messages of errors begin with the path.
-// Errors: those of read_file() and of decode().
+// name do, provided that the station table knows them. Error messages begin with the path. Errors:
+// those of read_file() and of decode().
 [[nodiscard]] Result<Decoded> decode_file(const std::filesystem::path& path,
                                           const DecodeOptions& options = {});
 
 // Splits the result for a file that holds several volumes; an ordinary file gives one element. Each
 // volume has its own sweeps; the volume block and the VCP are repeated. A further volume has its
-// own header if the file holds one. Otherwise it has the first header with the time of its own
+// own header if the file holds one. Otherwise it gets the first header with the time of its own
 // first radial, because the start time names a volume.
 [[nodiscard]] std::vector<Volume> split_volumes(Decoded decoded);
 

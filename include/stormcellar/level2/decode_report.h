@@ -1,4 +1,4 @@
-// stormcellar/level2/decode_report.h -- what a decoder saw, what it kept and what it dropped.
+// stormcellar/level2/decode_report.h -- what a decoder found, kept and dropped.
 //
 // Units     Offsets and sizes are in bytes; times are in seconds.
 // Threads   Plain data; any thread may read it while no thread writes it.
@@ -29,12 +29,12 @@ struct Problem {
     // in the file.
     std::optional<std::uint64_t> offset;
     std::optional<std::uint64_t> ldm_record;  // the bad record; counts from 1
-    // How many messages have this problem, if it is reported once for many; offset and record are
-    // then those of the first of them. 0: the problem is reported for one place.
+    // Number of messages with this problem, if it is reported once for many. Then offset and record
+    // are those of the first message. 0: the problem is reported for one place.
     std::uint64_t count = 0;
     std::uint64_t dropped_bytes = 0;  // by all these messages together
 
-    // Returns the message with the number of its record before it and the count after it.
+    // Returns the message, with the number of its record before it and the count after it.
     [[nodiscard]] std::string text() const;
 };
 
@@ -44,14 +44,14 @@ struct DecodeReport {
     std::optional<std::uint64_t> negative_control_words;
     std::uint64_t message_bytes = 0;  // decompressed, after the 24-byte header
     std::map<int, std::uint64_t> message_counts;
-    std::uint64_t bytes_dropped = 0;  // bytes of messages; of the file if a compressed part is lost
+    std::uint64_t bytes_dropped = 0;  // of messages, or of the file if a compressed part is lost
     std::vector<Problem> problems;    // the first max_problems, and all that have a count
     static constexpr std::size_t max_problems = 100;
     std::uint64_t problems_left_out = 0;
-    std::uint64_t errors = 0;  // the number of problems of that severity, listed or not
+    std::uint64_t errors = 0;  // number of problems of that severity, listed or not
     // The first place at which a message was due and none was found, as in the golden files. It is
-    // none for an undamaged stream. The bytes dropped there may begin earlier; the problem says
-    // where.
+    // none for an undamaged stream. The bytes dropped there may begin earlier; the problem has that
+    // offset.
     struct Corruption {
         std::uint64_t offset = 0;
         std::string reason;
@@ -59,16 +59,16 @@ struct DecodeReport {
     std::optional<Corruption> corruption;
     // True if the last radial ended its volume (status 4), no earlier volume was broken off,
     // nothing is missing, and up to that radial nothing was dropped and no problem is an error.
-    // Whatever comes after that radial does not count.
+    // Bytes after that radial do not count.
     bool complete = false;
-    bool damaged = false;               // before the last radial something was dropped or is wrong
+    bool damaged = false;               // before the last radial, something was dropped or is wrong
     std::uint64_t sweeps_left_out = 0;  // sweeps of cuts that are not selected
-    // records of such sweeps that were not even decompressed; offsets do not count them
+    // records of such sweeps that were not decompressed; offsets do not count them
     std::uint64_t records_skipped = 0;
-    // The sweep indices at which a further volume begins: at a start-of-volume radial, after a
-    // second header, and, if time goes on, where the elevation number falls and where it does not
-    // rise after an end of volume. Volume 0 begins at sweep 0. A volume of which a selection leaves
-    // no sweep has the same start as the next one.
+    // The sweep indices at which further volumes begin. A volume begins at a start-of-volume radial
+    // and after a second header. If time goes on, it also begins where the elevation number falls,
+    // and where it does not rise after an end of volume. Volume 0 begins at sweep 0. If a selection
+    // leaves no sweep of a volume, that volume has the same start as the next one.
     std::vector<std::size_t> further_volume_starts;
     // The 24-byte headers found inside the stream, each with the sweep that follows it.
     struct FurtherHeader {

@@ -1,4 +1,5 @@
-// stormcellar/level2/describe.h -- a decoded file as facts: what `stormcellar info --json` prints.
+// stormcellar/level2/describe.h -- describes a decoded file as facts: the output of `stormcellar
+// info --json`.
 //
 // The names of fields are those of the reference descriptions beside the real volumes
 // (data/golden), with which tests/level2/golden_test.cpp compares the result. "problems" holds the

@@ -7,11 +7,12 @@
 // spans two sweeps; the last control word is negative. Sweeps of message 31 are written as message
 // 31, those of message 1 as message 1.
 //
-// decode(encode(v)) gives v to the bit. encode() has the decoder read each record that it makes,
-// and refuses a volume of which anything would be lost, rounded, joined or split. The bytes do not
-// hold two facts: that a volume had no header (it gets one, AR2V0006.001 or AR2V0001.001 with the
-// time of the first radial), and the station, if there are neither radials of message 31 nor an
-// ICAO in the header. The decoder then needs the station as its fallback.
+// decode(encode(v)) gives v to the bit. The decoder reads each record that encode() makes, and
+// encode() refuses a volume of which anything would be lost, rounded, joined or split. The bytes do
+// not hold two facts. One is that a volume had no header: it gets one, AR2V0006.001 or
+// AR2V0001.001, with the time of the first radial. The other is the station, if there are neither
+// radials of message 31 nor an ICAO in the header. The decoder then needs the station as its
+// fallback.
 //
 // Units     Those of stormcellar/level2/volume.h.
 // Memory    A second copy of the volume.
@@ -50,9 +51,9 @@ struct EncodedVolume {
     std::vector<EncodedRecord> records;
 
     [[nodiscard]] std::vector<std::byte> joined() const;  // header and records: a whole file
-    // Returns the same as chunks: one chunk (S) with the header and the metadata, then one chunk
-    // for each record (I, the last E), named by the start of the volume. There must be no more than
-    // 999.
+    // Returns the same as chunks, which are named by the start of the volume. One chunk (S) has the
+    // header and the metadata. Then there is one chunk for each record (I, the last E). There must
+    // be no more than 999.
     [[nodiscard]] std::vector<EncodedChunk> chunks() const;
 };
 

@@ -1,8 +1,8 @@
 // stormcellar/level2/fragment.h -- the content of a stretch of the message stream, decoded by
 // itself.
 //
-// An LDM record, a live chunk or a run of messages becomes a Fragment without any knowledge of what
-// came before it. A VolumeBuilder joins fragments in their order. So several threads can decode
+// An LDM record, a live chunk or a run of messages becomes a Fragment without any knowledge of
+// earlier bytes. A VolumeBuilder joins fragments in their order. So several threads can decode
 // records, chunks can be decoded in the order in which they arrive, and the volume depends on
 // neither.
 //
@@ -20,7 +20,7 @@
 
 namespace stormcellar::level2 {
 
-// What the stream holds between radials.
+// Facts that the stream holds between radials.
 struct FragmentMarks {
     std::vector<Vcp> patterns;           // messages 5 and 7, in order
     std::optional<VolumeHeader> header;  // the last 24-byte header inside the stream
@@ -32,7 +32,8 @@ struct Fragment {
         FragmentMarks before;
         Sweep sweep;            // has radials, but no vcp_elevation_deg
         std::uint16_t vcp = 0;  // the VCP that its first radial names; 0: none
-        // True if its cut is not selected: the sweep then holds only its first and its last radial.
+        // True if the cut of the piece is not selected. Then the sweep holds only its first and its
+        // last radial.
         bool left_out = false;
     };
     std::vector<Piece> pieces;
@@ -42,15 +43,16 @@ struct Fragment {
     std::uint16_t vcp = 0;  // the first VCP that a radial names
     // Offsets count from the beginning of the fragment, LDM records from 1.
     DecodeReport report;
-    // The decompressed bytes, whether messages or not, and half of the bytes that were decompressed
-    // in vain (BzipBlocks::Block).
+    // The decompressed bytes, whether they are messages or not, and half of the bytes that were
+    // decompressed in vain (BzipBlocks::Block).
     std::uint64_t output_bytes = 0;
     std::uint64_t array_bytes = 0;  // the bytes of radials, rows and patterns, see ArrayRoom
-    // How many of the errors in the report come after the last radial; all if there is no radial.
+    // Number of errors in the report that come after the last radial; all of them if there is no
+    // radial.
     std::uint64_t errors_behind = 0;
     bool cut = false;  // the input ends too early
     enum class Failure : std::uint8_t { none, no_memory, too_much_output, too_large_arrays };
-    Failure failure = Failure::none;  // why the fragment is not whole, if there was no room
+    Failure failure = Failure::none;  // reason why the fragment is not whole, if there was no room
 };
 
 }  // namespace stormcellar::level2

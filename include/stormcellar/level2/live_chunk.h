@@ -28,10 +28,10 @@ struct LiveChunk {
     std::size_t radials = 0;
     std::size_t bytes = 0;
     std::uint64_t output_bytes = 0;  // decompressed
-    std::uint64_t held_bytes = 0;    // memory of the fragments while no sweep lies in the depot
-    // For each piece, counted over all fragments: where its sweep lies in the depot, or none if it
-    // is here. Of a sweep in the depot only the first and the last radial stay here. An empty list
-    // means that all sweeps are here.
+    std::uint64_t held_bytes = 0;    // memory of the fragments while the depot holds no sweep
+    // The place in the depot of the sweep of each piece, counted over all fragments, or none if the
+    // sweep is here. For a sweep in the depot, only its first and its last radial stay here. An
+    // empty list means that all sweeps are here.
     std::vector<std::optional<std::uint64_t>> places;
     std::uint64_t away_bytes = 0;  // the part of held_bytes in the depot
     std::uint64_t checksum = 0;
@@ -47,16 +47,16 @@ struct LiveRoom {
 
 // Puts large sweeps into the depot, as far as the depot takes them.
 void put_aside(LiveChunk& chunk, SweepDepot& depot);
-// Returns the whole sweep of a piece. `place` counts over all fragments. Errors: those of the
-// depot.
+// Returns the whole sweep of a piece. `place` counts pieces over all fragments. Errors: those of
+// the depot.
 [[nodiscard]] Result<Sweep> whole_piece(const LiveChunk& chunk, std::size_t place,
                                         const Fragment::Piece& piece, const SweepDepot* depot);
 // Brings all pieces back from the depot. Errors: those of the depot.
 [[nodiscard]] Status bring_back(LiveChunk& chunk, const SweepDepot* depot);
 
-// Decodes a chunk, without kind and serial. Errors: empty; not_level2; corrupt or truncated if it
-// holds neither a whole header nor a whole message; unsupported beyond the room; exhausted if the
-// system has no more memory. It may also throw std::bad_alloc.
+// Decodes a chunk; the caller sets kind and serial. Errors: empty; not_level2; corrupt or truncated
+// if it holds neither a whole header nor a whole message; unsupported beyond the room; exhausted if
+// the system has no more memory. It may also throw std::bad_alloc.
 [[nodiscard]] Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes,
                                                 const DecodeOptions& options, LiveRoom room);
 

@@ -1,18 +1,18 @@
 // stormcellar/level2/live_volume.h -- joins the chunks of a volume, which may arrive in any order.
 //
-// Each chunk is decoded once, when it comes. Sweeps are handed out as they close, and again when a
-// late chunk completes them. finish() returns what the chunks give in the order of their numbers,
-// bit for bit, whatever the order in which they came. For undamaged chunks this is what decode()
-// returns for the joined chunks. The report names the chunks that are missing or bad.
+// Each chunk is decoded once, when it comes. Sweeps are returned as they close, and again when a
+// late chunk completes them. finish() returns the volume of the chunks in the order of their
+// numbers, bit for bit, in whatever order they came. For undamaged chunks this is what decode()
+// returns for the joined chunks. The report lists the chunks that are missing or bad.
 //
 // A chunk that comes twice counts once. If two chunks of one number differ, the one that holds more
-// is kept, so this does not depend on the order either. A start chunk of another volume shows that
-// the radar has begun again: it is refused, and the chunks that are there can be finished. After a
+// is kept, so the result does not depend on the order either. A start chunk of another volume shows
+// that the radar has begun again. It is refused, and the present chunks can be finished. After a
 // restart of the program, the caller adds the chunks in its directory again.
 //
-// Memory    With a depot, little more than the first and the last radial of each stretch. What all
-//           chunks hold together, and their decompressed bytes, stay below the output limit of the
-//           decoder. A chunk that would exceed it is refused; then the order does matter.
+// Memory    With a depot, little more than the first and the last radial of each stretch. The sum
+//           of all chunks, and of their decompressed bytes, stays below the output limit of the
+//           decoder. A chunk that would exceed it is refused; only then does the order matter.
 // Units     Sizes are in bytes.
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -40,11 +40,11 @@ class VolumeBuilder;
 
 struct LiveOptions {
     DecodeOptions decode;
-    // A volume is given up as it is if no chunk comes for this long.
+    // If no chunk comes for this long, the volume is finished as it is.
     std::chrono::seconds timeout{600};
-    // Once the end has come, late chunks are waited for this long.
+    // Once the end has come, the volume waits this long for late chunks.
     std::chrono::seconds grace{30};
-    // Where the gates of chunks lie until they are wanted; null: in memory. It must outlive the
+    // Store for the gates of chunks until they are needed; null: memory. It must outlive the
     // volume.
     SweepDepot* depot = nullptr;
 };
@@ -61,22 +61,22 @@ class LiveVolume {
         added,
         repeated,        // the same chunk was there already
         replaced,        // it holds more than the chunk that was there
-        worse,           // it holds less than the chunk that is there
-        another_volume,  // a start chunk with another header, which is not taken
+        worse,           // it holds less than the present chunk
+        another_volume,  // a start chunk with another header, which is refused
     };
-    // Adds a chunk. `now` is when it came; the latest of all counts. Errors leave the volume as it
-    // was:
+    // Adds a chunk. `now` is the time at which it came; the latest of all counts. Errors leave the
+    // volume as it was:
     // - bad_argument for a number that is not within 1 to 999;
     // - not_level2, empty, corrupt or truncated for a chunk that holds nothing whole; finish()
-    //   names it unless a good chunk of its number comes;
+    //   reports it unless a good chunk of its number comes;
     // - unsupported beyond the limits;
-    // - exhausted if the system has no more memory. Nothing is known of the chunk then; add it
-    //   again.
+    // - exhausted if the system has no more memory. Then nothing is known about the chunk; add
+    //   it again.
     [[nodiscard]] Result<Added> add(int number, ChunkKind kind, std::span<const std::byte> bytes,
                                     Clock::time_point now);
 
     // Returns the sweeps that have closed or changed since the last call, in the order of the
-    // volume. Once they exceed most_live_bytes, the rest comes with the next call.
+    // volume. Once they exceed most_live_bytes, the next call returns the rest.
     [[nodiscard]] std::vector<LiveSweep> take_sweeps();
     // Returns station, position and pattern as far as they are known, without sweeps.
     [[nodiscard]] Volume facts() const;
@@ -88,10 +88,10 @@ class LiveVolume {
     [[nodiscard]] std::vector<int> missing_numbers() const;
     // Returns true if no chunk is missing from the first to the end.
     [[nodiscard]] bool is_whole() const { return has_ended() && missing_numbers().empty(); }
-    // Returns true if the volume is whole, or there is no use in waiting longer.
+    // Returns true if the volume is whole, or if waiting longer is useless.
     [[nodiscard]] bool is_due(Clock::time_point now) const;
     [[nodiscard]] bool is_empty() const { return chunks_.empty(); }
-    // Returns the memory of the decoded chunks, without what lies in the depot.
+    // Returns the memory of the decoded chunks, without the sweeps in the depot.
     [[nodiscard]] std::uint64_t held_bytes() const;
 
     // Joins the chunks and leaves the volume empty. Errors: those of decode(); empty if no chunk
@@ -99,7 +99,7 @@ class LiveVolume {
     [[nodiscard]] Result<Decoded> finish();
 
   private:
-    // Returns the room for the chunk of this number beside all other chunks.
+    // Returns the room that all other chunks leave for the chunk of this number.
     [[nodiscard]] LiveRoom room_for(int number) const;
     [[nodiscard]] Result<Added> keep_better(int number, LiveChunk chunk, Clock::time_point now);
     [[nodiscard]] std::vector<LiveSweep> changed_sweeps();

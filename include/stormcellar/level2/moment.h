@@ -1,12 +1,13 @@
-// stormcellar/level2/moment.h -- the moments that a radar measures, and what is known of each.
+// stormcellar/level2/moment.h -- the moments that a radar measures, and the facts about each.
 //
-// This is the one list of moments. Other rooms add facts of their own in one layer each, which has
+// This is the only list of moments. Other rooms add facts of their own in one layer each, which has
 // a row or a case for every moment, so that a forgotten one does not compile:
 //   grid    grid/cells/moment_rules.cpp       how values are stored, mixed and compared
 //   render  render/color/built_in_tables.cpp title, colors, opacity
 //   export  export/moment_text.cpp            names in netCDF files
 // CONTRIBUTING.md says how to add a moment.
-// Threads: constants and pure functions.
+//
+// Threads   Constants and pure functions.
 #pragma once
 
 #include <array>
@@ -18,13 +19,13 @@
 
 namespace stormcellar::level2 {
 
-// Grid files hold these numbers: a new moment goes to the end, and none changes.
+// Grid files hold these numbers, so none changes and a new moment goes to the end.
 enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp };
 
-// The circle on which values lie that wrap.
+// The circle of values that wrap.
 enum class Circle : std::uint8_t {
     none,
-    nyquist,    // from -Nyquist to +Nyquist, which is a fact of the radial
+    nyquist,    // from -Nyquist to +Nyquist; each radial has its own Nyquist velocity
     full_turn,  // from 0 to 360 degrees
 };
 
@@ -33,10 +34,10 @@ struct MomentFacts {
     std::string_view name = {};   // in messages (filled with blanks to three), paths and options
     std::string_view units = {};  // as CF writes them; "1" for a number without a unit
     Circle circle = Circle::none;
-    // Pulses follow one another so fast that the unambiguous range is short by nature.
+    // True if pulses follow each other so fast that the unambiguous range is short by nature.
     bool is_doppler = false;
-    // Codes from here on are values. Where this is 2, code 0 is below threshold and code 1 range
-    // folded; where it is larger, all codes below it are flags (ICD 2620002, table XVII-I).
+    // Codes from here on are values. If this is 2, code 0 is below threshold and code 1 range
+    // folded. If it is larger, all codes below it are flags (ICD 2620002, table XVII-I).
     std::uint16_t first_valid_code = 2;
 };
 
@@ -51,7 +52,8 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 
-// True where `rows` has one row a moment, in the order of the enumeration. Each layer asserts it.
+// True if `rows` has one row for each moment, in the order of the enumeration. Each layer asserts
+// it.
 template <class Rows>
 [[nodiscard]] constexpr bool has_a_row_for_each_moment(const Rows& rows) {
     if (std::size(rows) != moment_facts.size()) return false;
@@ -83,7 +85,7 @@ inline constexpr std::array<Moment, moment_count> all_moments = [] {
 }
 
 [[nodiscard]] std::optional<Moment> moment_from_name(std::string_view name);  // upper case
-// All names, for texts: moment_names(", ", " or ") is "REF, VEL, ... RHO or CFP".
+// Returns all names, for texts: moment_names(", ", " or ") is "REF, VEL, ... RHO or CFP".
 [[nodiscard]] std::string moment_names(std::string_view between, std::string_view before_last);
 
 }  // namespace stormcellar::level2

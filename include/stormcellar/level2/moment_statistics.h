@@ -1,4 +1,5 @@
-// stormcellar/level2/moment_statistics.h -- counts what the gates of one moment of a sweep hold.
+// stormcellar/level2/moment_statistics.h -- counts the states and codes of the gates of one moment
+// of a sweep.
 //
 // Units     Values are in the unit of the moment.
 // Threads   Plain data and a pure function.

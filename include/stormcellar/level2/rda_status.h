@@ -1,5 +1,5 @@
-// stormcellar/level2/rda_status.h -- what a radar says about itself in message 2 (ICD 2620002,
-// table IV).
+// stormcellar/level2/rda_status.h -- the status of a radar as it reports it in message 2 (ICD
+// 2620002, table IV).
 //
 // Units     Each member names its unit.
 // Threads   Plain data and a pure function.
@@ -25,7 +25,7 @@ enum class RdaState : std::uint16_t {
     off_line_operate = 64,  // up to build 18
 };
 
-// Flags. A radar without trouble has on_line alone.
+// Flags. A radar without trouble has only on_line.
 namespace rda_operability {
 inline constexpr std::uint16_t calibration_disabled = 1;  // up to build 13
 inline constexpr std::uint16_t on_line = 2;
@@ -50,8 +50,8 @@ inline constexpr std::uint16_t velocity = 8;
 inline constexpr std::uint16_t width = 16;
 }  // namespace rda_data
 
-// How the radar is run. The meaning of code 2 has changed over the years, so the decoder translates
-// it.
+// The mode in which the radar runs. The meaning of code 2 has changed over the years, so the
+// decoder translates it.
 enum class RdaMode : std::uint8_t { unknown, operational, maintenance, test };
 
 // One of up to 14 entries: an alarm has been raised or, if `cleared`, has ended (table IV-A).
@@ -104,8 +104,8 @@ struct RdaStatus {
     std::uint16_t rms_control = 0;       // 0 no RMS, 2 RMS, 4 RDA
 };
 
-// Returns what is wrong in short phrases, the worst first: "standby", "maintenance required",
-// "alarm 206". The result is empty for a radar that operates without trouble.
+// Returns the faults in short phrases, the worst first: "standby", "maintenance required", "alarm
+// 206". The result is empty for a radar that operates without trouble.
 [[nodiscard]] std::vector<std::string> rda_troubles(const RdaStatus& status);
 
 }  // namespace stormcellar::level2

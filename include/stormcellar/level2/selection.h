@@ -1,6 +1,7 @@
 // stormcellar/level2/selection.h -- which moments and cuts of a volume to decode.
 //
-// The selected parts are decoded as in a whole decode, but for the limit that record_plan.h states.
+// The selected parts are decoded as in a whole decode, except for the limit that record_plan.h
+// states.
 //
 // Threads   Plain data.
 // Errors    None.

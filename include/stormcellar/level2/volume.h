@@ -1,8 +1,8 @@
-// stormcellar/level2/volume.h -- what a Level II file says, as decoded and nothing more.
+// stormcellar/level2/volume.h -- the content of a Level II file, as decoded and nothing more.
 //
-// Codes are kept as they came (8 or 16 bits) with their scale and offset; a value is computed when
-// it is asked for. Arrays are contiguous, with one row for each radial. Nothing is interpreted
-// beyond the ICDs (RDA/RPG 2620002, Archive II/User 2620010).
+// Codes are kept as they came (8 or 16 bits) with their scale and offset; a value is computed on
+// demand. Arrays are contiguous, with one row for each radial. Nothing is interpreted beyond the
+// ICDs (RDA/RPG 2620002, Archive II/User 2620010).
 //
 // Units     Meters, degrees, m/s, dBZ, dB. Ranges are slant ranges to the CENTER of a gate.
 // Threads   Plain data and pure functions; any thread may read it while no thread writes it.
@@ -23,9 +23,8 @@
 
 namespace stormcellar::level2 {
 
-// What the code of a gate stands for. Code 0 is below threshold and code 1 is range folded. For
-// CFP, codes 0 to 7 are flags and give no_data. A gate beyond the last gate of the radial is
-// no_data.
+// The meaning of the code of a gate. Code 0 is below threshold and code 1 is range folded. For CFP,
+// codes 0 to 7 are flags and give no_data. A gate beyond the last gate of the radial is no_data.
 enum class GateStatus : std::uint8_t { valid, below_threshold, range_folded, no_data };
 
 enum class RadialStatus : std::uint8_t {
@@ -37,8 +36,8 @@ enum class RadialStatus : std::uint8_t {
     start_of_last_elevation = 5,
 };
 
-// Code 0 is below threshold and code 1 range folded; where a moment's codes begin with flags, a
-// flag is no_data.
+// Returns the status of a code. Code 0 is below threshold and code 1 range folded. If a moment's
+// codes begin with flags, a flag is no_data.
 [[nodiscard]] GateStatus status_of_code(Moment moment, std::uint16_t code);
 
 struct Radial {
@@ -47,7 +46,8 @@ struct Radial {
     float elevation_deg = 0;  // as measured; may be negative
     float nyquist_mps = 0;    // 0 if the radar does not say (TDWR, surveillance cuts)
     float unambiguous_range_m = 0;
-    // The reflectivity of the noise at 1 km by the radar's calibration (dBZ0); none in message 1.
+    // The reflectivity at 1 km of an echo as strong as the noise, by the radar's calibration
+    // (dBZ0); none in message 1.
     std::optional<float> calibration_dbz;
     std::optional<float> horizontal_noise_dbm;
     std::optional<float> vertical_noise_dbm;
@@ -86,7 +86,7 @@ struct SweepMoment {
             radial * static_cast<std::size_t>(gate_stride) + static_cast<std::size_t>(gate);
         return word_size_bits == 8 ? codes8[at] : codes16[at];
     }
-    // Returns what the gate holds. Any gate number is allowed; beyond the radial's gates it is
+    // Returns the status of a gate. Any gate number is allowed; beyond the radial's gates it is
     // no_data.
     [[nodiscard]] GateStatus status(std::size_t radial, std::int32_t gate) const;
     // Returns the physical value of a valid code.
@@ -197,19 +197,19 @@ struct Volume {
     VcpSource vcp_source = VcpSource::none;
     std::vector<Sweep> sweeps;  // file order
 
-    // Returns the start of the volume: the time of the header, else that of the first radial. Only
-    // plausible times count that the other radials of the sweep confirm. A header that is more than
-    // an hour off its radials is not believed.
+    // Returns the start of the volume: the time of the header, or else of the first radial. A time
+    // counts only if it is plausible and other radials of the sweep confirm it. A header that is
+    // more than an hour off its radials is not believed.
     [[nodiscard]] std::optional<UtcTime> start_time() const;
     [[nodiscard]] std::size_t radial_count() const;
 };
 
-// Returns the name of the volume that starts then, whatever its file is called:
+// Returns the name of the volume that starts at this time, whatever the name of its file:
 // "KTLX20220317_000842".
 [[nodiscard]] std::string volume_name(std::string_view station, UtcTime start);
 
 // Returns true if a radar can have meant this time: 1970 to 2149, the years that messages can
-// express. Day number 0 stands for no time.
+// express. Day number 0 means no time.
 [[nodiscard]] bool is_plausible(UtcTime time);
 // Returns true if a radial can have this time in a volume that starts at `start`. A volume takes
 // minutes, but a damaged radial may carry any time, or the time of another day.
@@ -221,12 +221,12 @@ struct Volume {
 [[nodiscard]] bool has_ended(const Volume& volume);
 [[nodiscard]] bool has_ended(std::span<const Sweep> sweeps);
 
-// Where the antenna stands. Message 31 gives its altitude as site height + tower height, or as the
-// site height alone where the two are equal (TDWR). The station table corrects it:
-// - The radar stands within 0.01 degrees of the table, but its height is more than 30 m off: the
-//   height is that of the table.
+// The position of the antenna. Message 31 gives its altitude as site height + tower height, or as
+// the site height alone if the two are equal (TDWR). The station table corrects it:
+// - The radar is within 0.01 degrees of the table, but its height is more than 30 m off: the
+//   table gives the height.
 // - The radar moved by up to 1 degree: it has its own position and height.
-// - It is farther off, or the file has no position: position and height are those of the table.
+// - It is farther off, or the file has no position: the table gives position and height.
 // antenna_position() returns none if neither the file nor the table knows the site.
 struct AntennaPosition {
     double latitude_deg = 0;
