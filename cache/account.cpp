@@ -23,7 +23,7 @@ void Account::ask_who_is_known(std::string_view group) {
     if (found != groups_.end()) set_known(found->second, is_known_(group));
 }
 
-// The grids of others have a part of the orders of their own.
+// Grids of unknown groups have their own part of each order.
 void Account::set_known(Group& group, bool known) {
     if (group.known == known) return;
     group.known = known;
@@ -86,7 +86,7 @@ void Account::count(Group& group, const Item& item, bool add) {
     apply(leaving_, entry.facts.bytes);
 }
 
-// Changes an entry; its place in the orders and its share of the sums follow.
+// Changes an entry, and updates its place in the orders and its share of the sums.
 template <class Change>
 void Account::change(const GridName& name, Change what) {
     Item* const item = find_item(name);

@@ -1,12 +1,11 @@
-// cache/account.h -- what the cache holds, and what would have to be evicted. Used only inside the
-// cache room.
+// cache/account.h -- the contents of the cache, and the grids that would have to be evicted. Used
+// only inside the cache room.
 //
-// This is pure bookkeeping: it reads no file and no clock. Grids are ordered by the time that
-// counts. That is their own time, or, if it is more than 10 minutes in the future, the time at
-// which the file was written, so that a radar with a wrong clock cannot fill the cache with grids
-// that never grow old. All grids of others (stormcellar/cache/budget.h) come before all grids of
-// known groups. A grid is never a victim while it is pinned, being written or evicted (busy),
-// stuck, or protected.
+// This is pure bookkeeping: it reads no file and no clock. Grids are ordered by their own time. If
+// that is more than 10 minutes in the future, the time at which the file was written counts
+// instead, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
+// All grids of others (stormcellar/cache/budget.h) come before all grids of known groups. A grid is
+// never a victim while it is pinned, being written or evicted (busy), stuck, or protected.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -34,14 +33,14 @@ struct GridFacts {
     bool pinned = false;
 };
 
-// Which grids may have to be evicted.
-enum class Reach {  // grids of groups that are not known
-    others,         // also grids of known groups that are not protected
-    unprotected,    // and those of known groups that are not protected
-    all,            // also the protected grids
+// The grids that may have to be evicted.
+enum class Reach {
+    others,       // grids of groups that are not known
+    unprotected,  // also grids of known groups that are not protected
+    all,          // also the protected grids
 };
 
-// Which grids are protected from a limit.
+// Conditions under which a grid is protected from a limit.
 struct Protection {
     std::chrono::milliseconds age{};     // grids written less than this ago; 0: of any age
     std::optional<std::uint64_t> space;  // at most half of it is protected; none: any amount
@@ -53,17 +52,17 @@ class Account {
 
     explicit Account(IsKnown is_known = is_known_group) : is_known_(std::move(is_known)) {}
 
-    // Sets the current time. Grids whose time has come are believed from now on.
+    // Sets the current time. A grid is believed from now on if its time has come.
     void set_now(UtcTime now);
     // Sets the size of the file system, for budgets in percent; 0: not known.
     void set_capacity(std::uint64_t bytes) { capacity_ = bytes; }
-    // Asks again which groups are known. Otherwise this is asked when the first grid of a group
+    // Asks again which groups are known. Otherwise the account asks when the first grid of a group
     // comes.
     void ask_who_is_known();
     void ask_who_is_known(std::string_view group);
     [[nodiscard]] bool is_known(std::string_view group) const;
 
-    // Adds the grid, or replaces what is known about it. It is then neither busy nor stuck.
+    // Adds the grid, or replaces its facts. It is then neither busy nor stuck.
     void put(const GridName& name, const GridFacts& facts);
     void erase(const GridName& name);
     [[nodiscard]] const GridFacts* find(const GridName& name) const;
@@ -76,7 +75,7 @@ class Account {
     [[nodiscard]] std::vector<GridName> names(const std::string& domain, level2::Moment moment,
                                               UtcTime from, UtcTime to) const;
 
-    // Counts bytes beside those of the grids: of files being written, or left over.
+    // Counts bytes besides those of the grids: files being written, and leftovers.
     void reserve(std::string_view group, std::uint64_t bytes);
     void release(std::string_view group, std::uint64_t bytes);
 
@@ -87,14 +86,14 @@ class Account {
     [[nodiscard]] std::size_t pinned_count() const { return pinned_; }
     [[nodiscard]] std::vector<std::string> groups() const;
 
-    // Returns the newest time of a group that counts; none if it has none.
+    // Returns the newest time of a group that counts; none if there is none.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
     // Returns true if a grid of this name is or would be the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
     // Returns true if a grid of this name, written now, must be kept whatever has to be evicted for
-    // it: it is in a known group, and is the newest or pinned already.
+    // it. This is the case in a known group, if the grid is the newest or already pinned.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Returns true if a grid of this name, written now, is older than the age of its group, and not
+    // Returns true if a grid of this name, written now, is older than the age of its group and not
     // protected from it.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
@@ -106,27 +105,28 @@ class Account {
     [[nodiscard]] bool fits(std::string_view group, std::uint64_t bytes,
                             const Budgets& budgets) const;
     // Returns the grids that must be evicted so that `bytes` of this grid fit, the oldest first, in
-    // addition to those being evicted already; none if that is impossible. Only grids that come
-    // before this one are taken, unless it is to stay.
+    // addition to those being evicted already; none if that is impossible. Takes only grids that
+    // come before this one, unless this one is to stay.
     [[nodiscard]] std::optional<std::vector<GridName>> room_for(
         const GridName& name, std::uint64_t bytes, const Budgets& budgets,
         Reach reach = Reach::unprotected) const;
-    // Returns the oldest grids that hold this many bytes on disk: of all groups if the budget of
-    // all limits space, else of the grid's group. The same rule applies, and there are fewer if
-    // there are no more.
+    // Returns the oldest grids that hold this many bytes on disk. If the budget of all limits
+    // space, they come from all groups, else from the grid's group. The rule of room_for() applies.
+    // The result is shorter if there are no more such grids.
     [[nodiscard]] std::vector<GridName> oldest(const GridName& name, std::uint64_t bytes,
                                                const Budgets& budgets) const;
 
-    // Returns at most `most` of the oldest grids, so that the group (empty: all) holds `bytes` or
-    // less.
+    // Returns the oldest grids that must go so that the group (empty: all) holds `bytes` or less;
+    // at most `most` of them.
     [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
                                                 std::size_t most, const Protection& protection = {},
                                                 Reach reach = Reach::unprotected) const;
-    // Returns the same for the others, so that they hold `bytes` or less together.
+    // Does the same for the grids of others, so that they hold `bytes` or less together.
     [[nodiscard]] std::vector<GridName> others_down_to(std::uint64_t bytes, std::size_t most) const;
     [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
                                                 std::size_t most) const;
-    // Returns grids of others that were written longer ago than anything is protected.
+    // Returns grids of others that are older than the time for which grids are protected, by the
+    // time of writing.
     [[nodiscard]] std::vector<GridName> outlived(const Budgets& budgets, std::size_t most) const;
 
   private:
@@ -169,7 +169,7 @@ class Account {
     // Returns the newest believed grid, or the newest of all if none is believed.
     [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
                                         level2::Moment moment) const;
-    // Visits the newest of each domain and moment of the group.
+    // Visits the newest grid of each domain and moment of the group.
     template <class Visit>
     void for_each_newest(const Group& group, Visit visit) const;
     [[nodiscard]] UtcTime counted_if_written_now(const GridName& name) const;
@@ -178,7 +178,7 @@ class Account {
     [[nodiscard]] std::set<const Item*> lapsed(const Group* group,
                                                const Protection& protection) const;
     class Shield;
-    // used by others, without what is being evicted
+    // bytes that others use, without grids that are being evicted
     [[nodiscard]] std::uint64_t staying_of_others() const;
     [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
     Item* find_item(const GridName& name);

@@ -1,5 +1,5 @@
-// The part of the account that chooses: which grids are the newest and protected, what fits, and
-// which grids would have to be evicted.
+// This part of the account chooses: the newest and the protected grids, the grids that fit, and the
+// grids that must be evicted.
 #include <algorithm>
 
 #include "cache/account.h"
@@ -23,7 +23,7 @@ const Account::Item* Account::newest_of(const Group& group, const std::string& d
     return nullptr;
 }
 
-// Goes from one domain and moment to the next. These are few, however many grids there are.
+// Goes from one domain and moment to the next. There are few of them, however many grids there are.
 template <class Visit>
 void Account::for_each_newest(const Group& group, Visit visit) const {
     for (auto item = group.grids.begin(); item != group.grids.end();) {
@@ -70,7 +70,7 @@ bool Account::is_protected(const Item& item, std::chrono::milliseconds age) cons
 }
 
 // The smallest grids keep their protection, so that as many as possible have it. A pinned grid
-// stays without it.
+// stays without protection.
 std::set<const Account::Item*> Account::lapsed(const Group* group,
                                                const Protection& protection) const {
     std::vector<const Item*> items;
@@ -96,7 +96,7 @@ std::set<const Account::Item*> Account::lapsed(const Group* group,
     return {first, items.end()};
 }
 
-// Which grids are protected from one limit, of a group or of all. Whose protection lapses is only
+// The grids that are protected from one limit, of a group or of all. Lapsed protections are only
 // computed when the first protected grid is in the way, which is rare in a cache that rolls.
 class Account::Shield {
   public:
@@ -157,7 +157,7 @@ bool Account::fits(std::string_view group, std::uint64_t bytes, const Budgets& b
            (is_known(group) || within(used_by_others(), others_limit(budgets)));
 }
 
-// A grid of others only takes the place of other grids of others.
+// A grid of others may only replace other grids of others.
 Account::Order::const_iterator Account::end_for(const Order& order, const GridName& name) const {
     if (is_to_stay(name)) return order.end();
     const bool known = is_known(group_of(name.domain));

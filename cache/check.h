@@ -1,7 +1,8 @@
-// cache/check.h -- checks what must be true of a grid file beyond its checksum. Used only inside
-// the cache room.
+// cache/check.h -- checks the conditions on a grid file beyond its checksum. Used only inside the
+// cache room.
 //
-// The writer refuses to write what the reader would refuse to read, by the same functions.
+// The writer and the reader use the same functions, so the writer refuses to write a file that the
+// reader would refuse to read.
 //
 // Threads   Pure functions.
 // Errors    corrupt, with a message that names no file.
@@ -30,7 +31,7 @@ namespace stormcellar::cache {
                                   std::span<const std::byte> states,
                                   const grid::Quantization& quantization, Packing packing);
 
-// Returns what all stored bricks take together, packed.
+// Returns the size of all stored bricks together, packed.
 [[nodiscard]] std::uint64_t packed_size(std::span<const grid::BrickEntry> bricks);
 
 [[nodiscard]] std::uint64_t brick_count(const grid::GridSpec& spec);

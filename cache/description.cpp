@@ -53,7 +53,7 @@ void append(std::vector<std::byte>& bytes, const T* first, std::size_t count) {
 
 void append_record(std::vector<std::byte>& bytes, RecordKind kind,
                    std::span<const std::byte> contents) {
-    // A length of more than 32 bits is cut here; the writer, which knows the true size, refuses it.
+    // A length of more than 32 bits is cut here; the writer knows the true size and refuses it.
     const RecordHead head{static_cast<std::uint16_t>(kind), 0,
                           static_cast<std::uint32_t>(contents.size())};
     append(bytes, &head, 1);
@@ -190,7 +190,7 @@ bool read_audit(std::span<const std::byte> bytes, std::vector<grid::AuditRow>& r
     return std::all_of(rows.begin(), rows.end(), grid::is_possible);
 }
 
-// Returns false if the contents have a size or numbers that their kind cannot have.
+// Returns false if a record of this kind cannot have contents of this size or these numbers.
 bool read_record(RecordKind kind, std::span<const std::byte> contents,
                  GridDescription& description) {
     grid::Provenance& provenance = description.provenance;
@@ -233,7 +233,7 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
             provenance.left_out.push_back(text_of(contents));
             return true;
         case RecordKind::source_modified:
-            return true;  // where the file was made, which nobody asks any more
+            return true;  // the machine that made the file; no longer used
         case RecordKind::parallels:
             return read_number(contents, description.spec.parallels_deg);
         case RecordKind::site:

@@ -1,8 +1,8 @@
-// cache/directories.h -- reads what the directories of a cache hold. Used only inside the cache
-// room.
+// cache/directories.h -- reads the directories of a cache. Used only inside the cache room.
 //
-// Symbolic links are not followed. A file at the place of a grid that has not a grid's name is not
-// ours and is left out, as is a file that vanishes meanwhile. A missing directory holds nothing.
+// Symbolic links are not followed. A file at the place of a grid without a grid's name is not ours
+// and is left out, as is a file that vanishes during the reading. A missing directory holds
+// nothing.
 //
 // Threads   Functions without state, which read directories.
 #pragma once
@@ -46,7 +46,7 @@ struct FoundGrid {
     UtcTime written;  // when the file was last changed
     bool pinned = false;
 };
-// Returns none if there is no regular file.
+// Returns the grid of a path, or none if there is no regular file.
 [[nodiscard]] std::optional<FoundGrid> look_at_grid(const std::filesystem::path& path,
                                                     UtcTime time);
 
@@ -62,8 +62,8 @@ struct DayContents {
                                            UtcTime from = UtcTime{},
                                            UtcTime to = last_possible_time);
 
-// Removes every file whose name says that it is being written: the leftovers of killed writers.
-// Call it only if nobody is writing.
+// Removes every file whose name marks it as being written: the leftovers of killed writers. Call it
+// only if nobody is writing.
 [[nodiscard]] Status sweep_temporaries(FileSystem& file_system, const std::filesystem::path& cache);
 
 }  // namespace stormcellar::cache

@@ -1,7 +1,7 @@
-// cache/evict.h -- evicts grids on request, beside a daemon that writes and evicts as well.
+// cache/evict.h -- evicts grids on request, besides a daemon that writes and evicts as well.
 //
-// The choice is a list, so it can be shown before anything is done. Pinned grids are never evicted;
-// a grid that is pinned after it was chosen is kept.
+// The choice is a list, so it can be shown before anything is evicted. Pinned grids are never
+// evicted; a grid that is pinned after it was chosen is kept.
 //
 // Threads   Any thread, any process.
 #pragma once
@@ -33,18 +33,18 @@ struct EvictionOrder {
 struct EvictionPlan {
     std::vector<StoreEntry> victims;  // oldest first
     std::size_t looked_at = 0;        // grids of the domain
-    std::size_t pinned = 0;           // how many of them are pinned
-    std::uint64_t bytes_left = 0;     // on disk, of the grids that stay
+    std::size_t pinned = 0;           // how many of these are pinned
+    std::uint64_t bytes_left = 0;     // on disk, the size of the grids that stay
 };
 [[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store,
                                                  const EvictionOrder& order, UtcTime now);
 
 struct EvictionReport {
     std::vector<StoreEntry> evicted;
-    std::vector<std::string> problems;  // what could not be removed, one line each
+    std::vector<std::string> problems;  // failed removals, one line each
 };
-// A grid that is reported as evicted stays away after a power cut, unless a problem says that its
-// directory could not be synced.
+// Evicts the victims. A grid that is reported as evicted stays away after a power cut, unless a
+// problem says that its directory could not be synced.
 [[nodiscard]] EvictionReport evict(FileSystem& file_system, const std::vector<StoreEntry>& victims);
 
 }  // namespace stormcellar::cache

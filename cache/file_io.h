@@ -1,6 +1,6 @@
 // cache/file_io.h -- reads a file that may change at any time. Used only inside the cache room.
 //
-// Messages name no file: the caller adds the path.
+// Messages name no file, because the caller adds the path.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@
 
 namespace stormcellar::cache {
 
-// A read-only map of a whole file, registered with the guard of cache/map_guard.h. (It maps the
-// whole file because an offset must be a multiple of the machine's page size, which may be larger
-// than that of the format.)
+// A read-only map of a whole file, registered with the guard of cache/map_guard.h. It is a map of
+// the whole file because an offset must be a multiple of the machine's page size, which may be
+// larger than the page size of the format.
 class Map {
   public:
     static Result<Map> of(const Descriptor& file, std::uint64_t size);
@@ -43,17 +43,17 @@ class Map {
     MapRegistration registration_;
 };
 
-// Opens for reading. Never blocks on a FIFO.
+// Opens a file for reading. Never blocks on a FIFO.
 [[nodiscard]] Result<Descriptor> open_for_reading(const std::filesystem::path& path);
 
-// Errors: not_a_file unless it is a regular file.
+// Returns the facts of a regular file. Errors: not_a_file for anything else.
 [[nodiscard]] Result<struct stat> facts_of(const Descriptor& file);
 
-// Fills all of `bytes`. Errors: truncated if the file ends before.
+// Fills all of `bytes`. Errors: truncated if the file ends before that.
 [[nodiscard]] Status read_at(const Descriptor& file, std::uint64_t offset,
                              std::span<std::byte> bytes);
 
-// Errors: truncated if fewer bytes were found than expected, corrupt if more.
+// Compares sizes. Errors: truncated if fewer bytes were found than expected, corrupt if more.
 [[nodiscard]] Status check_size(std::uint64_t found, std::uint64_t expected);
 
 [[nodiscard]] tl::unexpected<Error> with_path(const std::filesystem::path& path,

@@ -1,7 +1,7 @@
 // cache/format.h -- the bytes of a grid file, as docs/cache-format.md specifies them.
 //
-// All is little-endian, and so are the machines, so that a brick of a mapped file can be used
-// without conversion. Every offset in the document is asserted here.
+// All numbers are little-endian, and so are the machines, so that a brick of a mapped file can be
+// used without conversion. Every offset in the document is asserted here.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "grid files are mapped
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'S', 'C', 'G', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
 inline constexpr std::uint32_t version = 2;
-// Files of this version and later are read: they differ in what their records mean alone.
+// Files of this version and later are read. Versions differ only in the meaning of their records.
 inline constexpr std::uint32_t oldest_version = 1;
 inline constexpr std::uint64_t page_size = 4096;
 
@@ -36,7 +36,7 @@ inline constexpr std::uint32_t feature_window = 1;  // the offsets are not both 
 inline constexpr std::uint32_t packed_codes = 2;
 inline constexpr std::uint32_t known_features = feature_window | packed_codes;
 
-// At offset 0; the rest of the first page is zero.
+// The header at offset 0; the rest of the first page is zero.
 struct FileHeader {
     std::array<unsigned char, 8> magic{};
     std::uint32_t byte_order = 0;
@@ -132,9 +132,8 @@ static_assert(static_cast<int>(grid::Projection::lambert_conformal) == 2);
 static_assert(static_cast<int>(level2::Moment::ref) == 0);
 static_assert(static_cast<int>(level2::Moment::cfp) == 6);
 
-// The places of the sections. They follow each other with nothing but padding between them, so the
-// sizes determine them, and a file has no other layout. Arguments within the limits cannot
-// overflow.
+// The places of the sections. Only padding is between them, so the sizes determine the places, and
+// a file has no other layout. Arguments within the limits cannot overflow.
 struct Layout {
     std::uint64_t levels_offset = page_size;
     std::uint64_t description_offset = 0;
@@ -159,7 +158,7 @@ struct Layout {
     at.file_size = at.codes_offset + at.codes_size;
     return at;
 }
-// The same if the codes are packed into `codes_size` bytes.
+// Returns the same layout with the codes packed into `codes_size` bytes.
 [[nodiscard]] constexpr Layout packed_layout(Layout at, std::uint64_t codes_size) {
     at.codes_size = codes_size;
     at.file_size = at.codes_offset + codes_size;

@@ -1,7 +1,7 @@
-// cache/grid_facts.h -- what a grid file says of itself, without its cells.
+// cache/grid_facts.h -- reads the facts of a grid file, without its cells.
 //
-// It reads what stands before the codes, and neither maps nor unpacks these. So it takes the same
-// short time for a packed file: for programs that want to know of each grid what it is.
+// It reads only the bytes before the codes, and neither maps nor unpacks the codes. So it takes the
+// same short time for a packed file. It is for programs that list many grids.
 //
 // Threads   Pure function, which reads a file.
 #pragma once
@@ -16,11 +16,12 @@ namespace stormcellar::cache {
 
 struct GridFacts {
     GridDescription description;
-    std::uint64_t checksum = 0;  // as GridFile::checksum()
+    std::uint64_t checksum = 0;  // the same as GridFile::checksum()
 };
 
-// Reads the file from its beginning. It checks header and description as GridFile::open() does, but
-// neither the table of bricks nor the codes. Errors: those of GridFile::open(), without a path.
+// Reads the file from its beginning. It checks header and description in the same way as
+// GridFile::open(), but neither the table of bricks nor the codes. Errors: those of
+// GridFile::open(), without a path.
 [[nodiscard]] Result<GridFacts> read_grid_facts(const Descriptor& file);
 
 }  // namespace stormcellar::cache

@@ -1,8 +1,8 @@
-// Opens a grid file: nothing in it is used before it is checked.
+// Opens a grid file and uses nothing in it before it is checked.
 //
-// Everything that controls the reader (header, table, states, names) is read into our own memory
-// and checked there, so that another program that alters or cuts the file later cannot mislead us.
-// Only unpacked codes stay on disk and are mapped.
+// All bytes that control the reader (header, table, states, names) are read into our own memory and
+// checked there, so that another program that alters or cuts the file later cannot mislead us. Only
+// unpacked codes stay on disk and are mapped.
 #include "stormcellar/cache/grid_file.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 using format::FileHeader;
 using grid::BrickEntry;
 
-// Checks the fields that say how to read the others. After this, sizes can be computed without
+// Checks the fields that define how to read the others. After this, sizes can be computed without
 // overflow.
 Status check_identity(const FileHeader& header) {
     if (header.magic != format::magic) {
@@ -68,7 +68,7 @@ bool is_packed(const FileHeader& header) {
     return (header.required_features & format::packed_codes) != 0;
 }
 
-// Every offset must be the one that follows from the sizes: there is no other layout.
+// Every offset must follow from the sizes, because there is no other layout.
 Result<format::Layout> checked_layout(const FileHeader& header) {
     const auto along = [](std::uint32_t cells) {
         return static_cast<std::uint32_t>(grid::bricks_along(static_cast<int>(cells)));
@@ -193,14 +193,14 @@ grid::BrickView view_of(const Metadata& metadata) {
     return view;
 }
 
-// The codes as a view shows them, and the owner of their memory.
+// The codes that a view shows, and the owner of their memory.
 struct Codes {
     std::optional<Map> map;
     SparseMemory unpacked;
     std::span<const std::byte> view;
 };
 
-// Unpacks each stored brick into its place and compares it with the checksum of its entry. A
+// Unpacks each stored brick into its place and compares it with the checksum of its entry. One
 // stretch of packed bricks is in memory at a time.
 Status unpack_all(const Descriptor& file, std::uint64_t offset, const grid::BrickView& view,
                   std::span<std::byte> places) {
@@ -209,7 +209,7 @@ Status unpack_all(const Descriptor& file, std::uint64_t offset, const grid::Bric
         grid::brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
     std::vector<std::byte> stretch;
     std::span<const std::byte> packed;
-    std::size_t read_until = 0;  // the brick behind the stretch
+    std::size_t read_until = 0;  // the first brick after the stretch
     const auto read_stretch = [&](std::size_t first) -> Status {
         std::size_t bytes = 0;
         for (read_until = first; read_until < view.bricks.size(); ++read_until) {

@@ -1,4 +1,4 @@
-// cache/grid_file_mapping.h -- what an open grid file holds. Used only inside the cache room.
+// cache/grid_file_mapping.h -- the contents of an open grid file. Used only inside the cache room.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ struct GridFile::Mapping {
     [[nodiscard]] Status check_unchanged_size() const;
     [[nodiscard]] Status check_metadata() const;
     [[nodiscard]] Status check_stored_bricks() const;
-    // Reads the codes of a stored brick, or returns an error. `offset` is their place, and then
-    // that of the next.
+    // Reads the codes of a stored brick, or returns an error. `offset` is the place of its codes,
+    // and becomes the place of the next brick's codes.
     [[nodiscard]] Status read_brick(std::size_t brick, std::uint64_t& offset,
                                     std::span<std::byte> codes) const;
     [[nodiscard]] Status check_holes() const;

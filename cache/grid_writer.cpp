@@ -25,7 +25,7 @@ std::int64_t milliseconds_of(UtcTime time) {
     return time.time_since_epoch().count();
 }
 
-// The view must be consistent before its spans are read.
+// Checks the view. It must be consistent before its spans are read.
 Status check_view(const GridDescription& description, const BrickView& view) {
     const grid::GridSpec& spec = description.spec;
     const std::uint64_t bricks = brick_count(spec);
@@ -59,8 +59,8 @@ std::span<const std::byte> codes_of(const BrickView& view, std::size_t brick) {
     return view.codes.subspan(brick * size, size);
 }
 
-// Makes the table in its only form: unused fields are zero, status blocks occur once each and in
-// order. So the same cells give the same bytes, whoever made the view. Counts and checksums are
+// Makes the table in its only form: unused fields are zero, and status blocks occur once each and
+// in order. So the same cells give the same bytes, whatever made the view. Counts and checksums are
 // computed from the cells and not copied, so that a file always agrees with its own table.
 Tables canonical_tables(const BrickView& view, Packing packing) {
     Tables tables;
@@ -262,8 +262,8 @@ std::uint64_t most_bytes_on_disk(const GridDescription& description, const grid:
         format::layout_of(description.spec.levels_m.size(), encode_description(description).size(),
                           view.bricks.size(),
                           of_kind(BrickKind::status_only) * format::status_block_bytes, code_bytes);
-    // Counts the blocks of the metadata, then those of each stored brick that differ from the last
-    // block of the brick before.
+    // Counts the blocks of the metadata, then the blocks of each stored brick except one that it
+    // shares with the previous brick.
     std::uint64_t end_block = format::round_up(at.codes_offset, block_bytes) / block_bytes;
     std::uint64_t blocks = end_block;
     for (std::size_t i = 0; i < view.bricks.size(); ++i) {

@@ -13,7 +13,7 @@
 namespace stormcellar::cache {
 namespace {
 
-// The action of SIGBUS before; written once, before the handler can run.
+// The previous action of SIGBUS; written once, before the handler can run.
 struct sigaction former_action = {};
 
 // Replaces a map of ours by zeros, for good.
@@ -26,7 +26,8 @@ bool take_fault(void* address) {
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED | MAP_NORESERVE, -1, 0) != MAP_FAILED;
 }
 
-// The fault happens again, or the signal is sent again, and has its effect without any handler.
+// Restores the default, so that the fault happens again, or sends the signal again. Either ends the
+// program as it would without a handler.
 void end_by_signal(int signal, bool sent) {
     struct sigaction standard = {};
     standard.sa_handler = SIG_DFL;

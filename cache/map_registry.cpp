@@ -8,7 +8,7 @@ namespace {
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free);
 
 // A block of places, which links to the next block when it is full. The first block needs no
-// memory.
+// allocation.
 struct Block {
     std::array<MapPlace, 256> places;
     std::atomic<Block*> next{nullptr};
@@ -60,8 +60,8 @@ void MapRegistration::release() {
     place_ = nullptr;
 }
 
-// The map that is being read stays in its place meanwhile, so a place that changes belongs to
-// another map.
+// The map that is being read stays in its place during the fault, so a place that changes belongs
+// to another map.
 std::optional<MapRange> cut_map_at(std::uintptr_t address) {
     for (Block* block = &first_block(); block != nullptr; block = block->next.load()) {
         for (MapPlace& place : block->places) {

@@ -1,8 +1,8 @@
-// cache/map_registry.h -- which addresses belong to our maps, readable in a signal handler. Used
+// cache/map_registry.h -- records which addresses belong to our maps, for a signal handler. Used
 // only inside the cache room.
 //
 // Threads   Many threads may call all functions at once. cut_map_at() may also be called in a
-//           signal handler: it takes no lock and no memory.
+//           signal handler, because it takes no lock and allocates no memory.
 #pragma once
 
 #include <atomic>

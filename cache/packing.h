@@ -1,5 +1,5 @@
-// cache/packing.h -- packs bricks of codes with LZ4, and the memory for unpacking them. Used only
-// inside the cache room.
+// cache/packing.h -- packs bricks of codes with LZ4, and provides the memory for unpacking them.
+// Used only inside the cache room.
 //
 // Threads   Functions without state.
 #pragma once
@@ -14,15 +14,15 @@
 
 namespace stormcellar::cache {
 
-// Returns the codes of one brick, packed; unchanged if that would not be shorter, so it is never
-// longer.
+// Returns the packed codes of one brick, or the codes unchanged if packing would not make them
+// shorter.
 [[nodiscard]] std::vector<std::byte> pack_brick(std::span<const std::byte> codes);
 
-// Fills all of `codes`. Returns corrupt if `packed` does not give exactly that many.
+// Fills all of `codes`. Returns corrupt if `packed` does not give exactly this many.
 [[nodiscard]] Status unpack_brick(std::span<const std::byte> packed, std::span<std::byte> codes);
 
-// Memory of zeros that the system only provides where it is written, which the places of absent
-// bricks are not.
+// Memory of zeros. The system provides pages only where it is written, so the places of absent
+// bricks cost nothing.
 class SparseMemory {
   public:
     SparseMemory() = default;  // empty

@@ -32,8 +32,8 @@ bool is_at(const Descriptor& directory, const fs::path& path) {
            open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-// The descriptor of the directory itself carries the lock, so there is no lock file to clean up. A
-// directory that was removed and made again meanwhile is another directory.
+// Locks the descriptor of the directory itself, so there is no lock file to clean up. A directory
+// that was removed and made again in the meantime is another directory.
 Result<Descriptor> lock_day(const fs::path& day) {
     for (;;) {
         Descriptor directory(::open(day.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -81,7 +81,8 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
     return roller;
 }
 
-// Grids of others are no reason to bring known history down to the low mark.
+// Grids of others do not count here, because they are no reason to bring known grids down to the
+// low mark.
 void Roller::note_reached(const std::string& group, std::uint64_t bytes) {
     const auto is_full = [&](std::uint64_t used, const Budget& budget) {
         return budget.bytes && used + bytes > *budget.bytes;

@@ -1,11 +1,11 @@
 // cache/roller.h -- keeps a cache within its budgets while it is written. Used only inside the
 // cache room; stormcellar/cache/store.h is the public header.
 //
-// It holds the account of the grids in the cache. The account is made from the names at the start
-// and corrected from them at each roll(), which notices files that others removed, added or pinned.
-// A commit reserves the largest size that its file may take before the first byte is written, and
-// if that does not fit, evicts first. The removed names are synced before their room is used again.
-// Files are removed one by one, each in one step, so a crash leaves a grid whole or not at all.
+// It holds the account of the grids in the cache. The account is made from the names at the start.
+// Each roll() corrects it and notices files that others removed, added or pinned. A commit reserves
+// the largest size that its file may take before it writes the first byte. If that does not fit, it
+// evicts first. The removed names are synced before their room is used again. Files are removed one
+// by one, each in one step, so a crash leaves a grid whole or not at all.
 //
 // Threads   Any thread. No lock is held while files are removed or written, and a thread that waits
 //           for another's commit or eviction holds nothing.
@@ -36,7 +36,7 @@ namespace stormcellar::cache {
 class Roller;
 
 // Room for one file that is being written. The destructor enters into the account the grid that
-// then exists at the path: new, old or none.
+// then exists at the path: the new one, the old one or none.
 class Reservation {
   public:
     Reservation(Roller& roller, GridName name, std::uint64_t bytes)
@@ -58,21 +58,22 @@ class Reservation {
 
 class Roller {
   public:
-    // Removes what a killed writer left and brings the cache within its budgets. Errors: that
-    // another process has opened it for rolling.
+    // Removes the leftovers of a killed writer and brings the cache within its budgets. Errors:
+    // busy if another process has opened it for rolling.
     static Result<std::unique_ptr<Roller>> open(FileSystem& file_system,
                                                 std::filesystem::path directory, Budgets budgets,
                                                 Surroundings surroundings);
 
-    // Reserves room for a grid. None: the budgets would not keep it, so it need not be written.
-    // Commits of the same name wait for each other. Errors: over_budget if it is pinned or the
-    // newest of a known domain, and the grids that may be evicted are not enough.
+    // Reserves room for a grid. Returns none if the budgets would not keep it, so that it need not
+    // be written. Commits of the same name wait for each other. Errors: over_budget if the grid is
+    // pinned or the newest of a known domain, and evicting all grids that may be evicted is not
+    // enough.
     Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
-    // A full disk refused this grid: evicts the oldest grids that hold this many bytes. Returns
-    // false if the budgets do not provide for that or nothing may be evicted.
+    // Evicts the oldest grids that hold this many bytes, because a full disk refused this grid.
+    // Returns false if the budgets do not provide for that or nothing may be evicted.
     bool make_room(const GridName& name, std::uint64_t bytes);
-    // Returns true if the grid is left out because the disk is full: it is of others, for which
-    // nobody should wait. It counts as not kept.
+    // Returns true if the grid is left out because the disk is full. This is the case for a grid of
+    // others, for which nobody should wait. It counts as not kept.
     bool leaves_out(const GridName& name);
     // Counts a temporary file that could not be removed; a later roll removes it.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
@@ -81,7 +82,7 @@ class Roller {
     RollReport roll(const OnStep& step = {});  // store.h
     void set_budgets(Budgets budgets);
     [[nodiscard]] StoreUsage usage() const;
-    // By what is known and what time it was when a grid was last reserved, settled or rolled over.
+    // Answers by the account and the time of the last reservation, settlement or roll.
     [[nodiscard]] bool would_keep(const GridName& name) const;
     [[nodiscard]] std::uint64_t block_bytes() const { return block_bytes_; }
 

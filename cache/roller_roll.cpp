@@ -1,5 +1,5 @@
-// The part of the roller that examines the whole cache every few seconds: what others changed in
-// it, what has grown too old, and how full the file system is.
+// This part of the roller examines the whole cache every few seconds: changes by others, grids that
+// are too old, and how full the file system is.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// This many files are removed before other threads may use the account again. The oldest first goes
-// through the directories of all domains in turn, and each directory is synced once for each batch;
-// with 64 in a batch, nearly every file cost a sync.
+// This many files are removed before other threads may use the account again. Removing the oldest
+// grids first goes through the directories of all domains in turn, and each directory is synced
+// once for each batch. With 64 files in a batch, nearly every file cost a sync.
 constexpr std::size_t batch = 2048;
 // Every directory is read again after this many rolls, even if it seems unchanged.
 constexpr int rolls_between_full_readings = 60;
-// A directory that changed this recently may change again without a change of its time.
+// A directory that changed this recently may change again without a new time of change.
 constexpr std::int64_t settling_ns = 2'000'000'000;
 
 std::int64_t nanoseconds_now() {
@@ -62,7 +62,8 @@ Status Roller::reread(bool all, const OnStep& step) {
     return {};
 }
 
-// It holds the lock, so that no grid of ours comes or goes between the reading and the account.
+// It holds the lock, so that no grid of ours appears or vanishes between the reading and the
+// account.
 Status Roller::reread_day(const Day& day, bool even_unchanged) {
     const MutexLock lock(mutex_);
     struct stat facts {};
@@ -79,7 +80,7 @@ Status Roller::reread_day(const Day& day, bool even_unchanged) {
     return {};
 }
 
-// Grids that are being written or evicted are left to whoever does it.
+// Skips grids that are being written or evicted; those operations update the account.
 void Roller::adopt(const Day& day, const DayContents& contents) {
     account_.set_now(surroundings_.now());
     if (const auto span = span_of(day)) {
@@ -96,7 +97,7 @@ void Roller::adopt(const Day& day, const DayContents& contents) {
         if (in_flight_.contains(name)) continue;
         account_.put(name, {grid.bytes_on_disk, grid.written, grid.pinned});
     }
-    // Files that this process writes are reserved or among the leftovers.
+    // Files that this process writes are already reserved or among the leftovers.
     std::uint64_t foreign = 0;
     for (const FoundTemporary& temporary : contents.temporaries) {
         if (!temporary.name.starts_with(own_temporary_prefix())) foreign += temporary.bytes_on_disk;

@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // Another process may remove an empty directory before the file is created in it, and other
-// programs may take the room that was made on a full disk.
+// programs may take the room that eviction made on a full disk.
 constexpr int most_tries = 4;
 
-// Afterwards the directory exists, also after a power cut.
+// Creates the directory, which then also survives a power cut.
 Status make_cache_directory(FileSystem& file_system, const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directories(directory, error);
@@ -87,7 +87,7 @@ Result<RollingStore> RollingStore::open(FileSystem& file_system, fs::path direct
     return RollingStore(file_system, std::move(directory), std::move(*roller));
 }
 
-// The name of a directory is durable once its parent was synced. The first use of an existing
+// The name of a directory is durable once its parent is synced. The first use of an existing
 // directory also syncs, because its maker may have been killed before it could.
 Status StoreWriter::make_directory(const fs::path& directory) {
     std::error_code error;

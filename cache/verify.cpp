@@ -1,6 +1,6 @@
-// Checks whether an open grid file is still what it was when it was written. It reads through the
-// descriptor and never through the map, so a file that was cut meanwhile is an error and not a
-// signal.
+// Checks whether an open grid file is unchanged since it was written. It reads through the
+// descriptor and never through the map, so a file that was cut in the meantime is an error and not
+// a signal.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -36,7 +36,7 @@ Status GridFile::verify() const {
     return {};
 }
 
-// A file that was cut and has its old size again has changed all the same, and the map has shown
+// A file that was cut and extended to its old size has changed all the same, and the map has shown
 // zeros since then.
 Status GridFile::Mapping::check_map() const {
     if (Status same = check_unchanged_size(); !same) return same;
@@ -50,8 +50,8 @@ Status GridFile::Mapping::check_unchanged_size() const {
     return check_size(static_cast<std::uint64_t>(facts->st_size), at.file_size);
 }
 
-// The metadata on disk may have changed since they were read. That is damage too, though it cannot
-// mislead this reader any more.
+// The metadata on disk may have changed since they were read. That is damage too, though it can no
+// longer mislead this reader.
 Status GridFile::Mapping::check_metadata() const {
     std::vector<std::byte> bytes(metadata.size());
     if (Status read = read_at(file, 0, bytes); !read) return read;
@@ -130,7 +130,7 @@ Status GridFile::Mapping::check_holes() const {
 Status GridFile::Mapping::check_zeros(std::uint64_t begin, std::uint64_t end) const {
     std::array<std::byte, format::page_size> page{};
     while (begin < end) {
-        // Holes are skipped without being read. If the file system cannot tell holes, everything is
+        // Holes are skipped without being read. If the file system cannot find holes, everything is
         // data.
         const off_t data = ::lseek(file.number(), static_cast<off_t>(begin), SEEK_DATA);
         if (data < 0 && errno == ENXIO) return {};

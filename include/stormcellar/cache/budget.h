@@ -1,7 +1,7 @@
 // stormcellar/cache/budget.h -- how much the cache may hold.
 //
-// A budget applies to one group (a domain and its parts, stormcellar/cache/grid_name.h) or to all
-// that the cache holds. Each limit that is set counts. The oldest grids are evicted first.
+// A budget applies to one group (a domain and its parts, stormcellar/cache/grid_name.h) or to the
+// whole cache. Each limit that is set counts. The oldest grids are evicted first.
 //   bytes    The bytes on disk of grids, of files being written and of the leftovers of killed
 //            writers, counted in the blocks that the file system allocates. They are never
 //            exceeded, because bytes are reserved before they are written. Directories are not
@@ -11,24 +11,25 @@
 //   age      Counted back from the newest grid of the same group, not from now, so that old data
 //            stay while they are replayed. Times more than 10 minutes in the future do not count as
 //            newest.
-// Whatever exceeds a limit is brought down to low_watermark times the limit.
+// If the cache exceeds a limit, it is brought down to low_watermark times the limit.
 //
-// A group is known if the store's opener says so (Surroundings::is_known in store.h; by default
-// is_known_group() below). Every other group is an invented station until somebody says otherwise;
-// its grids are the grids of others.
+// A group is known if the opener of the store says so (Surroundings::is_known in store.h; by
+// default is_known_group() below). Every other group is an invented station until somebody makes it
+// known; its grids are the grids of others.
 //   others     They are evicted before any known grid, whoever needs room, and make room only for
 //              one another. Together they hold at most a tenth of the space of the total budget;
-//              anything beyond that is not kept. A roll evicts them when they were written longer
-//              ago than protected_for, whatever the budgets.
+//              grids beyond that are not kept. A roll evicts those that were written longer ago
+//              than protected_for, whatever the budgets.
 //   protected  The newest grid of each domain (or part) and moment of a known group is protected as
 //              long as it was written less than protected_for ago. The time of writing counts, so
-//              that old data that are replayed are protected too. A part is not protected from the
-//              age. All grids that are protected from one limit hold at most half of its space: the
-//              protection of the largest lapses, and among equals that of the oldest. It also
-//              lapses where the newest grid of a known group would otherwise find no room.
+//              that replayed old data are protected too. A part is not protected from the age. All
+//              grids that are protected from one limit hold at most half of its space. Beyond that,
+//              the protection of the largest grids lapses, and among equals that of the oldest.
+//              Protection also lapses where the newest grid of a known group would otherwise find
+//              no room.
 //   pinned     Pinned grids are never evicted.
 // The space of a budget is its bytes, or its percent of the file system, or the smaller of the two.
-// Without either, no protection lapses and the others' share has no limit.
+// Without either, no protection lapses and the share of others has no limit.
 //
 // Units     Bytes, percent, milliseconds.
 // Threads   Plain data and pure functions.
@@ -57,23 +58,23 @@ struct Budgets {
     Budget every_domain;                                 // for each group that is not named
     std::map<std::string, Budget, std::less<>> domains;  // by group
     double low_watermark = 0.9;                          // above 0, up to 1; a share of each limit
-    // 0: without limit, so that the newest known grids stay protected and the budgets alone decide
-    // about the grids of others.
+    // 0: no time limit, so the newest known grids stay protected and the budgets alone decide about
+    // the grids of others.
     std::chrono::milliseconds protected_for = std::chrono::hours{168};
 
     [[nodiscard]] const Budget& of(std::string_view group) const;
-    // Returns the shorter of the age of the group and that of all.
+    // Returns the shorter of the group's age and the age of all.
     [[nodiscard]] std::optional<std::chrono::milliseconds> age_of(std::string_view group) const;
-    // Returns true if eviction may answer a full disk: some budget of bytes or percent is set for
-    // the group. A budget of age alone says how long grids stay, and not that they may be evicted
-    // sooner.
+    // Returns true if a full disk may be answered by eviction: some budget of bytes or percent is
+    // set for the group. A budget of age alone limits how long grids stay, and does not allow
+    // evicting them sooner.
     [[nodiscard]] bool makes_room(std::string_view group) const;
     [[nodiscard]] std::uint64_t low_mark(std::uint64_t limit) const;
     bool operator==(const Budgets&) const = default;
 };
 
-// Returns true for every name that does not have the form of an ICAO, because only a configuration
-// gives such names to domains; of those that have it, for the ones that find_station() knows.
+// Returns true for a name without the form of an ICAO, because only a configuration gives such
+// names to domains. A name with that form is known if find_station() knows it.
 [[nodiscard]] bool is_known_group(std::string_view group);
 
 }  // namespace stormcellar::cache

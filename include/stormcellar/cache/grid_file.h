@@ -26,7 +26,7 @@
 
 namespace stormcellar::cache {
 
-// How bricks of codes are stored in a file. Packed ones take a third to three quarters of the
+// The storage of bricks of codes in a file. Packed bricks take a third to three quarters of the
 // space. They are unpacked into the reader's own memory when the file is opened, and need no map.
 enum class Packing { none, lz4 };
 
@@ -51,24 +51,24 @@ struct GridDescription {
                                                     const grid::BrickView& view,
                                                     Packing packing = Packing::none);
 
-// Returns an upper bound of what that file takes on disk, in bytes, on a file system that allocates
-// blocks of `block_bytes` (a power of two): each block that a byte falls into, and room for the
-// lists of blocks that the file system itself keeps (1 in 64, and 4). Limits such as those of
-// write_grid_file() are not checked. The bound is too low only if a file system allocates what
-// nobody wrote.
+// Returns an upper bound of the size of that file on disk, in bytes, for a file system that
+// allocates blocks of `block_bytes` (a power of two). It counts each block that a byte falls into,
+// and room for the file system's own lists of blocks (1 in 64, and 4). Limits such as those of
+// write_grid_file() are not checked. The bound is too low only if a file system allocates blocks
+// that nobody wrote.
 [[nodiscard]] std::uint64_t most_bytes_on_disk(const GridDescription& description,
                                                const grid::BrickView& view,
                                                std::uint64_t block_bytes);
 
-// Table and states are read to memory, and packed bricks may take many times their size there. So
-// whoever opens a stranger's file bounds both. Bricks that are not packed are mapped.
+// Table and states are read to memory, and packed bricks may take many times their size there. So a
+// program that opens a stranger's file bounds both. Bricks that are not packed are mapped.
 struct GridFileLimits {
     std::uint64_t read_bytes = ~std::uint64_t{0};
     std::uint64_t unpacked_bytes = ~std::uint64_t{0};
 };
-// More than the grid of any site takes: one of a WSR-88D with cells of 500 m on 48 levels has 330
-// MB of codes if every brick is stored, of a moment with two bytes a cell; one with cells of 250 m
-// has 80 MB of table and states.
+// These limits exceed the grid of any site. A WSR-88D with cells of 500 m on 48 levels has 330 MB
+// of codes if every brick is stored and the moment has two bytes a cell. With cells of 250 m it has
+// 80 MB of table and states.
 constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{128} << 20U,
                                         .unpacked_bytes = std::uint64_t{352} << 20U};
 
@@ -91,7 +91,7 @@ class GridFile {
     [[nodiscard]] std::uint64_t bytes_on_disk() const;
     [[nodiscard]] std::uint64_t bytes() const;  // of the file, holes included
     // Returns the checksum of the header, which covers the description and the checksums of all
-    // bricks: files of other contents have another one.
+    // bricks. So files with other contents have another checksum.
     [[nodiscard]] std::uint64_t checksum() const;
     // Returns a descriptor of the open file, which stays readable if the file is evicted. Errors:
     // exhausted.
@@ -99,12 +99,12 @@ class GridFile {
     [[nodiscard]] Packing packing() const;
     // Checks, with one system call, that the file still has the size that it had when it was
     // opened. Returns truncated or corrupt if another program cut or lengthened it. Reading the
-    // codes of a file that was cut raises SIGBUS, as with any map, unless the program has the guard
-    // of cache/map_guard.h: then they read as 0 (not seen), and this function returns truncated
-    // afterward. So call it after using a view, too. Nothing of ours ever cuts a file.
+    // codes of a cut file raises SIGBUS, as with any map, unless the program has the guard of
+    // cache/map_guard.h. Then the codes read as 0 (not seen), and this function returns truncated
+    // afterward. So also call it after using a view. Our own programs never cut a file.
     [[nodiscard]] Status check_whole() const;
     // Reads the whole file again, not through the map, so that a cut file is an error here. Checks
-    // that header, table and states are as they were opened, that every stored brick has its
+    // that header, table and states have not changed since open(), that every stored brick has its
     // checksum, minimum, maximum and count, and that the places of absent bricks read as zeros.
     [[nodiscard]] Status verify() const;
 

@@ -2,8 +2,8 @@
 //
 // A name is a domain, a moment and a time. Its file is
 // DOMAIN/MOMENT/YYYYMMDD/DOMAIN_MOMENT_YYYYMMDD_HHMMSS_mmm.scg below the cache's directory. A
-// domain is NAME, or NAME.ICAO for what one site gave to the grid of NAME (a part). Budgets count a
-// domain and its parts together, as the group NAME.
+// domain is NAME, or NAME.ICAO for the part of one site in the grid of NAME. Budgets count a domain
+// and its parts together, as the group NAME.
 //
 // Threads   Pure functions.
 // Errors    None; a text of another form gives none or false.
@@ -29,11 +29,11 @@ struct GridName {
     auto operator<=>(const GridName&) const = default;
 };
 
-// Returns true if a name has the form of a domain's: [A-Za-z0-9][A-Za-z0-9_-]{0,63}, with or
-// without a part after it, which is '.' and an ICAO ([A-Z][A-Z0-9]{3}).
+// Returns true if a name has the form of a domain: [A-Za-z0-9][A-Za-z0-9_-]{0,63}, with or without
+// a part after it, which is '.' and an ICAO ([A-Z][A-Z0-9]{3}).
 [[nodiscard]] bool is_domain_name(std::string_view name);
 
-// Returns what comes before the first '.': "northeast" for "northeast" and for "northeast.KBOX".
+// Returns the text before the first '.': "northeast" for "northeast" and for "northeast.KBOX".
 [[nodiscard]] std::string_view group_of(std::string_view domain);
 [[nodiscard]] bool is_part(std::string_view domain);
 
@@ -48,7 +48,7 @@ inline constexpr UtcTime last_possible_time{
 // Returns the path below the cache's directory.
 [[nodiscard]] std::filesystem::path relative_path(const GridName& name);
 
-// Returns the time in a file's name that has exactly the form above; none for every other name.
+// Returns the time in a file name of exactly the form above; none for every other name.
 [[nodiscard]] std::optional<UtcTime> time_in_file_name(std::string_view domain,
                                                        level2::Moment moment,
                                                        std::string_view file_name);

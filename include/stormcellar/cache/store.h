@@ -1,12 +1,12 @@
 // stormcellar/cache/store.h -- the directory of grid files.
 //
-// stormcellar/cache/grid_name.h defines layout and names. There is no index: the names are the
-// index, so nothing can disagree with the files. The default domain of a station is its ICAO. A
-// grid that is committed again for the same time replaces the old one; a reader keeps the file that
-// it has open. Symbolic links inside the store are not followed. Files with other names, or in
-// other places, are not ours: they are never listed or changed. Times are from 1970 to 9999.
+// stormcellar/cache/grid_name.h defines layout and names. The names are the only index, so nothing
+// can disagree with the files. The default domain of a station is its ICAO. A grid that is
+// committed again for the same time replaces the old one; a reader keeps the file that it has open.
+// Symbolic links inside the store are not followed. Files with other names, or in other places, are
+// not ours: they are never listed or changed. Times are from 1970 to 9999.
 //
-// A store is opened in one of three roles, and each offers what the role before it does:
+// A store is opened in one of three roles. Each offers everything that the previous one does:
 //   StoreReader   lists grids and gives their paths; it never changes anything
 //   StoreWriter   commits and removes grids; it keeps no budget
 //   RollingStore  the one writer of a cache that keeps its budgets (stormcellar/cache/budget.h), at
@@ -46,14 +46,14 @@ struct StoreEntry {
     bool pinned = false;
 };
 
-// How full a file system is, for the current user: the capacity is what is used plus what is free
-// for this user.
+// The space of a file system for the current user. The capacity is the used space plus the space
+// that is free for this user.
 struct Filling {
     std::uint64_t used_bytes = 0, capacity_bytes = 0;
 };
 [[nodiscard]] Result<Filling> filling_of(const std::filesystem::path& directory);
 
-// What a rolling store asks its surroundings; tests replace the functions.
+// Questions of a rolling store to its surroundings; tests replace the functions.
 struct Surroundings {
     std::function<UtcTime()> now = now_utc;
     std::function<Result<Filling>(const std::filesystem::path&)> filling = filling_of;
@@ -63,7 +63,7 @@ struct Surroundings {
     std::function<bool(std::string_view group)> is_known = is_known_group;
 };
 
-// What was done since the previous roll, commits included.
+// The work since the previous roll, commits included.
 struct RollReport {
     std::uint64_t evicted = 0, evicted_bytes = 0;
     // One line for each budget that cannot be kept, file that cannot be removed, and directory that
@@ -79,16 +79,16 @@ struct StoreUsage {
     bool operator==(const StoreUsage&) const = default;
 };
 
-// Removes the entries that lie in the future (by is_believed()), unless all do. For callers that
-// show the newest grid. `entries` are sorted by time.
+// Removes the entries in the future (by is_believed()), unless all are. For callers that show the
+// newest grid. `entries` are sorted by time.
 void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now);
 
 class Roller;
 
-// What a committed grid survives.
+// The events that a committed grid survives.
 enum class Durability {
     power_cut,
-    // A crash of the process, but not of the system: readers see the grid whole or not at all, but
+    // A crash of the process, but not of the system. Readers see the grid whole or not at all, but
     // after a power cut the file may be damaged, or be the previous one. For grids that are
     // replaced within seconds and can be made again.
     until_a_crash,
@@ -96,18 +96,18 @@ enum class Durability {
 
 class StoreReader {
   public:
-    // Errors: not_found if the directory does not exist.
+    // Opens a store. Errors: not_found if the directory does not exist.
     static Result<StoreReader> open(std::filesystem::path directory);
 
     // Returns the path of a grid of this name, whether it exists or not. Errors: bad_argument for a
-    // name that is no domain's, and for a time beyond the years 1970 to 9999.
+    // name that no domain can have, and for a time beyond the years 1970 to 9999.
     [[nodiscard]] Result<std::filesystem::path> path_of(const std::string& domain,
                                                         level2::Moment moment, UtcTime time) const;
 
     // Returns the names, sorted. A directory is a domain if it contains the directory of a moment.
     [[nodiscard]] Result<std::vector<std::string>> domains() const;
-    // Returns grids sorted by time. `from` and `to` are inclusive; none: open. Empty if nothing
-    // matches.
+    // Returns grids sorted by time. `from` and `to` are inclusive; none: open. The result is empty
+    // if nothing matches.
     [[nodiscard]] Result<std::vector<StoreEntry>> list(const std::string& domain,
                                                        level2::Moment moment,
                                                        std::optional<UtcTime> from,
@@ -127,7 +127,7 @@ class StoreReader {
 };
 
 // The old name, for programs that read. It will be removed in the next release. Programs that write
-// name their role.
+// use the name of their role.
 using Store [[deprecated("StoreReader, StoreWriter or RollingStore")]] = StoreReader;
 
 class StoreWriter : public StoreReader {
@@ -153,14 +153,14 @@ class StoreWriter : public StoreReader {
     // budget of bytes or percent is set. Errors: bad_argument as in path_of() and
     // write_grid_file(); over_budget if there is no room for the newest grid of a known domain or a
     // pinned one, because the budget is smaller than the grid or the held grids are pinned or
-    // cannot be removed; no_space if the disk stays full (grids of others are then not kept
-    // instead).
+    // cannot be removed; no_space if the disk stays full (a grid of others is then not kept,
+    // without an error).
     Result<std::filesystem::path> commit(const std::string& domain,
                                          const GridDescription& description,
                                          const grid::BrickView& view,
                                          Durability durability = Durability::power_cut);
     // Returns true if the budgets would keep a grid of this time and of average size, or if there
-    // are no budgets. Meant for checks before long work; commit() decides.
+    // are no budgets. It is for checks before long work; commit() decides.
     [[nodiscard]] bool would_keep(const std::string& domain, level2::Moment moment,
                                   UtcTime time) const;
 
@@ -189,7 +189,7 @@ class StoreWriter : public StoreReader {
 
     FileSystem* file_system_;
     Packing packing_ = Packing::none;
-    std::unique_ptr<DurableDirectories> durable_;  // those whose names are known to be on disk
+    std::unique_ptr<DurableDirectories> durable_;  // directories whose names are surely on disk
     std::unique_ptr<Roller> roller_;               // null: keeps no budget
 };
 
@@ -197,13 +197,13 @@ class StoreWriter : public StoreReader {
 // other programs changed in the cache.
 class RollingStore : public StoreWriter {
   public:
-    // Removes what a killed writer left, counts the grids, and keeps the budgets from then on.
-    // Errors: busy if another process has opened the cache as a RollingStore.
+    // Opens a cache: removes the leftovers of a killed writer, counts the grids, and keeps the
+    // budgets from then on. Errors: busy if another process has opened the cache as a RollingStore.
     static Result<RollingStore> open(FileSystem& file_system, std::filesystem::path directory,
                                      Budgets budgets, Surroundings surroundings = {});
 
-    // Evicts what exceeds the budgets. `step` is called after each directory that is read and each
-    // batch of files removed, so that the caller can see progress.
+    // Evicts the grids that exceed the budgets. Calls `step` after each directory that is read and
+    // each batch of removed files, so that the caller can see progress.
     RollReport roll(const std::function<void()>& step = {});
     void set_budgets(Budgets budgets);  // applies from the next commit or roll on
     [[nodiscard]] StoreUsage usage() const;
