@@ -1,8 +1,8 @@
-// export/cf_attributes.h -- what the variables of a grid are called and said to be, in the terms of
+// export/cf_attributes.h -- the names and attributes of the variables of a grid, in the terms of
 // CF; internal.
 //
-// This is the one table of these texts. NetCDF files (export/grid_netcdf.h) are written from it,
-// and whatever else describes a grid in these terms.
+// This is the only table of these texts. NetCDF files (export/grid_netcdf.h) and all other
+// descriptions of a grid in these terms use it.
 //
 // Units     CF units, named in the attributes.
 // Threads   Pure functions.
@@ -36,23 +36,24 @@ struct MapNames {
 [[nodiscard]] CfAttributes height_attributes();
 [[nodiscard]] CfAttributes row_attributes(const grid::GridSpec& spec);
 [[nodiscard]] CfAttributes column_attributes(const grid::GridSpec& spec);
-// Attributes of the variables lat and lon, on maps in meters, where they are no dimensions.
+// Return the attributes of the variables lat and lon, on maps in meters, where they are no
+// dimensions.
 [[nodiscard]] CfAttributes latitude_attributes();
 [[nodiscard]] CfAttributes longitude_attributes();
 [[nodiscard]] CfAttributes mapping_attributes(const grid::GridSpec& spec);
-// The mapping in well-known text (WKT 1, as GDAL writes it).
+// Returns the mapping as well-known text (WKT 1, as GDAL writes it).
 [[nodiscard]] std::string well_known_text(const grid::GridSpec& spec);
-// The attributes with which a field refers to the map.
+// Returns the attributes by which a field refers to the map.
 [[nodiscard]] CfAttributes reference_to_map(const grid::GridSpec& spec);
-// `method` comes from the provenance of the grid.
+// Returns the attributes of a field. `method` comes from the provenance of the grid.
 [[nodiscard]] CfAttributes field_attributes(level2::Moment moment, std::string_view method);
 
-// long_name, standard_name and comment of the states; the flags are apart.
+// Returns long_name, standard_name and comment of the states; the flags are separate.
 [[nodiscard]] CfAttributes status_attributes();
 // Returns the names of the four states, in the order of their numbers, which begin at 0.
 [[nodiscard]] std::vector<std::string_view> status_meanings();
 
-// The places of rows and columns: meters, or degrees of latitude and continuous longitude.
+// Return the places of rows and columns: meters, or degrees of latitude and continuous longitude.
 [[nodiscard]] std::vector<double> row_places(const grid::GridSpec& spec);
 [[nodiscard]] std::vector<double> column_places(const grid::GridSpec& spec);
 

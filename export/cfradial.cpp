@@ -67,7 +67,7 @@ Coverage coverage_of(const Volume& volume) {
     return coverage;
 }
 
-// Returns who runs the radar. Level II does not say, but the site does.
+// Returns the operator of the radar. Level II does not name it, but the site does.
 std::string institution_of(const std::optional<Station>& station) {
     if (!station) return "unknown";
     return station->kind == RadarKind::tdwr ? "TDWR network of the FAA"

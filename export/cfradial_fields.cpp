@@ -1,4 +1,4 @@
-// The moments of a CfRadial file: packed codes, and what each gate holds.
+// The moments of a CfRadial file: packed codes, and the status of each gate.
 #include <algorithm>
 #include <array>
 
@@ -14,12 +14,12 @@ using level2::GateStatus;
 using level2::Moment;
 using level2::SweepMoment;
 
-// No code is negative.
+// The fill value is negative, because no code is.
 constexpr int fill_code = -1;
 // The flags of CFP, codes 0 to 7, are stored in its status variable as this number plus the code.
 constexpr int first_filter_flag = 16;
-// A chunk holds at most half a sweep of half-degree radials. Sweeps and chunks do not end together,
-// so the last two chunks are kept unpacked; an int takes four bytes.
+// A chunk holds at most half a sweep of half-degree radials. Sweeps and chunks end at different
+// places, so the last two chunks are kept unpacked; an int takes four bytes.
 constexpr std::size_t chunk_rows = 360;
 constexpr std::size_t chunk_codes = std::size_t{1} << 18;
 constexpr std::size_t chunk_cache_bytes = 2 * 4 * chunk_codes;
@@ -150,8 +150,8 @@ void unpack(const SweepMoment* moment, const RangeAxis& axis, std::size_t radial
     }
 }
 
-// Says of each sweep how its measured gates can be had back, if any of them is not where the axis
-// has its own.
+// Writes for each sweep how to restore its measured gates, if the axis has any of them at another
+// place.
 void write_placement(const CfradialParts& parts, const CfradialField& field) {
     std::vector<int> repeats;
     std::vector<int> first;

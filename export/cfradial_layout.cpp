@@ -51,7 +51,7 @@ std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
 constexpr std::int64_t most_elements = 8192;
 constexpr std::int32_t most_repeats = 8;
 
-// Every moment that has gates.
+// Returns every moment that has gates.
 std::vector<const SweepMoment*> moments_of(const level2::Volume& volume) {
     std::vector<const SweepMoment*> moments;
     for (const level2::Sweep& sweep : volume.sweeps) {
@@ -61,7 +61,7 @@ std::vector<const SweepMoment*> moments_of(const level2::Volume& volume) {
     return moments;
 }
 
-// Returns true if the moment's gates can stand on an axis with the gates of `finest`.
+// Returns true if the moment's gates fit onto an axis with the gates of `finest`.
 bool fits(const SweepMoment& moment, const SweepMoment& finest) {
     const std::int32_t spacing_m = finest.gate_spacing_m;
     if (spacing_m <= 0 || moment.gate_spacing_m % spacing_m != 0) return false;
@@ -70,7 +70,7 @@ bool fits(const SweepMoment& moment, const SweepMoment& finest) {
            (moment.first_gate_m - finest.first_gate_m) % spacing_m == 0;
 }
 
-// Returns the one axis on which all gates of the volume can stand, if there is one.
+// Returns the axis that fits all gates of the volume, if there is one.
 std::optional<RangeAxis> common_axis(const level2::Volume& volume) {
     const std::vector<const SweepMoment*> moments = moments_of(volume);
     const auto finest = std::min_element(
@@ -163,7 +163,7 @@ void find_axes(CfradialLayout& layout) {
 }  // namespace
 
 GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment) {
-    if (axis.gate_spacing_m <= 0) return {};  // an axis of damaged gates, which all have it
+    if (axis.gate_spacing_m <= 0) return {};  // an axis of damaged gates, which every gate has
     const std::int64_t first = first_element(axis.first_gate_m, axis.gate_spacing_m, moment);
     return {static_cast<std::size_t>(first),
             static_cast<std::size_t>(moment.gate_spacing_m / axis.gate_spacing_m)};

@@ -2,13 +2,13 @@
 // export.
 //
 // Gates of a moment that agree in word size, scale and offset make one field if the volume has one
-// range axis (RangeAxes); otherwise they must agree in first gate and spacing, too, and each pair
+// range axis (RangeAxes). Otherwise they must also agree in first gate and spacing, and each pair
 // of first gate and spacing makes an axis. Nearly every moment of a modern volume is one field on
 // one axis in either case.
 //   names   The kind of a moment that most radials have is named REF; the others are REF_2, REF_3,
 //           .... Axes are range, range_2, ... in the order in which the fields need them.
 //   order   The order of the moments (REF VEL SW ZDR PHI RHO CFP), then by number of radials, then
-//           as in the file.
+//           the order in the file.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -31,8 +31,8 @@ struct RangeAxis {
     std::size_t gates = 0;  // the largest number of any radial
 };
 
-// Places the gates of one sweep's moment on the axis of their field: gate i fills the elements
-// first + i * repeats to first + (i + 1) * repeats - 1.
+// The place of the gates of one sweep's moment on the axis of their field: gate i fills the
+// elements first + i * repeats to first + (i + 1) * repeats - 1.
 struct GatePlacement {
     std::size_t first = 0;
     std::size_t repeats = 1;
@@ -58,7 +58,7 @@ struct CfradialLayout {
 // Real volumes need at most ten fields. More than this number means a damaged file.
 inline constexpr std::size_t most_cfradial_fields = 64;
 
-// Places the gates of a moment on an axis of the layout that has it.
+// Returns the place of a moment's gates on an axis of the layout, which must fit them.
 [[nodiscard]] GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment);
 
 // Makes the layout, which refers to the volume; the volume must outlive it. Errors: bad_argument

@@ -49,7 +49,7 @@ std::vector<Value> of_each_radial(const CfradialParts& parts, Function function)
     return values;
 }
 
-// Writes a float, with _FillValue where it is not known. If it is never known, no variable is made.
+// Writes a float, with _FillValue if it is not known. If it is never known, makes no variable.
 int write_known(const CfradialParts& parts, const char* name, int dimension, const char* long_name,
                 const char* units, const std::vector<Known>& values) {
     const auto known = [](const Known& value) { return value.has_value(); };
@@ -64,7 +64,7 @@ int write_known(const CfradialParts& parts, const char* name, int dimension, con
     return variable;
 }
 
-// Level II writes 0 for what it does not know.
+// Level II writes 0 for an unknown number.
 Known unless_zero(float value) {
     return value == 0 ? std::nullopt : Known{value};
 }
@@ -127,7 +127,7 @@ void write_instrument(const CfradialParts& parts) {
           [](const Radial& radial) { return radial.vertical_calibration_dbz; });
 }
 
-// Writes what Level II says about each radial, and CfRadial has no name for.
+// Writes the facts of Level II about each radial that have no name in CfRadial.
 void write_level2_facts(const CfradialParts& parts) {
     const auto ints = [&](auto function) { return of_each_radial<int>(parts, function); };
     write_ints(parts, "azimuth_number", parts.time, "number of the radial in its sweep",

@@ -22,13 +22,13 @@ constexpr int deflate_level = 1;
 constexpr std::size_t first_threshold_bin = 7;
 constexpr std::size_t thresholds = ValueTally::bins - first_threshold_bin;
 
-// Places that were counted: columns, by their greatest values, or cells.
+// The places that were counted: columns, by their greatest values, or cells.
 struct Places {
     const char* prefix;  // of the names of variables
-    const char* place;   // as texts have it
-    const char* value;   // the same
+    const char* place;   // in texts
+    const char* value;   // in texts
     const ValueTally& (*of)(const GridTally& tally);
-    std::size_t layers;  // levels of it: 1 for columns
+    std::size_t layers;  // number of levels; 1 for columns
 };
 
 // Writes the variables of a climatology, each over all groups and places.
@@ -139,7 +139,8 @@ class ClimatologyFile {
         return {group_, level_, map_.y, map_.x};
     }
 
-    // Calls `work` with each group's tally and the number of each place, as variables have them.
+    // Calls `work` with each group's tally and the number of each place, in the order of the
+    // variables.
     template <class Work>
     void for_each_place(const Places& places, Work work) const {
         for (const TallyGroup& group : groups_) {
@@ -191,7 +192,7 @@ class ClimatologyFile {
         return seen == 0 ? fill : static_cast<float>(hits) / static_cast<float>(seen);
     }
 
-    // Thresholds come right behind the group, so each group is one block of them.
+    // The dimension of thresholds follows the group, so each group is one block.
     void write_frequency(const Places& places) {
         std::vector<float> shares;
         for (const TallyGroup& group : groups_) {

@@ -1,17 +1,16 @@
-// export/climatology_netcdf.h -- statistics of many grids as CF netCDF.
+// export/climatology_netcdf.h -- writes statistics of many grids as CF netCDF.
 //
-// Each group (an hour of the day, a month, or the whole time) has counts of frames, of frames in
-// which a column was seen and not seen, and of the columns that were seen: how often the greatest
-// value of the column reached each threshold, its maximum, means and quantiles, and how often the
-// echo top (18.5 dBZ) was at or above each level. If cells were counted, too, variables named cell_
-// have the same of each cell. Where a column or cell was never seen, or never had a value, the
-// statistics have the fill value.
+// Each group (an hour of the day, a month, or the whole time) has counts of frames, and of the
+// frames in which a column was seen and not seen. For the columns that were seen it has how often
+// the greatest value of the column reached each threshold, its maximum, means and quantiles, and
+// how often the echo top (18.5 dBZ) was at or above each level. If cells were counted, too,
+// variables named cell_ have the same statistics of each cell. If a column or cell was never seen,
+// or never had a value, its statistics have the fill value.
 //
-// Units     As the attributes say.
+// Units     The attributes name them.
 // Memory    The counts of all groups, and all variables once more.
 // Threads   Any thread; files are written one at a time.
 // Errors    bad_argument for no group, or groups of different grids; those of the file system;
-//           internal if netCDF refuses.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +26,7 @@ namespace stormcellar::netcdf {
 
 struct TallyGroup {
     int number = 0;              // the hour, the month, or 0
-    std::uint64_t instants = 0;  // at which a frame could be
+    std::uint64_t instants = 0;  // number of times at which a frame could be
     grid::GridTally tally;
 };
 

@@ -1,12 +1,12 @@
-// export/grid_coordinates.h -- where the cells of a grid file are, in the terms of CF; internal to
-// export.
+// export/grid_coordinates.h -- writes the places of the cells of a grid file, in the terms of CF;
+// internal to export.
 //
-// The dimensions are lat and lon for latitude_longitude, whose coordinates they are, so that
+// For latitude_longitude the dimensions are lat and lon, which are also the coordinates, so that
 // readers find them without asking for attributes. For a projection with a plane, the dimensions
-// and coordinates y and x are meters, and the variables lat and lon give the place of each column.
-// Longitudes are within 180 degrees of the center's, so they
-// continue across the antimeridian (179.5, 180.5). The mapping variable has the name of its CF grid
-// mapping (CF-1.8, appendix F).
+// and coordinates y and x are in meters, and the variables lat and lon give the place of each
+// column. Longitudes are within 180 degrees of the center's, so they continue across the
+// antimeridian (179.5, 180.5). The mapping variable has the name of its CF grid mapping (CF-1.8,
+// appendix F).
 //
 // Threads   Hold library_mutex() (export/netcdf_builder.h).
 #pragma once
@@ -27,7 +27,7 @@ void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDi
 // Writes lat and lon of each column, or nothing if the dimensions give them already.
 void write_positions(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size,
                      int deflate_level);
-// Adds the attributes with which a field refers to this map.
+// Adds the attributes by which a field refers to this map.
 void refer_to_map(NetcdfBuilder& file, int variable, const grid::GridSpec& spec);
 
 }  // namespace stormcellar::netcdf

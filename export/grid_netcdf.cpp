@@ -26,13 +26,13 @@ struct Dimensions {
     int time, z, y, x;
 };
 
-// One grid in the file, alone or beside grids of other moments.
+// One grid in the file, alone or together with grids of other moments.
 struct Field {
     const Grid& grid;
     bool is_alone = true;
 
-    // A variable that belongs to the moment has the moment's name in front, unless the file has
-    // this moment alone.
+    // Returns the name of a variable that belongs to the moment. The moment's name is in front,
+    // unless the file has only this moment.
     [[nodiscard]] std::string name_of(std::string_view variable) const {
         return is_alone ? std::string(variable)
                         : fmt::format("{}_{}", level2::moment_name(grid.moment), variable);
@@ -43,8 +43,8 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
     return fmt::format("{}", fmt::join(parts, separator));
 }
 
-// Writes cells in the order of the file: x fastest, then y, then z. It goes row by row, so that
-// both reads and writes stay within the processor's cache.
+// Returns the cells in the order of the file: x fastest, then y, then z. It goes row by row, so
+// that both reads and writes stay within the processor's cache.
 template <class Cell, class From>
 std::vector<Cell> in_file_order(const grid::GridSpec& spec, From from) {
     std::vector<Cell> cells(spec.cell_count());
@@ -68,7 +68,7 @@ void write_axes(NetcdfBuilder& file, const Grid& grid, const Dimensions& size) {
                      time_attributes(grid.frame_time ? "frame time" : "start of the volume"));
     const int z = file.variable("z", NC_DOUBLE, {size.z});
     write_attributes(file, z, height_attributes());
-    // One time a file: netCDF's own choice for an unlimited dimension would take 4 kB.
+    // A file has one time. netCDF's own chunk for an unlimited dimension would take 4 kB.
     file.chunks(time, {1});
     const auto instant = grid.frame_time.value_or(grid.time).time_since_epoch();
     file.write_first(time, std::chrono::duration<double>(instant).count());
@@ -113,7 +113,7 @@ DetailText describe_detail(grid::Detail detail, const Grid& grid) {
             "the rest lies in gaps or beyond the gates; below one half a cell is not seen"};
 }
 
-// The facts of the provenance that differ from moment to moment.
+// Writes the facts of the provenance that differ from moment to moment.
 void write_making(NetcdfBuilder& file, int variable, const Grid& grid) {
     const grid::Provenance& from = grid.provenance;
     file.text(variable, "method", from.method);
@@ -125,7 +125,7 @@ void write_making(NetcdfBuilder& file, int variable, const Grid& grid) {
     file.text(variable, "averaging", from.averaging);
 }
 
-// Returns the notes of all grids. A note that several grids have comes once.
+// Returns the notes of all grids. A note of several grids appears once.
 std::vector<std::string> notes_of(std::span<const Grid> grids) {
     std::vector<std::string> notes;
     for (const Grid& grid : grids) {
@@ -249,7 +249,7 @@ std::string audit_text(const Grid& grid) {
     return joined(lines, "\n");
 }
 
-// Writes what all grids of the file have in common, and what only a single grid says of the file.
+// Writes the facts that all grids of the file share. For a single grid, also writes its own.
 void write_provenance(NetcdfBuilder& file, std::span<const Grid> grids) {
     constexpr int global = NetcdfBuilder::file;
     const Grid& grid = grids.front();
@@ -313,7 +313,7 @@ Status check(const Grid& grid, const GridWriteOptions& options) {
     return {};
 }
 
-// Grids that one file can hold share the coordinates of the file.
+// Checks that one file can hold the grids: they must share the coordinates.
 Status check_together(std::span<const Grid> grids) {
     if (grids.empty()) return fail(ErrorCode::bad_argument, "there is no grid to write");
     const Grid& first = grids.front();
@@ -339,8 +339,8 @@ Result<std::vector<std::byte>> build(std::span<const Grid> grids, const GridWrit
     NetcdfBuilder file;
     const grid::GridSpec& spec = grids.front().spec;
     const MapNames names = map_names(spec);
-    // Unlimited, so that programs can join files along it (ncrcat). Axes come first: they give it
-    // its one element.
+    // The dimension is unlimited, so that programs can join files along it (ncrcat). Axes come
+    // first, because they give it its one element.
     constexpr std::size_t unlimited = 0;
     const Dimensions size{file.dimension("time", unlimited),
                           file.dimension("z", spec.levels_m.size()),

@@ -16,7 +16,7 @@ Mutex& library_mutex() {
 }
 
 NetcdfBuilder::NetcdfBuilder() {
-    // The name is never used, because the file exists in memory only.
+    // The name is not used, because the file exists in memory only.
     open_ = good(nc_create_mem("memory.nc", NC_NETCDF4 | NC_CLOBBER, 0, &id_), "begin");
 }
 

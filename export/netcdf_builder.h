@@ -26,20 +26,20 @@ class NetcdfBuilder {
     NetcdfBuilder& operator=(const NetcdfBuilder&) = delete;
     ~NetcdfBuilder();
 
-    // Stands for "no variable" and for "the file", whose attributes are the global ones.
+    // Means "no variable", or "the file", whose attributes are the global ones.
     static constexpr int file = -1;
 
-    // A dimension of size 0 becomes an unlimited dimension with nothing in it yet, as netCDF has
-    // it.
+    // Makes a dimension. A size of 0 makes an unlimited dimension with nothing in it yet, as in
+    // netCDF.
     int dimension(const char* name, std::size_t size);
-    // Types are those of netcdf.h. A variable without dimensions is a scalar.
+    // Makes a variable. Types are those of netcdf.h. A variable without dimensions is a scalar.
     int variable(const char* name, int type, const std::vector<int>& dimensions);
     void chunks(int variable, const std::vector<std::size_t>& sizes);
     // Sets how much of a chunked variable is kept unpacked until the end; netCDF keeps 16 MiB or
     // more.
     void chunk_cache(int variable, std::size_t bytes);
     void deflate(int variable, int level);
-    // Sets the value that stands for "no value", in the type of the variable.
+    // Sets the fill value, in the type of the variable.
     void fill_value(int variable, double value);
     void text(int variable, const char* name, std::string_view value);
     void number(int variable, const char* name, double value);
@@ -56,7 +56,7 @@ class NetcdfBuilder {
     // Writes rows of equal length, one after the other, as a variable of characters.
     void write(int variable, std::span<const char> characters);
 
-    // Some rows of a variable with two dimensions, each over its whole second dimension.
+    // Some rows of a variable with two dimensions, each over the whole second dimension.
     struct Rows {
         std::size_t first = 0;
         std::size_t count = 0;

@@ -6,9 +6,9 @@
 // range): it holds the codes as they came, with scale_factor and add_offset in double. If the gates
 // of a volume differ in length, RangeAxes chooses between one axis, on which long gates are
 // repeated, and one axis for each pair of first gate and spacing (REF_2 on range_2). Gates that
-// differ in scale or word size are variables of their own (REF_2). No code is changed. Whatever is
-// not a value is _FillValue; REF_status tells valid, below threshold, range folded and no data, and
-// the flags of CFP, apart. docs/export.md lists every variable.
+// differ in scale or word size are variables of their own (REF_2). No code is changed. A gate
+// without a value is _FillValue; REF_status tells valid, below threshold, range folded, no data and
+// the flags of CFP apart. docs/export.md lists every variable.
 //
 // If the volume has no radials, time and sweep have no elements. If it has no position, latitude,
 // longitude and altitude are _FillValue. If it has no VCP, there is no scan_id, and fixed_angle is
@@ -39,18 +39,19 @@
 namespace stormcellar::netcdf {
 
 enum class RangeAxes : std::uint8_t {
-    // One axis with the shortest spacing of the volume. A gate of N times that length stands N
-    // times: a gate of 1 km four times at 250 m. REF_gate_repeats and so on say so of each sweep.
-    // Programs that read one axis only (Py-ART, xradar) then find every moment. If a spacing is not
-    // 1 to 8 times the shortest, or gates of the shortest do not meet, each geometry has its own.
+    // One axis with the shortest spacing of the volume. A gate of N times that length is repeated N
+    // times: a gate of 1 km four times at 250 m. REF_gate_repeats and its like give N for each
+    // sweep. Programs that read only one axis (Py-ART, xradar) then find every moment. If a spacing
+    // is not 1 to 8 times the shortest, or gates of the shortest do not meet, each geometry has its
+    // own axis.
     one_if_possible,
-    of_each_geometry,  // Every gate stands once, where it was measured.
+    of_each_geometry,  // Every gate appears once, where it was measured.
 };
 
 struct VolumeWriteOptions {
     std::string source_file;         // name of the raw file; empty: not written
     bool complete = true;            // the volume is whole
-    std::vector<std::string> notes;  // what readers should know of the volume, e.g. its problems
+    std::vector<std::string> notes;  // notes for readers of the volume, e.g. its problems
     int deflate_level = 1;           // 0 to 9; 0: not compressed
     RangeAxes ranges = RangeAxes::one_if_possible;
 };

@@ -1,8 +1,9 @@
 // stormcellar/export/grid_format.h -- the formats that a grid can be written in.
 //
-// One row a format. What writes a grid takes its format from the name of the file; help and
-// messages list what the registry holds.
-// Thread contract: any thread. A format says itself whether its calls wait for each other.
+// Each format has one row in a registry. A writer of grids chooses the format by the name of the
+// file; help and messages list the registry.
+//
+// Threads   Any thread. Each format says whether its calls wait for each other.
 #pragma once
 
 #include <filesystem>
@@ -20,17 +21,17 @@ namespace stormcellar::grid_export {
 struct GridFormat {
     std::string_view name;                      // "netCDF"
     std::span<const std::string_view> endings;  // of its files; the first one is the usual one
-    // Writes the grids of one or several moments into one file, whole or not at all. They share
-    // their cells and their time. Errors: bad_argument for grids that the format does not hold, and
-    // those of the file system.
+    // Writes the grids of one or several moments into one file, whole or not at all. The grids
+    // share their cells and their time. Errors: bad_argument for grids that the format cannot hold,
+    // and those of the file system.
     Status (*write)(FileSystem& file_system, const std::filesystem::path& path,
                     std::span<const grid::Grid> grids);
 };
 
-// The first one is the default, where no name says which.
+// Returns all formats. The first one is the default if no file name chooses one.
 [[nodiscard]] std::span<const GridFormat> grid_formats();
 
-// By the ending of a file's name. Null: no format has this ending.
+// Finds a format by the ending of a file's name. Returns null if no format has this ending.
 [[nodiscard]] const GridFormat* grid_format_of(std::string_view file_name);
 
 // The endings of all formats, and the names with them as a user reads them: "netCDF (.nc, .nc4)".

@@ -12,7 +12,7 @@
 // and site_weight (float) is the sum of their weights; both are 0 where no site sees the cell.
 //
 // Several grids, of different moments on the same cells and at the same time, become one file with
-// one field each. What belongs to a moment then has its name in front (REF_status, VEL_age), and
+// one field each. Then the variables of a moment have its name in front (REF_status, VEL_age), and
 // the method, the effects, the predicted error, the beam model and the averaging are attributes of
 // the field instead of the file; audits are left out.
 //
