@@ -2,15 +2,15 @@
 //
 // Units     Degrees, meters.
 // Pattern   Gaussian, both ways: exp(-8 ln 2 (d / width)^2) at an angle d off the axis. The width
-//           is that of half power one way, so the deviation is s = width / (4 sqrt(ln 2)), 0.3003
-//           widths. The pattern ends at 4 s; side lobes are left out. Meanwhile the antenna turns
-//           by the radial's spacing D. So in azimuth the pattern is the mean of Gaussians between
-//           -D/2 and D/2,
+//           is the one-way half-power width, so the deviation is s = width / (4 sqrt(ln 2)), 0.3003
+//           widths. The pattern ends at 4 s; side lobes are left out. The antenna turns by the
+//           radial's spacing D while it sends the pulses of a radial. So in azimuth the pattern is
+//           the mean of Gaussians between -D/2 and D/2,
 //             erf((a + D/2) / (sqrt(2) s')) - erf((a - D/2) / (sqrt(2) s')),
 //             s' = s / cos(elevation),
-//           and ends at 4 s' + D/2. Weights add up to 1. Along the range it is a Gaussian with a
-//           deviation of 0.35 c tau / 2 (a matched receiver), by the three points of Gauss and
-//           Hermite.
+//           and ends at 4 s' + D/2. Weights add up to 1. Along the range the pattern is a Gaussian
+//           with a deviation of 0.35 c tau / 2 (a matched receiver), by the three points of Gauss
+//           and Hermite.
 // Source    Doviak & Zrnic (1993): eqs 5.75 and 5.76, for the deviations across the beam and along
 //           it. In azimuth, that Gaussian is averaged over the turn of a radial, with equal weights
 //           for all pulses.
@@ -39,9 +39,9 @@ struct BeamNode {
     double weight = 0;
 };
 
-// The finest lengths over which the weather changes: the deviation of a Gaussian in mm^6/m^3 that
-// falls off, or waves, as steeply. They are infinite without weather. `cut_off` means that
-// something begins abruptly at a height.
+// The finest lengths over which the weather changes. A length is the deviation of a Gaussian in
+// mm^6/m^3 that falls off, or waves, as steeply. Without weather both lengths are infinite.
+// `cut_off` means that a feature begins abruptly at a height.
 struct FinestLengths {
     double across_m = 0;
     double up_m = 0;
@@ -52,18 +52,19 @@ struct FinestLengths {
 // Returns the deviation of the two-way pattern.
 [[nodiscard]] double pattern_deviation_deg(double beam_width_deg);
 
-// Returns points `pattern_deviation / per_deviation` apart. A width of 0 gives the axis alone.
+// Returns points `pattern_deviation / per_deviation` apart. For a width of 0, returns only the
+// axis.
 [[nodiscard]] std::vector<BeamNode> elevation_nodes(double beam_width_deg, double per_deviation);
 [[nodiscard]] std::vector<BeamNode> azimuth_nodes(double beam_width_deg, double elevation_deg,
                                                   double turn_deg, double per_deviation);
 [[nodiscard]] std::vector<BeamNode> range_nodes(double pulse_length_m);
 
-// Returns every feature as weather of its own, so that its discs, ceiling and points are its own.
-// Their reflectivities still add up.
+// Returns every feature as weather of its own, with its own discs, ceiling and points. Their
+// reflectivities still add up.
 [[nodiscard]] std::vector<Weather> single_features(const Weather& weather);
 
-// Returns how many points for each deviation a feature needs at a range: 0.75 times a power of
-// sqrt(2).
+// Returns how many points for each deviation a feature needs at a range. The result is 0.75 times a
+// power of sqrt(2).
 [[nodiscard]] double points_a_deviation(double beam_width_deg, double range_m, double finest_m);
 
 }  // namespace stormcellar::synth

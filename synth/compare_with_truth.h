@@ -1,9 +1,10 @@
-// synth/compare_with_truth.h -- how far grids are from the truth of a simulated scene.
+// synth/compare_with_truth.h -- measures how far grids are from the truth of a simulated scene.
 //
-// The difference is sampling error: what the radar did not see, and what the storm did during the
-// volume. The truth is taken at each cell's center, in the middle of the volume's time. A cell
-// counts if it holds a value and the truth there is above the weakest echo (-20 dBZ).
-// Thread contract: one thread; it starts as many threads as the scene has.
+// The difference is sampling error: echo that the radar did not see, and changes of the storm
+// during the volume. The truth is taken at each cell's center, in the middle of the volume's time.
+// A cell counts if it holds a value and the truth there is above the weakest echo (-20 dBZ).
+//
+// Threads   One thread; it starts as many threads as the scene has.
 #pragma once
 
 #include <string>
@@ -24,8 +25,8 @@ struct TruthRow {
     double echo_invented = 0;  // share of the cells above 5 dBZ with a truth below -5 dBZ
 };
 
-// One row for each chain of the ladder whose beam is that of the simulation. Errors: those of
-// gridding.
+// Returns one row for each chain of the ladder whose beam is that of the simulation. Errors: those
+// of gridding.
 [[nodiscard]] Result<std::vector<TruthRow>> compare_with_truth(grid::GridScene& scene,
                                                                const Scene& truth,
                                                                std::size_t columns);

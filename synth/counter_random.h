@@ -1,7 +1,7 @@
 // synth/counter_random.h -- random numbers that depend only on their place.
 //
-// A counter-based generator without state gives four words of 32 bits for each (seed, purpose,
-// volume, cut, radial, gate), which are the same in any order and on any number of threads.
+// A stateless, counter-based generator gives four words of 32 bits for each (seed, purpose, volume,
+// cut, radial, gate). The words are the same in any order and on any number of threads.
 //
 // Source    Salmon, Moraes, Dror and Shaw (2011), Parallel random numbers: as easy as 1, 2, 3:
 //           Philox4x32-10. A test checks its published answers.

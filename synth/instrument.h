@@ -1,4 +1,5 @@
-// synth/instrument.h -- what a simulated radar does to the truth. Every effect is off by default.
+// synth/instrument.h -- the effects of a simulated radar on the truth. Every effect is off by
+// default.
 //
 // The values come from the scene's [instrument] table (docs/scenes.md). The formulas are in
 // synth/beam_quadrature.h (beam width, pulse) and synth/synth_effects.h (the rest).
@@ -15,7 +16,7 @@ namespace stormcellar::synth {
 // Ground clutter around the radar.
 struct Clutter {
     double peak_dbz = 50;    // at the radar, in a beam on the horizon
-    double range_m = 30000;  // where it is 10 dBZ
+    double range_m = 30000;  // where clutter is 10 dBZ
     double texture_db = 6;   // standard deviation from place to place
 };
 
@@ -32,7 +33,7 @@ struct Instrument {
     double pulse_length_m = 0;      // in space, c tau; 0: a point in range
     double noise_db = 0;            // deviation of a reflectivity far above the noise; 0: exact
     double velocity_noise_mps = 0;  // the same for a velocity
-    // if off, velocities beyond the Nyquist velocity are shown unchanged
+    // if off, velocities beyond the Nyquist velocity stay unchanged
     bool velocity_folding = false;
     bool range_folding = false;     // if off, no echo comes from beyond the unambiguous range
     double azimuth_jitter_deg = 0;  // largest deviation from the nominal azimuth
@@ -44,7 +45,7 @@ struct Instrument {
 
     // Returns true if a gate is the mean over a volume of air, and not the sample of a point.
     [[nodiscard]] bool has_volume() const { return beam_width_deg > 0 || pulse_length_m > 0; }
-    // Returns true if gates are anything but point samples.
+    // Returns true if gates are more than point samples.
     [[nodiscard]] bool changes_gates() const {
         return has_volume() || noise_db > 0 || velocity_noise_mps > 0 || velocity_folding ||
                range_folding || clutter.has_value();

@@ -67,7 +67,7 @@ class Antenna {
         RadialObserver observer(scene_, beam_, cut, sweep.radials.front(),
                                 {number_, elevation_number, pointings.size()});
         for (std::size_t row = 0; row < pointings.size(); ++row) {
-            // The data are true for the radial's own time, to the millisecond.
+            // The data are valid at the radial's own time, to the millisecond.
             const double t_s =
                 scene_s_ + std::chrono::duration<double>(pointings[row].since_start).count();
             observer.observe(row, pointings[row].number, sweep.radials[row], t_s);
@@ -77,7 +77,7 @@ class Antenna {
     }
 
   private:
-    // Makes one turn of the antenna, without the radials that are lost, and moves to the next cut.
+    // Makes one turn of the antenna, without the lost radials, and moves to the next cut.
     std::vector<Pointing> turn(const Cut& cut, int elevation_number) {
         const Instrument& instrument = scene_.instrument;
         const double spacing_deg = cut.azimuth_spacing_deg;
@@ -113,14 +113,14 @@ class Antenna {
         const double azimuth_deg =
             pointing.azimuth_deg + instrument.azimuth_jitter_deg * off.azimuth;
         const double turned_deg = std::fmod(azimuth_deg + 360, 360);
-        // The float next below 360 would be shown as 360.
+        // The float next below 360 would become 360.
         pointing.azimuth_deg = static_cast<float>(turned_deg) < 360.0F ? turned_deg : 0;
     }
 
     const Scene& scene_;
     int number_;
     UtcTime start_;
-    double scene_s_;  // from the start of the scene to that of the volume
+    double scene_s_;  // from the start of the scene to the start of the volume
     grid::BeamGeometry beam_;
     double elapsed_s_ = 0;
     double azimuth_deg_ = 0;

@@ -3,11 +3,11 @@
 // Without instrument effects (synth/instrument.h), each gate is a point sample of the truth at its
 // center, at the time of its radial, along a beam over an earth of 4/3 radius
 // (stormcellar/grid/beam_geometry.h). Reflectivity below the radar's detection limit
-// (grid/beam/detection_limit.h, with the calibration that the radials carry) is code 0. Velocity is
-// the radial part of the motion of the features, positive away from the radar. It is not aliased;
-// beyond +-63 m/s it is clamped. The spectrum width is 2 m/s wherever there is a velocity. Gates
-// reach as far as the RDA's: to a height of 21.3 km (70,000 ft), reflectivity to 460 km and the
-// rest to 300 km. The first center is at 2,125 m, and gates are 250 m apart.
+// (grid/beam/detection_limit.h, with the calibration of the radials) is code 0. Velocity is the
+// radial part of the motion of the features, positive away from the radar. It is not aliased, and
+// is clamped at +-63 m/s. The spectrum width is 2 m/s wherever there is a velocity. Gates reach as
+// far as those of the RDA: to a height of 21.3 km (70,000 ft), reflectivity to 460 km and the other
+// moments to 300 km. The first center is at 2,125 m, and gates are 250 m apart.
 //
 // The effects come in this order: the mean over the beam and the pulse; clutter; range folding
 // (code 1 in VEL and SW, in Doppler and batch cuts); noise; velocity folding; the detection limit.
@@ -28,7 +28,7 @@ inline constexpr float spectrum_width_mps = 2;
 // Makes volume `number` of the scene, counted from 0.
 [[nodiscard]] level2::Volume observe(const Scene& scene, int number);
 
-// Returns the name as in public data sets: "KTLX20240601_220000_V06".
+// Returns the file name of public data sets: "KTLX20240601_220000_V06".
 [[nodiscard]] std::string volume_file_name(const Scene& scene, int number);
 
 }  // namespace stormcellar::synth

@@ -29,14 +29,14 @@ double range_of(std::size_t gate) {
     return first_gate_m + static_cast<double>(gate_spacing_m) * static_cast<double>(gate);
 }
 
-// Returns the centers of the gates of one cut: where each lies in the plane of its azimuth.
+// Returns the centers of the gates of one cut, in the plane of their azimuth.
 std::vector<grid::EarthPoint> gate_points(const grid::BeamGeometry& beam, const Cut& cut) {
     const double elevation_deg = cut.elevation_deg;
     const std::size_t most = cut.waveform == Waveform::doppler ? most_doppler_gates : most_gates;
     std::vector<grid::EarthPoint> points;
     for (std::size_t gate = 0; gate < most; ++gate) {
         points.push_back(beam.forward({range_of(gate), elevation_deg}));
-        // The number of gates is a multiple of four, as in those of the RDA.
+        // The number of gates is a multiple of four, as for the RDA.
         if (points.back().height_m > observed_height_m && points.size() % 4 == 0) break;
     }
     return points;
@@ -63,7 +63,7 @@ std::uint8_t code_of(double value, const SweepMoment& moment) {
     return static_cast<std::uint8_t>(std::clamp(code, 2.0, 255.0));
 }
 
-// The gates of a ray that may lie inside a disc. They include all gates with echo.
+// The gates of a ray that may be inside a disc. They include all gates with echo.
 struct GateSpan {
     std::size_t first = 0;
     std::size_t end = 0;
@@ -162,8 +162,8 @@ void RadialObserver::aim(const level2::Radial& radial) {
     }
 }
 
-// The first call computes all gates; later calls, as the antenna jitters, only those that may lie
-// over the disc.
+// Computes the points of a part. The first call computes all gates; later calls, as the antenna
+// jitters, compute only those that may be over the disc.
 void RadialObserver::aim(Part& part, double elevation_deg, const Disc& disc) const {
     if (elevation_deg == part.aimed_deg) return;
     const bool first_time = std::isnan(part.aimed_deg);
@@ -251,7 +251,7 @@ void RadialObserver::write_gate(std::size_t row, std::size_t gate, const GateEch
     sw_.codes8[at(sw_)] = folded ? folded_code : code_of(echo.width_mps, sw_);
 }
 
-// This is all that is needed if the instrument has no effects.
+// Observes one radial if the instrument has no effects on gates.
 void RadialObserver::observe_points(std::size_t row, const level2::Radial& radial, double t_s) {
     const Ray axis{radial.azimuth_deg, radial.elevation_deg, 1, 0, points_.size(), &points_};
     const double elevation_cosine = std::cos(radial.elevation_deg * degree);
@@ -277,7 +277,7 @@ void RadialObserver::sample_points(const level2::Radial& radial, double t_s) {
          });
 }
 
-// Every ray of the beam adds what it meets, by its weight; then the mean of each gate is taken.
+// Every ray of the beam adds its echo, by its weight; then the mean of each gate is taken.
 void RadialObserver::sample_beam(const level2::Radial& radial, double t_s) {
     std::fill(sums_.begin(), sums_.end(), BeamSum{});
     for (Part& part : parts_) {

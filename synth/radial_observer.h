@@ -23,14 +23,14 @@ class RadialObserver {
         int cut = 1;              // from 1
         std::size_t radials = 0;  // rows of the sweep
     };
-    // `like` is any radial of the sweep; its calibration decides what is shown.
+    // `like` is any radial of the sweep; its calibration sets the detection limits.
     RadialObserver(const Scene& scene, const grid::BeamGeometry& beam, const Cut& cut,
                    const level2::Radial& like, const Place& place);
 
     // Fills a row. `number` is the radial's number in the full turn, lost radials included.
     void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
 
-    // Returns what was observed. Nothing may be observed after that.
+    // Returns the observed moments. Do not observe anything after that.
     [[nodiscard]] std::vector<level2::SweepMoment> take();
 
   private:

@@ -7,7 +7,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// With larger jitters radials would overtake one another.
+// Larger jitters would let radials overtake one another.
 constexpr TomlRange jitters_deg{0, 0.25};
 
 bool read_switch(TomlTable& table, std::string_view key) {

@@ -78,7 +78,7 @@ class Player {
     }
 
   private:
-    // When a file, or a piece of a file, is due.
+    // The time at which a file, or a piece of a file, is due.
     struct Due {
         double seconds = 0;
         std::size_t item = 0;
@@ -92,7 +92,7 @@ class Player {
     Status play_whole() {
         double due_s = 0;
         for (const Arrival& arrival : arrivals_of(options_.faults, 0, items_.size())) {
-            // A piece that comes after the next one comes at the next one's time.
+            // A piece that comes after the next one takes the next one's time.
             due_s = std::max(due_s, turns_[arrival.piece].start_s);
             if (!wait_until(due_s, arrival.piece)) return {};
             const ReplayItem& item = items_[arrival.piece];
@@ -138,7 +138,7 @@ class Player {
         return {};
     }
 
-    // Writes one piece. The first piece begins the file; after the last one it is forgotten.
+    // Writes one piece. The first piece begins the file; after the last one the file is forgotten.
     Status play_next(std::size_t item) {
         auto place = growing_.find(item);
         if (place == growing_.end()) {
@@ -199,7 +199,7 @@ class Player {
         return to_string(name);
     }
 
-    // Returns how many of its bytes are to be written.
+    // Notes an arrival and its fault. Returns how many of its bytes to write.
     std::size_t note_arrival(const ReplayItem& item, const fs::path& name, std::size_t chunk,
                              const Arrival& arrival, std::size_t bytes) {
         const std::size_t kept = kept_bytes(arrival, bytes);

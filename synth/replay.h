@@ -4,26 +4,26 @@
 //   whole    Each file is written under a dot-name and then renamed, as a script does at the last
 //            chunk of a volume.
 //   growing  Each file is opened, one piece is appended, and the file is closed, again and again,
-//            as by pqact's `FILE -close`.
-//   open     The same without the closing, as by pqact's `FILE`: each file stays open until
+//            like pqact's `FILE -close`.
+//   open     The same without closing, like pqact's `FILE`: each file stays open until
 //            `most_open_files` others were written after it, or to the end.
-//   chunks   There is one file for each piece, DROP/KTLX/494/20220317-000842-001-S, as by pqact's
+//   chunks   There is one file for each piece, DROP/KTLX/494/20220317-000842-001-S, like pqact's
 //            `FILE -close` with the number of the chunk in the name. It is written in place and
-//            closed, as pqact does, without another name before. Station and time are those of the
-//            header (or of the file name, if the header has no station). The volume's number is
-//            that of the header, or the next free one if an earlier volume has it. The first chunk
-//            is S. The last is E if its control word is negative, as at the end of a volume. All
-//            others are I.
+//            closed, as by pqact, never under another name first. Station and time come from the
+//            header (or from the file name, if the header has no station). The volume's number
+//            comes from the header, or is the next free one if an earlier volume has it. The first
+//            chunk is S. The last is E if its control word is negative, as at the end of a volume.
+//            All others are I.
 // synth/replay_pieces.h defines the pieces, synth/replay_faults.h the faults. Gzipped files are
 // unpacked for chunks only.
 //
 // The first piece of a file comes at the time in its header. The others are spread evenly until the
 // same station's next volume begins, over at most `longest_volume_s`. The last volume of a station
-// takes as long as the one before it, and a single one takes `usual_volume_s`. So the volumes of
+// takes as long as the previous one, and a single volume takes `usual_volume_s`. So the volumes of
 // several stations mix, as in a feed. Whole files come at the time in their header. Files without a
 // readable header come last, without waiting, by name.
 //
-// Sources are only read. Nothing that was in the drop directory is ever overwritten.
+// Sources are only read. Files that were already in the drop directory are never overwritten.
 //
 // Memory    The files that are growing at the same time.
 // Threads   One thread at a time; another thread may set `stop`.
@@ -57,10 +57,10 @@ struct ReplayItem {
     bool has_records = false;        // LDM records, maybe inside gzip
 };
 
-// Finds what to play, in the order of replay. Files keep their own names; archives (tar, zip) give
-// their members under their names; directories give all regular files in them under their relative
-// names, without dot-files, which are still being written. Errors: not_found if there is nothing at
-// all; bad_argument if two would get the same name.
+// Finds the files to play, in the order of replay. Files keep their own names. Archives (tar, zip)
+// give their members under their names. Directories give all regular files in them under their
+// relative names, without dot-files, which are still being written. Errors: not_found if there is
+// nothing at all; bad_argument if two would get the same name.
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
 
@@ -71,8 +71,7 @@ enum class Delivery : std::uint8_t { whole, growing, open, chunks };
 
 struct ReplayOptions {
     Delivery delivery = Delivery::whole;
-    // Seconds from one file to the next, one after the other. Without it, the times above are used,
-    // divided by `speed`.
+    // Seconds from one file to the next. If empty, the times above are used, divided by `speed`.
     std::optional<double> interval_s;
     double speed = 1;
     FaultRates faults;
@@ -93,11 +92,11 @@ struct ReplayOptions {
 
 inline constexpr double long_wait_s = 10;
 
-// What a replay is going to do.
+// The plan of a replay.
 struct ReplayPlan {
     std::size_t files = 0;
     std::optional<UtcTime> first, last;  // times of the files; none if no file has one
-    double takes_s = 0;                  // without the time that the work takes
+    double takes_s = 0;                  // without the time of the writing itself
 };
 [[nodiscard]] ReplayPlan plan_replay(const std::vector<ReplayItem>& items,
                                      const ReplayOptions& options);
@@ -110,21 +109,21 @@ struct FaultMade {
     std::filesystem::path name;
     std::size_t chunk = 0;         // from 1, within the source; 0: the whole file
     std::uint64_t bytes = 0;       // its size
-    std::uint64_t kept_bytes = 0;  // bytes written of it: fewer if truncated, none if dropped
+    std::uint64_t kept_bytes = 0;  // bytes that were written: fewer if truncated, none if dropped
 };
 
 struct ReplayReport {
     std::size_t files = 0;    // files that are finished
-    std::size_t writes = 0;   // of pieces, or of whole files
+    std::size_t writes = 0;   // number of pieces or of whole files written
     std::uint64_t bytes = 0;  // written
     bool stopped = false;
-    std::vector<std::filesystem::path> unfinished;  // that were growing when it was stopped
+    std::vector<std::filesystem::path> unfinished;  // still growing when the replay stopped
     std::vector<FaultMade> faults;                  // in the order in which they were made
 };
 
 // Plays the items. Errors before anything is written: io if a file of that name exists;
 // bad_argument for chunks of a file that holds no LDM records, or whose time or station are
-// unknown. Later errors are those of reading or writing; what was written before stays.
+// unknown. Later errors are those of reading or writing; files written before stay.
 [[nodiscard]] Result<ReplayReport> replay(const std::vector<ReplayItem>& items,
                                           const std::filesystem::path& drop,
                                           FileSystem& file_system, const ReplayOptions& options);

@@ -1,13 +1,12 @@
-// synth/replay_faults.h -- makes faults on purpose on the way to a drop directory.
+// synth/replay_faults.h -- makes deliberate faults on the way to a drop directory.
 //
-// The unit of a fault is an element of a row: a piece of a file if files come piece by piece, else
-// a file, in order.
-//   drop      It never comes. In a file that grows, its bytes are missing in the middle.
+// A fault affects an element of a row: a piece of a file if files come piece by piece, else a file.
+//   drop      The element never comes. In a file that grows, its bytes are missing in the middle.
 //   repeat    It comes a second time after itself: it is appended again, or its file is written
 //             again with the same bytes.
 //   reorder   It comes after the next element of its row.
 //   truncate  Its last bytes are missing: a random number, at least one and not all.
-// Each element has at most one fault, and one that a reordered element comes after has none. The
+// Each element has at most one fault, and the element that a reordered one follows has none. The
 // last element of a row is not reordered, and a piece of less than two bytes is not truncated.
 // Random numbers depend only on the seed and on the place in the row, so the same sources give the
 // same faults at any speed.
@@ -34,7 +33,7 @@ struct FaultRates {
 };
 
 // Parses "drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7": any of these, each at most
-// once. Errors: bad_argument, with what is wrong and what is allowed.
+// once. Errors: bad_argument; the message says what is wrong and what is allowed.
 [[nodiscard]] Result<FaultRates> parse_fault_rates(std::string_view text);
 
 // One write. A dropped element is listed too, with nothing to write.
@@ -45,10 +44,10 @@ struct Arrival {
     double kept = 1;     // share of its bytes, in (0, 1)
 };
 
-// Returns the writes in the order in which they come. `row` is the number of the row.
+// Returns the writes in their order. `row` is the number of the row.
 [[nodiscard]] std::vector<Arrival> arrivals_of(const FaultRates& rates, std::uint32_t row,
                                                std::size_t pieces);
-// Returns how many of these bytes are left: all of them unless it was truncated.
+// Returns how many of these bytes are kept: all of them unless the element was truncated.
 [[nodiscard]] std::size_t kept_bytes(const Arrival& arrival, std::size_t bytes);
 
 }  // namespace stormcellar::synth

@@ -1,4 +1,4 @@
-// find_replay_items(): finds what there is to play, and in which order.
+// find_replay_items() finds the files to play, and their order.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -122,7 +122,7 @@ Result<std::vector<ReplayItem>> find_replay_items(const std::vector<fs::path>& s
                         item.source.native());
         }
         std::error_code ignored;
-        // For members it is known already.
+        // The start of a member was already read.
         if (fs::exists(item.source, ignored)) read_start(item);
     }
     std::sort(items.begin(), items.end(), earlier);

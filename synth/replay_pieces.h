@@ -10,9 +10,9 @@
 
 namespace stormcellar::synth {
 
-// Returns where the pieces of a file end, rising; the last one is its size. A piece is an LDM
-// record; the first one includes the header before it, and a second header also begins a piece. A
-// file without LDM records comes in sixteenths.
+// Returns the ends of the pieces of a file, rising; the last one is the file's size. A piece is an
+// LDM record. The first one includes the header before it, and a second header also begins a piece.
+// A file without LDM records comes in sixteenths.
 [[nodiscard]] std::vector<std::size_t> piece_ends(std::span<const std::byte> bytes);
 
 // Returns true if LDM records begin here or after a header.

@@ -29,14 +29,14 @@ std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
     if (options.interval_s) return one_by_one(items.size(), *options.interval_s);
     struct Newest {
         std::size_t item = 0;
-        double span_s = 0;  // of the volume before
+        double span_s = 0;  // of the previous volume
     };
     std::map<std::string, Newest> newest;  // by station
     std::vector<ReplayTurn> turns(items.size());
     double start_s = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
         const ReplayItem& item = items[i];
-        if (!item.time) {  // after all that have a time
+        if (!item.time) {  // after all items that have a time
             turns[i].start_s = start_s;
             continue;
         }

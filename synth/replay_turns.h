@@ -1,4 +1,5 @@
-// synth/replay_turns.h -- when each file of a replay begins, how long it takes, and its name.
+// synth/replay_turns.h -- computes when each file of a replay begins, how long it takes, and its
+// name.
 //
 // Threads   Pure functions.
 #pragma once
@@ -10,10 +11,10 @@
 
 namespace stormcellar::synth {
 
-// In seconds of the replay.
+// Times in seconds of the replay.
 struct ReplayTurn {
     double start_s = 0;
-    double span_s = 0;  // from its first piece to when the piece after its last would come
+    double span_s = 0;  // from its first piece to the time of a piece after its last
 };
 [[nodiscard]] std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
                                                const ReplayOptions& options);

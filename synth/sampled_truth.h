@@ -1,13 +1,13 @@
 // synth/sampled_truth.h -- samples the truth of a scene at places on the earth and times of the
-// clock, at places as its radar has them, and as velocity seen from any site.
+// clock, at places as seen from its radar, and as velocity seen from any site.
 //
 // Units     Degrees (WGS84), meters, heights above mean sea level, m/s positive away from the site.
-// Model     The weather lies in the azimuthal equidistant plane about the scene's radar
+// Model     The weather is in the azimuthal equidistant plane about the scene's radar
 //           (stormcellar/grid/site_frame.h), so azimuth and arc from there are exact. East and
 //           north of a motion are those of that plane. Radial velocity is the horizontal motion
 //           times the cosine of the elevation at the antenna, as in synth/observe.h. From a site
-//           other than the scene's, the direction is that in the plane, whose scale errs by (arc /
-//           earth radius)^2 / 6 across the radius: 0.02 % at 230 km.
+//           other than the scene's, the direction is the direction in the plane, whose scale errs
+//           by (arc / earth radius)^2 / 6 across the radius: 0.02 % at 230 km.
 // Accuracy  1e-6 m in place within 500 km, and that of synth/truth.h. Enforced by
 //           tests/synth/sampled_truth_test.cpp.
 // Threads   Immutable; the scene must outlive it.
@@ -25,7 +25,8 @@ struct Place {
     double height_m = 0;
 };
 
-// A point as the gridder has it: in the vertical plane of an azimuth from the scene's radar.
+// A point in the coordinates of the gridder: in the vertical plane of an azimuth from the scene's
+// radar.
 struct PolarPlace {
     double azimuth_deg = 0;
     double arc_m = 0;  // along the earth at sea level
@@ -46,11 +47,11 @@ class SampledTruth {
     [[nodiscard]] Echo at(const Place& place, UtcTime time) const;
     [[nodiscard]] Echo at(const PolarPlace& place, UtcTime time) const;
 
-    // Returns what a radar without instrument effects would measure there, without aliasing, or
-    // none if there is no echo. The height of `site` is that of its antenna.
+    // Returns the velocity that a radar without instrument effects would measure there, without
+    // aliasing, or none if there is no echo. The height of `site` is that of its antenna.
     [[nodiscard]] std::optional<double> radial_velocity_mps(const Place& place, const Place& site,
                                                             UtcTime time) const;
-    // The same from the scene's radar.
+    // Does the same for the scene's radar.
     [[nodiscard]] std::optional<double> radial_velocity_mps(const PolarPlace& place,
                                                             UtcTime time) const;
 

@@ -14,7 +14,7 @@
 
 namespace stormcellar::synth {
 
-// What a gate returns, with each part weighted by its reflectivity in mm^6/m^3.
+// The echo of a gate, with each part weighted by its reflectivity in mm^6/m^3.
 struct GateEcho {
     double dbz = 0;
     double away_mps = 0;
@@ -35,14 +35,14 @@ struct GateEcho {
 [[nodiscard]] double velocity_deviation_mps(double dbz, double noise_level_dbz,
                                             double velocity_noise_mps);
 
-// Returns the velocity that is shown: in [-nyquist, nyquist), off by a multiple of 2 nyquist.
+// Returns the aliased velocity: in [-nyquist, nyquist), off by a multiple of 2 nyquist.
 [[nodiscard]] double wrapped_mps(double velocity_mps, double nyquist_mps);
 
-// Returns which gates are folded, because echo of several trips overlaps. The gates belong to one
+// Returns which gates are folded because echo of several trips overlaps. The gates belong to one
 // radial and are equally spaced; `power` is Z over the square of the range. A gate is folded if its
-// own power is less than `threshold_db` above the sum of the powers that arrive with it: those at
-// all whole multiples of the unambiguous range away, to the nearest gate. Echo beyond the last gate
-// does not come back.
+// own power is less than `threshold_db` above the sum of the powers that arrive with it. These come
+// from all gates whole multiples of the unambiguous range away, to the nearest gate. Echo beyond
+// the last gate does not come back.
 [[nodiscard]] std::vector<bool> overlaid_gates(std::span<const double> power, double gates_a_trip,
                                                double threshold_db);
 
@@ -62,19 +62,21 @@ struct ClutterBeam {
 [[nodiscard]] double clutter_reach_m(const Clutter& clutter);
 inline constexpr double clutter_width_mps = 0.3;  // of its spectrum, around 0 m/s
 
-// Returns the sum of two echoes: reflectivities add in mm^6/m^3; velocity and squared width are
+// Returns the sum of two echoes. Reflectivities add in mm^6/m^3; velocity and squared width are
 // those of the sum of the two spectra.
 [[nodiscard]] GateEcho sum_of(const GateEcho& a, const GateEcho& b);
 
-// The antenna's deviation at a time after the start of its cut, at most 1 in either direction: the
-// mean of three sines of 7.3, 3.1 and 1.7 seconds, with phases of their own in each cut and volume.
+// The antenna's deviation at a time after the start of its cut, at most 1 in either direction. It
+// is the mean of three sines of 7.3, 3.1 and 1.7 seconds, with phases of their own in each cut and
+// volume.
 struct Jitter {
     double azimuth = 0;
     double elevation = 0;
 };
 [[nodiscard]] Jitter jitter_at(std::uint32_t seed, int volume, int cut, double since_start_s);
 
-// Tells whether a radial is lost. Cuts count from 1, radials from 0 in the order of the sweep.
+// A place at which a radial may be lost. Cuts count from 1, radials from 0 in the order of the
+// sweep.
 struct RadialPlace {
     int volume = 0;
     int cut = 1;

@@ -10,7 +10,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// No value of a scene is beyond these.
+// The limits of the values of a scene.
 constexpr TomlRange places_km{-1000, 1000};
 constexpr TomlRange lengths_km{0.05, 1000};
 constexpr TomlRange heights_km{0, 30};
@@ -18,8 +18,7 @@ constexpr TomlRange speeds_mps{-200, 200};
 constexpr TomlRange peaks_dbz{edge_dbz + 1, 90};
 constexpr double km = 1000;
 
-// Reads a required key. If it is missing or wrong, that is recorded as a complaint, and the least
-// value is used.
+// Reads a required key. If it is missing or wrong, notes a complaint and uses the least value.
 double needed_number(TomlTable& table, std::string_view key, TomlRange range) {
     if (!table.has(key)) table.complain(key, "is missing");
     return table.number(key, range).value_or(range.least);
@@ -72,7 +71,8 @@ Site read_site(TomlTable radar) {
     const auto known = find_station(site.station);
     const auto read = [&](std::string_view key, TomlRange range, double Station::*field) {
         if (known) return radar.number(key, range).value_or((*known).*field);
-        // A radar with a wrong name would only seem to have no position.
+        // With a wrong name, a missing position would not be the real problem, so no position is
+        // required.
         return named ? needed_number(radar, key, range) : radar.number(key, range).value_or(0);
     };
     site.latitude_deg = read("latitude_deg", {-90, 90}, &Station::latitude_deg);
@@ -204,7 +204,7 @@ Storm read_storm(TomlTable& table) {
     return storm;
 }
 
-// What layers and boxes have in common: where they are, from where to where, and how strong.
+// Reads the keys that layers and boxes share: footprint, base and top, and strength.
 template <class Echo>
 Echo read_slab(TomlTable& table) {
     Echo echo;
@@ -241,7 +241,7 @@ Box read_box(TomlTable& table) {
     return box;
 }
 
-// Returns where the radar stands in the plane about the weather's own origin; none: the radar is
+// Returns the place of the radar in the plane about the weather's own origin; none if the radar is
 // the origin.
 std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
     const bool has_latitude = weather.has("latitude_deg");
@@ -255,7 +255,7 @@ std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
     return stand_of(site, *latitude_deg, *longitude_deg);
 }
 
-// Scenes of pictures are .toml files too.
+// Refuses scenes of pictures, which are .toml files too.
 Status check_kind(const TomlTable& root, const std::string& name) {
     if (root.has("radar")) return {};
     for (const char* section : {"picture", "camera", "light", "volume", "labels", "plan", "loop"}) {

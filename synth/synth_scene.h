@@ -1,10 +1,10 @@
-// synth/synth_scene.h -- what a simulated radar sees: one site, its schedule and the weather.
+// synth/synth_scene.h -- the input of a simulated radar: one site, its schedule and the weather.
 //
 // A scene is read from TOML; docs/scenes.md has every key, with units and defaults.
 //
 // Units     Each member names its unit.
 // Threads   Plain data and pure functions.
-// Errors    bad_argument, naming the file, the line and the key; those of reading the file.
+// Errors    bad_argument, with the file, the line and the key; those of reading the file.
 #pragma once
 
 #include <filesystem>
@@ -42,11 +42,11 @@ struct Scene {
     Instrument instrument;
 };
 
-// Returns where a radar stands in the plane of weather whose origin is that place. So two scenes
-// with one origin are two radars that look at the same weather.
+// Returns the place of a radar in the plane of weather whose origin is at the given position. So
+// two scenes with one origin are two radars that see the same weather.
 [[nodiscard]] Stand stand_of(const Site& site, double latitude_deg, double longitude_deg);
 
-// `name` stands for the file in messages.
+// Parses a scene. `name` stands for the file in messages.
 [[nodiscard]] Result<Scene> parse_scene(std::string_view toml, const std::string& name);
 [[nodiscard]] Result<Scene> read_scene(const std::filesystem::path& path);
 

@@ -29,7 +29,7 @@ Offset turned(const Offset& offset, double turn_deg) {
             offset.north_m * cosine - offset.east_m * sine};
 }
 
-// Moves a footprint into the plane of a radar that stands there.
+// Moves a footprint into the plane of a radar at `stand`.
 void move(Footprint& footprint, const Stand& stand) {
     const Offset place =
         turned({footprint.x_m - stand.x_m, footprint.y_m - stand.y_m}, -stand.turn_deg);
@@ -62,8 +62,8 @@ Offset offset_from(const Footprint& footprint, const Point& point, double t_s,
             point.y_m - footprint.y_m - footprint.motion.north_mps * t_s - lean.north_m};
 }
 
-// Returns a lower bound of squared_radii(): its value if the larger axis held all round. It saves
-// the rotation for most points.
+// Returns a lower bound of squared_radii(): its value if the larger axis applied in all directions.
+// It saves the rotation for most points.
 double least_squared_radii(const Footprint& footprint, const Offset& offset) {
     return (square(offset.east_m) + square(offset.north_m)) /
            square(std::max(footprint.major_m, footprint.minor_m));
@@ -107,7 +107,7 @@ double storm_dbz(const Storm& storm, const Offset& offset, double z_m) {
 // `from_center_m` is the point's distance from the center of the circle.
 double distance_to_arc(const Hook& hook, double east_m, double north_m, double from_center_m) {
     const double azimuth_deg = std::atan2(east_m, north_m) / degree;
-    // Clockwise from the beginning of the arc, 0 to 360.
+    // The turn is clockwise from the beginning of the arc, 0 to 360.
     const double turn_deg =
         azimuth_deg - hook.from_deg - 360 * std::floor((azimuth_deg - hook.from_deg) / 360);
     if (turn_deg <= hook.to_deg - hook.from_deg) return std::abs(from_center_m - hook.radius_m);
@@ -126,7 +126,7 @@ double hook_dbz(const Hook& hook, const Offset& offset, double z_m) {
         const double fall = square(distance_m / hook.width_m) + square(z_m / hook.top_m);
         return hook.peak_dbz - (hook.peak_dbz - edge_dbz) * fall;
     };
-    // The arc is nowhere nearer than its circle.
+    // No point of the arc is nearer than its circle.
     if (dbz_at(from_center_m - hook.radius_m) < weakest_dbz) return nothing;
     return dbz_at(distance_to_arc(hook, east_m, north_m, from_center_m));
 }

@@ -5,17 +5,18 @@
 //
 // Each feature has its own reflectivity, and ends where that falls below -20 dBZ. Where features
 // overlap, their reflectivities add as mm^6/m^3.
-//   storm   peak - (peak - 10) (r^2 + h^2) + ripple r is the distance from the axis in units of the
-//           radii. The axis leans with height by `tilt` and is at (x, y) at the height of the core.
-//           h = (z - core) / (top - core) above the core, 0 below. So a storm has 10 dBZ at its
-//           radii and at its top.
-//   hook    dbz - (dbz - 10) ((d / width)^2 + (z / top)^2) d is the horizontal distance from an arc
-//           of a circle, which moves and leans with its storm.
+//   storm   peak - (peak - 10) (r^2 + h^2) + ripple
+//           r is the distance from the axis in units of the radii. The axis leans with height by
+//           `tilt` and is at (x, y) at the height of the core. h = (z - core) / (top - core) above
+//           the core, 0 below. So a storm has 10 dBZ at its radii and at its top.
+//   hook    dbz - (dbz - 10) ((d / width)^2 + (z / top)^2)
+//           d is the horizontal distance from an arc of a circle, which moves and leans with its
+//           storm.
 //   layer   dbz - (dbz - 10) r^4 + bright_band exp(-((z - melting) / depth)^2)
 //             - lapse max(0, z - melting) + ripple, only between base and top
-//   box     dbz - (dbz - 10) (d / edge)^2 + wave sin(2 pi s / length), only between base and top d
-//           is the horizontal distance from the rectangle, s the distance from its center along an
-//           azimuth. So a box is flat, has 10 dBZ at `edge` beyond its sides, and is cut off
+//   box     dbz - (dbz - 10) (d / edge)^2 + wave sin(2 pi s / length), only between base and top
+//           d is the horizontal distance from the rectangle, s the distance from its center along
+//           an azimuth. So a box is flat, has 10 dBZ at `edge` beyond its sides, and is cut off
 //           sharply at its base and its top.
 //
 // Units     Meters, seconds, m/s, dBZ, degrees. x points east and y north of the origin of the
@@ -33,7 +34,7 @@
 namespace stormcellar::synth {
 
 inline constexpr double edge_dbz = 10;      // of a feature at its radii
-inline constexpr double weakest_dbz = -20;  // a feature ends here
+inline constexpr double weakest_dbz = -20;  // a feature ends below this
 // where there is no feature
 inline constexpr double no_echo_dbz = -std::numeric_limits<double>::infinity();
 
@@ -48,7 +49,7 @@ struct Motion {
     double north_mps = 0;
 };
 
-// An upright ellipse in the plane, which drifts.
+// An upright elliptic column, which drifts over the plane.
 struct Footprint {
     double x_m = 0;  // the center at t = 0
     double y_m = 0;
@@ -66,7 +67,7 @@ struct Ripple {
 };
 
 // The arc of a hook echo, seen from its storm's axis.
-struct Hook {        // The arc of a hook echo, as seen from the axis of its storm.
+struct Hook {
     double x_m = 0;  // center of the circle, east and north of the axis
     double y_m = 0;
     double radius_m = 5000;
@@ -123,37 +124,37 @@ struct Weather {
     std::vector<Box> boxes = {};
 };
 
-// Where another radar stands in the plane, and how far its north is turned clockwise from the
-// plane's y, because meridians converge.
+// The place of another radar in the plane, and the angle by which its north is turned clockwise
+// from the plane's y, because meridians converge.
 struct Stand {
     double x_m = 0;
     double y_m = 0;
     double turn_deg = 0;
 };
 // Returns the same weather in the plane about that radar, as if both planes were one. The error is
-// the difference of their scales across the radius, (arc / earth radius)^2 / 6: 50 m where both
-// radars are 200 km away.
+// the difference of their scales across the radius, (arc / earth radius)^2 / 6: 50 m if both radars
+// are 200 km away.
 [[nodiscard]] Weather seen_from(const Weather& weather, const Stand& stand);
 
-// Returns the reflectivity, or minus infinity where there is nothing.
+// Returns the reflectivity, or minus infinity if there is nothing.
 [[nodiscard]] double truth_dbz(const Weather& weather, const Point& point, double t_s);
 
-// What a radar measures at a point: the reflectivity and the motion of the features there, each
-// weighted by its reflectivity in mm^6/m^3; zero where there is nothing.
+// The measurement of a radar at a point: the reflectivity and the motion of the features there,
+// each weighted by its reflectivity in mm^6/m^3; zero if there is nothing.
 struct Echo {
     double dbz = 0;
     Motion motion;
 };
 [[nodiscard]] Echo truth(const Weather& weather, const Point& point, double t_s);
 
-// The same with the reflectivity in mm^6/m^3, 0 where there is nothing.
+// An echo with its reflectivity in mm^6/m^3, which is 0 if there is nothing.
 struct LinearEcho {
     double z_mm6_m3 = 0;
     Motion motion;
 };
 [[nodiscard]] LinearEcho linear_truth(const Weather& weather, const Point& point, double t_s);
 
-// Discs, one for each feature, that contain everything at a time, at any height. Beyond them
+// Discs, one for each feature, that contain all echo at a time, at any height. Outside them
 // truth_dbz() is minus infinity.
 struct Disc {
     double x_m = 0;

@@ -10,7 +10,7 @@ namespace {
 constexpr double elevation_step_deg = 180.0 / 32768;
 constexpr double rate_step_deg_s = 22.5 / 16384;
 
-// By number of the PRF, from the radial blocks of real volumes of one radar.
+// The facts of each PRF by its number, from the radial blocks of real volumes of one radar.
 struct PrfFacts {
     float unambiguous_range_m;
     float nyquist_mps;
@@ -30,8 +30,8 @@ constexpr auto doppler = Waveform::doppler;
 constexpr auto batch = Waveform::batch;
 constexpr auto high = Waveform::doppler_without_ambiguity;
 
-// One line of a pattern as in message 5: the rate in its units, the threshold in eighths of a
-// decibel.
+// One line of a pattern as in message 5, with the rate in its units and the threshold in eighths of
+// a decibel.
 struct Line {
     double elevation_deg;
     Waveform waveform;
@@ -93,7 +93,7 @@ constexpr Line lines_215[] = {
     {16.6992, high, 18672, 0, 0, 8, 50, 8},        {19.5117, high, 18672, 0, 0, 8, 50, 8},
 };
 
-// Returns a PRF of the table, whatever the scene says.
+// Returns a PRF of the table, whatever number the scene gives.
 const PrfFacts& facts_of(const Cut& cut) {
     const int number = has_velocity(cut) ? cut.doppler_prf : cut.surveillance_prf;
     return prf_facts[static_cast<std::size_t>(std::clamp(number, 0, 8))];
@@ -104,7 +104,7 @@ std::array<std::uint8_t, 22> doppler_sectors(const Cut& cut) {
     std::array<std::uint8_t, 22> rest{};
     if (!has_velocity(cut)) return rest;
     constexpr std::array<std::uint16_t, 3> edges = {0x1558, 0x9558, 0xEE38};
-    // A sector has an edge, a PRF and pulses. Two spare bytes follow each sector but the first.
+    // A sector has an edge, a PRF and pulses. Two spare bytes follow each sector except the first.
     constexpr std::array<std::size_t, 3> places = {0, 6, 14};
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const std::size_t at = places[i];

@@ -1,9 +1,8 @@
 // synth/vcp.h -- the volume coverage patterns that simulated radars run.
 //
-// Angles, rates, pulses, PRFs and thresholds of the built-in patterns are those of message 5 in
-// real volumes: 212 (2015, precipitation, 17 cuts in 4.7 minutes), 215 (2020, 18 cuts in 6.1
-// minutes) and 35 (2022, clear air, 12 cuts in 7.2 minutes). The lowest three angles are split
-// cuts.
+// Angles, rates, pulses, PRFs and thresholds of the built-in patterns come from message 5 in real
+// volumes: 212 (2015, precipitation, 17 cuts in 4.7 minutes), 215 (2020, 18 cuts in 6.1 minutes)
+// and 35 (2022, clear air, 12 cuts in 7.2 minutes). The lowest three angles are split cuts.
 //
 // Threads   Plain data and pure functions.
 #pragma once
@@ -48,13 +47,13 @@ struct Pattern {
 [[nodiscard]] const Pattern* find_pattern(int number);
 [[nodiscard]] std::span<const int> pattern_numbers();
 
-// Return what the PRFs of a cut give.
+// Return the consequences of the PRFs of a cut.
 [[nodiscard]] float nyquist_mps(const Cut& cut);
 [[nodiscard]] float unambiguous_range_m(const Cut& cut);
 [[nodiscard]] bool has_velocity(const Cut& cut);
 
-// The time from the first radial of a cut to the first of the next is the turn, and this move of
-// the antenna.
+// The time from the first radial of a cut to the first radial of the next is the time of the turn
+// plus this time, in which the antenna moves.
 inline constexpr double move_s = 1.2;
 [[nodiscard]] double duration_s(const Cut& cut);
 [[nodiscard]] double duration_s(const Pattern& pattern);
