@@ -72,7 +72,7 @@ Result<Part> split_part(std::string_view text) {
     }
     const std::string_view behind =
         trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-    // Written so that NaN is refused too, without comparing it.
+    // The test also refuses NaN, without comparing it.
     if (error != std::errc{} || !std::isfinite(part.number) || std::signbit(part.number)) {
         return fail(ErrorCode::bad_argument,
                     "\"{}\" in the budget must be a finite number and not negative",
@@ -98,7 +98,7 @@ Status take_part(std::string_view text, Budget& budget) {
             "\"{}\" in the budget has {}; the units are m, km, dB, m/s, deg, ratio, dE, ms and s",
             printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
     }
-    // This is tested beforehand, because floating-point traps must not see an overflow.
+    // Tested beforehand, because floating-point traps must not see an overflow.
     if (part->number > std::numeric_limits<double>::max() / unit->multiply) {
         return fail(ErrorCode::bad_argument, "\"{}\" in the budget is too large", printable(text));
     }

@@ -35,7 +35,7 @@ bool comes_before(const Candidate& a, const Candidate& b, bool by_cost) {
     return a.choice.rungs > b.choice.rungs;
 }
 
-// Returns true if the choice leaves off an effect that could be on and whose size has no bound.
+// Returns true if the choice leaves off an effect of unbounded size that could be on.
 bool is_reckless(const Chain& chain, const Choice& choice, const std::vector<RungRange>& ranges) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         for (std::size_t k = choice.rungs[i]; k < ranges[i].most; ++k) {

@@ -53,8 +53,8 @@ Status validate_joint_costs(const Chain& chain) {
     return {};
 }
 
-// Returns the figure of the cheapest choice, plus that of each effect that is on and of each joint
-// cost.
+// Returns the figure of the cheapest choice, plus the figures of all effects that are on and of all
+// joint costs.
 template <class Figure>
 double sum_over(const Chain& chain, const Choice& choice, double cheapest, const Figure& figure) {
     double sum = cheapest;

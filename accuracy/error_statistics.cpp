@@ -7,7 +7,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Sums of weights and products with q may be off by this much, which must not cost a rank.
+// Sums of weights, and products with q, may be off by this much, which must not cost a rank.
 constexpr double share_slack = 1e-12;
 
 struct Weighted {

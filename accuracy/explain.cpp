@@ -33,7 +33,7 @@ std::string wrapped(std::string_view words) {
     return text;
 }
 
-// Returns a share of the budget as text. A budget of a time alone has no shares.
+// Returns a share of the budget as text; "-" for a budget of a time alone, which has no shares.
 std::string percent(const Plan& plan, double share) {
     if (!plan.budget.bounds_errors()) return "-";
     if (std::isinf(share)) return "over";

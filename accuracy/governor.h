@@ -7,17 +7,17 @@
 //                  that shows no effect is no proof),
 //   by measuring   if the measured upper bound is within the limit.
 // A choice that leaves nothing off, or is proven in every bounded quantity, is not measured. If the
-// sample is too small for a bound, the limit is not met, so that no choice passes by luck. When all
-// but one of `most_measured` choices have failed, the most accurate choice of all is tried instead
-// of the rest.
+// sample is too small for a bound, the limit is not met, so that no choice passes by luck. After
+// all but one of `most_measured` choices have failed, the most accurate choice of all is tried
+// instead of the next one.
 //
 // The time for measuring counts toward a budget's time: a choice is taken only if its cost and the
 // time measured so far fit. A budget of a time alone is planned and not measured.
 //
-// Units     Those of stormcellar/accuracy/budget.h.
-// Threads   Calls `measure` from the calling thread, one at a time.
-// Errors    Those of plan() and of `measure`. A budget that is not met is not an error but a plan
-//           (stormcellar/accuracy/plan.h).
+// Units     As in stormcellar/accuracy/budget.h.
+// Threads   Calls `measure` from the calling thread, one call at a time.
+// Errors    Those of plan() and of `measure`. A budget that cannot be met is not an error but a
+//           plan (stormcellar/accuracy/plan.h).
 #pragma once
 
 #include <functional>

@@ -48,7 +48,7 @@ std::string without_zero(std::string text) {
     return text;
 }
 
-// "costs 6 times the time of linear".
+// Returns a text such as "costs 6 times the time of linear".
 std::string costs(const Rung& rung, const Rung& base) {
     const double ratio = rung.time_s / base.time_s;
     if (ratio >= 1.95)
@@ -64,7 +64,7 @@ std::string error_in_words(const Rung& rung, ValueUnit unit) {
     return fmt::format("{} {}", format_number(rung.error), name_of(unit));
 }
 
-// "halves the error".
+// Returns a text such as "halves the error".
 std::string gains(const Rung& rung, const Rung& base, ValueUnit unit) {
     if (rung.error <= 0) return "leaves no error";
     const double ratio = base.error / rung.error;
@@ -77,8 +77,8 @@ std::string gains(const Rung& rung, const Rung& base, ValueUnit unit) {
                        error_in_words(rung, unit));
 }
 
-// How much the error falls for the time, both as powers. An exact form is the end of every ladder
-// and no bargain, so it counts only if nothing else is there.
+// Returns the ratio of the fall of the error to the rise of the time, both as powers. An exact form
+// is the end of every ladder and no bargain, so it counts only if there is nothing else.
 double bargain(const Rung& rung, const Rung& base) {
     if (rung.error <= 0) return 0;
     return std::log(base.error / rung.error) / std::log(std::max(1.01, rung.time_s / base.time_s));
@@ -97,7 +97,7 @@ LadderMessage message_of(std::span<const LadderRow> rows, std::string_view step,
     std::ranges::stable_sort(rungs, {}, &Rung::time_s);
     const auto marked = std::ranges::find(rungs, true, &Rung::is_default);
     const Rung base = marked == rungs.end() ? rungs.front() : *marked;
-    // What is slower, more accurate and worth it, from fast to slow: each is better than the last.
+    // The slower, more accurate rungs, from fast to slow; each is better than the last.
     std::vector<Rung> better;
     for (const Rung& rung : rungs) {
         const double last = better.empty() ? base.error : better.back().error;
@@ -107,7 +107,7 @@ LadderMessage message_of(std::span<const LadderRow> rows, std::string_view step,
     if (better.empty())
         return {std::string(step),
                 fmt::format("no slower rung has a smaller error than {}", base.name), ""};
-    // A gain of less than a tenth is none to speak of.
+    // A gain of less than a tenth is too small to mention.
     const auto step_up = std::ranges::find_if(
         better, [&](const Rung& rung) { return rung.error <= least_gain * base.error; });
     const auto best = step_up == better.end() ? better.begin() : step_up;

@@ -1,4 +1,5 @@
-// The ladder as a table for people: its columns have words, and it fits 100 columns of a terminal.
+// The ladder as a table for people: its columns have words as headings, and it fits 100 columns of
+// a terminal.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -21,7 +22,8 @@ std::size_t width_of(const std::string& text) {
     }));
 }
 
-// At most so many characters; what is cut ends with a period for each of three.
+// Returns at most this many characters. A text that is cut ends with periods in place of its last
+// three.
 std::string shortened(const std::string& text, std::size_t most) {
     if (width_of(text) <= most) return text;
     std::string out;
@@ -35,7 +37,7 @@ std::string shortened(const std::string& text, std::size_t most) {
 
 using Cell = std::optional<std::string>;
 
-// A column of figures: two lines of heading, and what a row has in it.
+// A column of figures: two lines of heading, and the figure of a row.
 struct Heading {
     const char* upper;
     const char* lower;  // {} stands for the unit of the values

@@ -20,9 +20,9 @@ constexpr int shape_count = 5;
 constexpr double front_width = 1.5;
 constexpr double main_front_width = 3;
 constexpr double title_size = 17;
-constexpr double bold_width = 0.62;  // of a letter, as a share of its size
+constexpr double bold_width = 0.62;  // width of a letter, as a share of its size
 
-// Escapes the special characters of XML, and replaces those that XML does not allow.
+// Escapes the special characters of XML, and replaces characters that XML does not allow.
 std::string escaped(std::string_view text) {
     std::string safe;
     const std::string clean = printable(text);
@@ -122,7 +122,7 @@ std::string draw_axes(const Plot& plot, const PlotLayout& layout) {
     return svg;
 }
 
-// The largest size up to title_size at which the title fits.
+// Returns the largest size, up to title_size, at which the title fits.
 double size_of_title(const Plot& plot) {
     const auto letters = static_cast<double>(std::max<std::size_t>(1, plot.title.size()));
     return std::clamp((plot.width - 24) / (letters * bold_width), 9.0, title_size);

@@ -26,9 +26,9 @@ struct PlotPoint {
 };
 
 struct Plot {
-    std::string title;               // what the plot says; its letters shrink if it is long
+    std::string title;               // a statement about the plot; its letters shrink if it is long
     std::vector<std::string> below;  // lines below the title, in smaller letters
-    std::string main_series;         // its line and labels are bolder; empty: none is
+    std::string main_series;         // the series with a bolder line and labels; empty: none
     std::string error_label;         // with its unit: "Value error, 99th percentile (dB)"
     std::string time_label = "Time";
     std::vector<PlotPoint> points;

@@ -15,7 +15,7 @@ constexpr double margin_top = 26;     // below the title and its lines
 constexpr double margin_bottom = 64;
 constexpr double zero_row_height = 36;
 constexpr double character_width =
-    0.62;  // as a share of the size of letters: of bold ones, a little more than the average
+    0.62;  // as a share of the letter size; bold letters are a little wider than the average
 constexpr std::size_t most_points = 400;
 constexpr double most_decades = 4;
 
@@ -111,8 +111,8 @@ PlotBox marker_box(const PlotMarker& marker) {
     return {marker.x - reach, marker.y - reach, marker.x + reach, marker.y + reach};
 }
 
-// Returns a box of the label's size, off the marker in direction (dx, dy), each of which is -1, 0
-// or 1.
+// Returns a box of the label's size beside the marker, in direction (dx, dy). Each of dx and dy is
+// -1, 0 or 1.
 PlotBox label_box(const PlotMarker& marker, const std::string& text, double dx, double dy,
                   double distance) {
     const double width = static_cast<double>(characters(text)) * label_size * character_width;
@@ -122,7 +122,8 @@ PlotBox label_box(const PlotMarker& marker, const std::string& text, double dx, 
     return {x - width / 2, y - height / 2, x + width / 2, y + height / 2};
 }
 
-// Returns how long a line is within a box, in pixels: in steps, which is enough to compare places.
+// Returns the length of a line inside a box, in pixels. It is computed in steps, which is enough to
+// compare places.
 double length_within(const PlotBox& box, const PlotMarker& from, const PlotMarker& to) {
     constexpr double step = 2;
     const double length = std::hypot(to.x - from.x, to.y - from.y);
@@ -137,14 +138,14 @@ double length_within(const PlotBox& box, const PlotMarker& from, const PlotMarke
     return within;
 }
 
-// Returns how bad the place is for a label: what it hides, and how far it sticks out of the frame.
+// Returns the cost of a place for a label: what it hides, and how far it extends beyond the frame.
 double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room) {
     double cost = 0;
     for (const PlotLabel& label : layout.labels)
         cost += 2 * box.overlap(label.box);
     for (const PlotMarker& marker : layout.markers)
         cost += 3 * box.overlap(marker_box(marker));
-    // A label over a line is readable, as it has a white edge.
+    // A label over a line is readable, because it has a white edge.
     for (const auto& front : layout.fronts) {
         for (std::size_t i = 1; i < front.size(); ++i)
             cost += 0.5 * length_within(box, front[i - 1], front[i]);
@@ -153,8 +154,8 @@ double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room
     return cost + 4 * (area - box.overlap(room));
 }
 
-// Places a label beside its marker if there is room, else farther off. The first of the best places
-// is taken.
+// Places a label beside its marker if there is room, else farther off. Takes the first of the best
+// places.
 PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::string& text) {
     struct Direction {
         double dx, dy;
@@ -192,7 +193,7 @@ std::size_t series_index(std::vector<std::string>& series, const std::string& na
     return series.size() - 1;
 }
 
-// The points on the front of each series, from left to right.
+// Returns the points on the front of each series, from left to right.
 std::vector<std::vector<PlotMarker>> fronts_of(const PlotLayout& layout) {
     std::vector<std::vector<PlotMarker>> fronts(layout.series.size());
     for (const PlotMarker& marker : layout.markers)

@@ -2,7 +2,7 @@
 //
 // Layout and drawing are separate, so that tests can check that nothing overlaps. Errors of 0,
 // which a logarithmic axis cannot show, have a row of their own below it. So do errors more than
-// four decades below the greatest, which are rounding errors and would squeeze the rest.
+// four decades below the greatest, because they are rounding errors and would compress the rest.
 //
 // Units     Pixels, with y downward.
 // Threads   Pure functions.
@@ -57,7 +57,7 @@ inline constexpr double label_size = 12;
 inline constexpr double title_y = 30;
 inline constexpr double line_height = 20;
 
-// Errors: those of draw_plot().
+// Lays out a plot. Errors: those of draw_plot().
 [[nodiscard]] Result<PlotLayout> lay_out_plot(const Plot& plot);
 
 }  // namespace stormcellar::accuracy

@@ -23,9 +23,9 @@ bool sensible(const BoundRequest& request) {
            request.confidence < 1;
 }
 
-// Returns how many of n errors may exceed the bound: the largest c for which c or fewer errors
-// exceed the true quantile with a probability of at most 1 - confidence. Returns none if even 0 is
-// too likely.
+// Returns how many of n errors may exceed the bound. It is the largest c for which c or fewer
+// errors exceed the true quantile with a probability of at most 1 - confidence. Returns none if
+// even 0 is too likely.
 std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest& request) {
     const auto count = static_cast<double>(n);
     const double log_odds = std::log1p(-request.quantile) - std::log(request.quantile);
@@ -43,13 +43,13 @@ std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest
     return k;
 }
 
-// One cluster as the wager sees it.
+// One cluster in the form that the wager needs.
 struct Column {
     std::vector<double> sorted;  // magnitudes
     double weight = 1;
 };
 
-// The number of stakes, each of which is a fraction of the capital that is bet.
+// The number of stakes. Each stake bets a different fraction of the capital.
 constexpr std::size_t stake_count = 8;
 
 // Returns the logarithm of the mean, over the stakes, of the capital won by betting that t is at

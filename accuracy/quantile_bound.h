@@ -1,6 +1,6 @@
-// accuracy/quantile_bound.h -- what a sample proves about the errors that were not sampled.
+// accuracy/quantile_bound.h -- bounds the errors that were not sampled, from a sample.
 //
-// The functions return an upper confidence bound of a quantile. Over repeated samples, it lies
+// The functions return an upper confidence bound of a quantile. Over repeated samples, the bound is
 // below the true quantile of the magnitudes of all errors in at most a share of 1 - confidence of
 // the samples, whatever the distribution (heavy tails, ties, mixtures). It is one of the sampled
 // magnitudes. It is none if the sample is too small to bound the quantile at all; nothing is ever
@@ -24,15 +24,16 @@ struct BoundRequest {
     double confidence = 0.999;  // likewise
 };
 
-// For errors that are drawn independently of each other. The bound is the order statistic of the
+// Bounds errors that are drawn independently of each other. The bound is the order statistic of the
 // binomial distribution (exact, e.g. Conover 1999, section 3.2). The 99th percentile at 99.9 %
 // needs 688 errors.
 [[nodiscard]] std::optional<double> quantile_upper_bound(std::span<const double> errors,
                                                          const BoundRequest& request);
 
-// For errors in clusters, such as the columns of a grid. Only the clusters are independent; all
-// cells of one cluster may be off together. Clusters may be empty, differ in size, depend in size
-// on how far they are off, and be drawn without replacement. The sample may favor some of them:
+// Bounds errors in clusters, such as the columns of a grid. Only the clusters are independent; all
+// cells of one cluster may be off together. Clusters may be empty, may differ in size, may be
+// larger the more they are off, and may be drawn without replacement. The sample may favor some of
+// them:
 //   strata        Fix beforehand how many clusters each stratum gives; weight = (clusters in the
 //                 stratum) / (clusters drawn from it).
 //   proportional  Draw in proportion to a size that is known for all, such as the number of cells
@@ -48,8 +49,9 @@ struct BoundRequest {
 // The stake is shared among eight values of l. (After Waudby-Smith and Ramdas 2024, "Estimating
 // means of bounded random variables by betting".)
 //
-// The price: the 99th percentile at 99.9 % needs 902 clusters that are as heavy as most_weight, and
-// ten times as many if they have a tenth of it. So draw columns in proportion to what they hold.
+// The 99th percentile at 99.9 % needs 902 clusters that are as heavy as most_weight, and ten times
+// as many if they have a tenth of it. So draw columns in proportion to the errors that they may
+// hold.
 [[nodiscard]] std::optional<double> quantile_upper_bound(std::span<const ErrorCluster> clusters,
                                                          double most_weight,
                                                          const BoundRequest& request);

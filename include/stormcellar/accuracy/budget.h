@@ -1,9 +1,9 @@
 // stormcellar/accuracy/budget.h -- the error, or the time, that a user allows.
 //
 // A budget bounds MODEL error: the error of a rung against the exact form of its chain, on the same
-// gates. It does not bound how well the radar sampled the storm; that is reported and never
+// gates. It does not bound how well the radar sampled the storm; that error is reported and never
 // budgeted.
-//   position_m  largest distance between where a cell's sample is taken and where it should be
+//   position_m  largest distance between the place of a cell's sample and its true place
 //   value       99th percentile over the cells valued in both, in the unit of the moment
 //   image_de    99th percentile over the pixels, CIEDE2000
 //   time_s      wall clock time of the whole chain
@@ -34,18 +34,17 @@ struct Budget {
 
     // Returns the limit for one kind of error, or none if the budget does not bound it.
     [[nodiscard]] std::optional<double> limit(Quantity quantity) const;
-    // Returns true if any error is bounded. If it returns false, the budget holds a time alone or
-    // nothing.
+    // Returns true if any error is bounded. If not, the budget holds only a time, or nothing.
     [[nodiscard]] bool bounds_errors() const;
     bool operator==(const Budget&) const = default;
 };
 
-// parse_budget() refuses longer texts, in bytes.
+// parse_budget() refuses texts of more bytes than this.
 inline constexpr std::size_t longest_budget_text = 200;
 
 // Parses the parts of a budget, separated by commas: "250 m, 0.5 dB", "0.5 m/s", "dE 2", "20 ms".
-// The parts may stand in any order; each quantity may stand once. The units are m, km, dB, m/s,
-// deg, ratio, dE (before or after its number), ms and s, in upper or lower case.
+// The parts may be in any order; each quantity may occur once. The units are m, km, dB, m/s, deg,
+// ratio, dE (before or after its number), ms and s, in upper or lower case.
 [[nodiscard]] Result<Budget> parse_budget(std::string_view text);
 
 // Writes a budget as text that parse_budget() reads: parse_budget(format_budget(b)) == b for every

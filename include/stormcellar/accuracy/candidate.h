@@ -29,7 +29,7 @@ inline constexpr std::size_t most_candidates = 65536;
 // decides, so that the cheapest choice does not depend on how busy the machine is; a chain without
 // efforts is ordered by cost.
 //
-// A choice is left out if it leaves off an effect of unbounded size that may be on: no budget
+// A choice is left out if it leaves off an effect of unbounded size that may be on. No budget
 // allows that, not even a budget that does not bound the quantity. Among equals the choice with
 // fewer effects left off comes first, because its accuracy costs nothing. After that, the choice
 // with the higher rung at the first step where the two differ comes first.
@@ -47,8 +47,8 @@ inline constexpr std::size_t most_candidates = 65536;
 [[nodiscard]] double worst_share(const ErrorSize& size, const Budget& budget);
 
 // Returns true if `a` is nearer to the budget than `b` by worst_share(). If both are equal (both
-// unbounded, or held by the same quantity), the sum of the shares of 250 m, 0.5 of the unit and dE
-// 2 decides.
+// unbounded, or limited by the same quantity), the sum of the shares of 250 m, 0.5 of the unit and
+// dE 2 decides.
 [[nodiscard]] bool is_more_accurate(const ErrorSize& a, const ErrorSize& b, const Budget& budget);
 
 }  // namespace stormcellar::accuracy

@@ -2,7 +2,7 @@
 // cheap to exact.
 //
 // A step ("frame", "beam", "interpolation", ...) has the rungs 0, 1, ...; its last rung is its
-// exact form. Rung k means that the first k effects of the step are on: the effects of one step are
+// exact form. Rung k means that the first k effects of the step are on. The effects of one step are
 // nested, so the third needs the second. A step with a single rung has no effects, and the planner
 // has nothing to decide about it. A choice names one rung for each step.
 //
@@ -32,8 +32,8 @@ struct Step {
     [[nodiscard]] const std::string& rung_name(std::size_t rung) const;
 };
 
-// The time that two rungs of different steps take together beyond what each takes alone. It is
-// negative where one rung spares the other some work.
+// The extra time that two rungs of different steps take together, beyond the sum of what each takes
+// alone. It is negative if one rung saves the other some work.
 struct JointCost {
     std::size_t step = 0, rung = 0;
     std::size_t other_step = 0, other_rung = 0;
@@ -53,11 +53,10 @@ struct Choice {
     bool operator==(const Choice&) const = default;
 };
 
-// Returns the number of the step with this name, or nothing where the chain has no such step.
+// Returns the number of the step with this name, or none if the chain has no such step.
 [[nodiscard]] std::optional<std::size_t> find_step(const Chain& chain, std::string_view name);
 
-// Returns the rung that the choice takes of the step with this name; 0 where the chain has no such
-// step.
+// Returns the choice's rung at the step with this name, or 0 if the chain has no such step.
 [[nodiscard]] std::size_t rung_of(const Chain& chain, const Choice& choice, std::string_view name);
 
 // Returns the same choice with one step at another rung.
@@ -83,20 +82,20 @@ struct RungRange {
 };
 [[nodiscard]] RungRange allowed_rungs(const Step& step);
 
-// Checks a chain. Returns bad_argument if a name is not a valid name or stands twice, a size or
-// cost is NaN or negative, a cost is infinite, a joint cost does not belong to a pair of rungs, or
-// an effect is set on while an effect below it in the same step is set off. An infinite size is
-// valid: it says that no bound is known, so that no budget lets the effect be off.
+// Checks a chain. Returns bad_argument if a name is invalid or occurs twice, a size or cost is NaN
+// or negative, a cost is infinite, a joint cost does not belong to a pair of rungs, or an effect is
+// set on while an effect below it in the same step is set off. An infinite size is valid: it means
+// that no bound is known, so that no budget lets the effect be off.
 [[nodiscard]] Status validate(const Chain& chain);
 
 // Returns the names of all effects, in the order of the steps.
 [[nodiscard]] std::vector<std::string> effect_names(const Chain& chain);
 
-// Applies the settings that the user asked for. On an error the chain is unchanged. Errors:
-// bad_argument for an effect that does not exist or is named twice; those of validate().
+// Applies the user's settings. On an error the chain is unchanged. Errors: bad_argument for an
+// effect that does not exist or is named twice; those of validate().
 [[nodiscard]] Status apply_overrides(Chain& chain, std::span<const EffectOverride> overrides);
 
-// Returns the choice as text, as in "frame: sphere, beam: ray traced".
+// Returns the choice as text, such as "frame: sphere, beam: ray traced".
 [[nodiscard]] std::string describe(const Chain& chain, const Choice& choice);
 
 }  // namespace stormcellar::accuracy

@@ -1,9 +1,8 @@
 // stormcellar/accuracy/error_statistics.h -- figures that sum up a list of errors.
 //
-// The figures describe the errors given. What a sample of errors says about all errors is the task
-// of accuracy/quantile_bound.h; the two must not be mistaken for each other. Errors are signed; all
-// figures describe their magnitudes. An error that is NaN counts as infinite, so that it hides
-// nothing.
+// The figures describe the given errors. To draw conclusions from a sample about all errors, use
+// accuracy/quantile_bound.h; do not mistake one for the other. Errors are signed; all figures
+// describe their magnitudes. An error that is NaN counts as infinite, so that it hides nothing.
 //
 // Units     All errors of a list, and its figures, are in one unit of the caller's choice.
 // Threads   Pure functions and plain values.
@@ -21,7 +20,7 @@ namespace stormcellar::accuracy {
 // sample must have been drawn independently of each other.
 struct ErrorCluster {
     std::vector<double> errors;
-    double weight = 1;  // how many clusters this one stands for, in any one scale; above 0
+    double weight = 1;  // number of clusters that this one represents, in any one scale; above 0
 };
 
 struct ErrorSummary {
@@ -34,9 +33,9 @@ struct ErrorSummary {
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const double> errors);
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const ErrorCluster> clusters);
 
-// How many cells had their status (value, no echo, not seen, range folded) compared, and how many
-// differed. These are counted apart, because a value has an error only where both sides have a
-// value.
+// Number of cells whose status (value, no echo, not seen, range folded) was compared, and number
+// that differed. They are counted separately, because a value has an error only if both sides have
+// a value.
 struct StatusCounts {
     std::uint64_t compared = 0;
     std::uint64_t disagreeing = 0;

@@ -27,7 +27,7 @@ struct LadderRow {
     std::size_t rung = 0;
     std::string name;
     double time_s = 0;                  // the time of the first run, which makes everything anew
-    std::optional<double> kept_time_s;  // the time if what one volume leaves is kept for the next
+    std::optional<double> kept_time_s;  // the time if the next volume reuses what one volume leaves
     std::optional<double> position_max_m;
     std::optional<double> position_rms_m;
     std::optional<ErrorSummary> value;  // in the moment's unit
@@ -36,7 +36,7 @@ struct LadderRow {
     bool pareto = false;
 };
 
-// which time counts; a row without a kept time counts with its first
+// the time that counts; a row without a kept time counts with its first
 enum class TimeKind { first, kept };
 
 // Sets `pareto` in every row, for each step by itself. A row is on the front unless another row of
@@ -54,10 +54,10 @@ struct LadderField {
 [[nodiscard]] std::vector<LadderField> fields(const LadderRow& row, ValueUnit unit);
 
 // Returns the table as text of at most 100 columns; each line ends with "\n". The rungs of a step
-// stand below its name. A column in which no row has a value is left out, and "-" stands for a
-// missing value. "first" is time_s, "further" kept_time_s, "position" the largest, "usual", "99 in
-// 100" and "largest" are the root mean square, the 99th percentile and the largest of the values,
-// "state" is the share of cells in another state, and "worth it" is `pareto`.
+// are below its name. A column without any value is left out, and "-" marks a missing value.
+// "first" is time_s, "further" kept_time_s, and "position" the largest position error. "usual", "99
+// in 100" and "largest" are the root mean square, the 99th percentile and the largest of the
+// values. "state" is the share of cells in another state, and "worth it" is `pareto`.
 [[nodiscard]] std::string format_table(std::span<const LadderRow> rows, ValueUnit unit);
 
 }  // namespace stormcellar::accuracy

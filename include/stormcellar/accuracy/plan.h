@@ -1,7 +1,8 @@
-// stormcellar/accuracy/plan.h -- what the planner chose, and why it set each effect as it did.
+// stormcellar/accuracy/plan.h -- the choice of the planner, and the reason for each effect's
+// setting.
 //
-// There is a plan even if nothing meets the budget. It then holds the best choice that there is,
-// and one line, `shortfall`, names that choice, its error and the settings in the way.
+// There is a plan even if nothing meets the budget. It then holds the best choice, and one line,
+// `shortfall`, names that choice, its error and the settings in the way.
 //
 // Units     Times are in seconds; values are in `value_unit`; the units of sizes are in
 //           stormcellar/accuracy/quantity.h.
@@ -26,14 +27,14 @@ struct Decision {
     bool is_asked = true;  // false for Setting::not_asked, which never counts as left off
     ErrorSize predicted;
     Evidence evidence = Evidence::sample;
-    // worst_share() of this effect alone: what leaving it off takes, or would take
+    // worst_share() of this effect alone, whether it is left off or not
     double share = 0;
     std::string reason;  // plain words without a full stop
 };
 
 // The result of measuring a choice on a sample: upper bounds against the exact form of the chain. A
-// bound is none if the sample was too small to give one. In a plan, proven sums stand in for
-// whatever was not measured.
+// bound is none if the sample was too small to give one. In a plan, proven sums replace bounds that
+// were not measured.
 struct Measured {
     std::optional<double> position_m;
     std::optional<double> value;  // bounds the 99th percentile (accuracy/quantile_bound.h)

@@ -2,7 +2,7 @@
 // the budget.
 //
 // Effects may stay off only while the SUM of all predictions left off is within the budget, in
-// every quantity that the budget bounds. An effect that the user turned off counts into the sum.
+// every quantity that the budget bounds. An effect that the user turned off counts in the sum.
 //   budget of errors             the first of list_candidates() whose sums are within it
 //   budget of errors and a time  the same, among those whose predicted cost is within the time
 //   budget of a time alone       the most accurate within it (is_more_accurate()), then the cheaper
@@ -10,7 +10,7 @@
 // cheapest if none is within the time. The search is exhaustive, for at most most_candidates
 // choices, so it cannot miss the best.
 //
-// Units     Those of stormcellar/accuracy/budget.h and chain.h.
+// Units     As in stormcellar/accuracy/budget.h and chain.h.
 // Threads   Pure functions.
 // Errors    Those of list_candidates(); bad_argument for a budget without any limit, or with a
 //           value in another unit than the chain's.
@@ -27,8 +27,8 @@ namespace stormcellar::accuracy {
 // return.
 [[nodiscard]] Status validate(const Chain& chain, const Budget& budget);
 
-// Names the settings without which the candidate would leave less off or cost less, as in "; set
-// off: refraction". Returns an empty text if there are none.
+// Returns the settings without which the candidate would leave less off or cost less, such as ";
+// set off: refraction". Returns an empty text if there are none.
 [[nodiscard]] std::string settings_in_the_way(const Chain& chain, const Budget& budget,
                                               const Candidate& candidate);
 

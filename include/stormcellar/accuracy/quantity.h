@@ -1,9 +1,9 @@
 // stormcellar/accuracy/quantity.h -- the quantities that errors are measured in, and how they are
 // written.
 //
-// There are three quantities, which are never mixed: how far a cell's sample lies from where it
-// should be, how far a value is off, and how far a picture's color is off. Sizes are magnitudes:
-// never negative and never NaN. Infinity says that no bound is known.
+// There are three quantities, which are never mixed: the distance of a cell's sample from its true
+// place, the error of a value, and the error of a picture's color. Sizes are magnitudes: never
+// negative and never NaN. Infinity means that no bound is known.
 //
 // Units     Meters for positions, the unit of the moment (ValueUnit) for values, CIEDE2000 for
 //           colors.
@@ -25,7 +25,7 @@ enum class ValueUnit { db, mps, degree, ratio };
 enum class Quantity { position, value, image };
 inline constexpr std::array all_quantities = {Quantity::position, Quantity::value, Quantity::image};
 
-// Returns the one of the three figures that belongs to the quantity.
+// Returns the figure of the three that belongs to the quantity.
 template <class Figure>
 [[nodiscard]] const Figure& figure_of(Quantity quantity, const Figure& position,
                                       const Figure& value, const Figure& image) {
@@ -60,9 +60,9 @@ struct ErrorSize {
 [[nodiscard]] std::string format_number(double number);
 // Writes one size with its unit, by format_number().
 [[nodiscard]] std::string format_quantity(Quantity quantity, double size, ValueUnit unit);
-// Writes the quantities that are not zero, as in "412 m, 0.2 dB", or "0" if all are zero.
+// Writes the quantities that are not zero, such as "412 m, 0.2 dB", or "0" if all are zero.
 [[nodiscard]] std::string format_size(const ErrorSize& size, ValueUnit unit);
-// Writes a time as in "1.25 s", "20 ms", "3.1 us" or "0 s".
+// Writes a time such as "1.25 s", "20 ms", "3.1 us" or "0 s".
 [[nodiscard]] std::string format_seconds(double seconds);
 
 }  // namespace stormcellar::accuracy
