@@ -46,7 +46,7 @@ class BitReader {
         if (left > 0) std::memcpy(last, bytes_.data() + at, left);
         return load_big_endian(last) << (bit_ % 8);
     }
-    // Skips at most bits_left().
+    // Skips bits, at most bits_left() of them.
     void skip(std::uint64_t bits) { bit_ += bits; }
     void move_to(std::uint64_t position) { bit_ = position; }
 

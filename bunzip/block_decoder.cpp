@@ -6,7 +6,7 @@ namespace stormcellar::bunzip {
 
 namespace {
 
-// Every run but the first has a byte, and a batch is checked only when all of it is there.
+// Every run but the first has a byte, and a batch is checked only after all of it has been decoded.
 constexpr std::size_t most_runs = most_rows + 2 + SymbolReader::batch_symbols;
 constexpr std::size_t most_links = most_rows + 1 + link_slack;
 
@@ -25,7 +25,7 @@ Found BlockDecoder::read_runs(BitReader& reader, std::uint32_t most_bytes, Path 
     while (!symbols.ended()) {
         const auto batch = symbols.next_batch();
         run_count_ += make_runs(maker_, batch, runs_.get() + run_count_);
-        // The byte of the last move counts already, but its repetitions do not.
+        // The byte of the last move is already counted, but its repetitions are not.
         if (maker_.bytes + maker_.times > most_bytes) return Found::bad;
         if (symbols.found() != Found::good) return symbols.found();
     }

@@ -1,5 +1,5 @@
-// bunzip/block_decoder.h -- decodes one block: reads its tables and symbols, and undoes the sort of
-// its rows.
+// bunzip/block_decoder.h -- decodes one block: reads its tables and symbols, and reverses the sort
+// of its rows.
 //
 // Memory    10.2 MB at most (docs/bunzip.md).
 // Threads   One thread at a time.
@@ -23,11 +23,10 @@ class BlockDecoder {
   public:
     BlockDecoder();
     // Reads a block, beginning after its mark and its checksum. `most_bytes` limits its rows. If
-    // the block is not good, the reader's position has no meaning; but if it is cut or bad, nothing
-    // else was wrong earlier in the stream.
+    // the block is not good, the reader's position has no meaning. If it is cut or bad, nothing
+    // earlier in the stream was wrong.
     [[nodiscard]] Found read(BitReader& reader, std::uint32_t most_bytes, Path path);
-    // Returns the bytes of the last block that was read and was good, and one more byte; see
-    // RunExpander.
+    // Returns the bytes of the last block, if it was good, and one more byte; see RunExpander.
     [[nodiscard]] std::span<const std::uint8_t> bytes_and_one_more() const { return bytes_; }
 
   private:

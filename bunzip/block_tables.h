@@ -1,4 +1,4 @@
-// bunzip/block_tables.h -- reads what comes before the symbols of a block: the bytes that occur in
+// bunzip/block_tables.h -- reads the tables before the symbols of a block: the bytes that occur in
 // it, the code that each group of symbols uses, and the codes.
 //
 //   16 bits, and 16 more for each of them that is set: the bytes that occur
@@ -30,7 +30,7 @@ struct BlockTables {
     [[nodiscard]] std::uint16_t end_symbol() const {
         return static_cast<std::uint16_t>(byte_count + 1);
     }
-    // Reads the tables. Errors come in the order in which libbz2 meets them.
+    // Reads the tables. It finds errors in the same order as libbz2.
     [[nodiscard]] Found read(BitReader& reader);
 
   private:

@@ -23,7 +23,7 @@ Status status_of(Found found) {
     return found == Found::cut ? Status::truncated : Status::corrupt;
 }
 
-// Compares byte by byte, as libbz2 does, so that a contradiction comes before missing bytes.
+// Compares byte by byte, as libbz2 does, so that a contradiction is found before missing bytes.
 Found expect_bytes(BitReader& reader, std::uint64_t bytes, unsigned count) {
     for (unsigned i = count; i > 0; --i) {
         const auto byte = reader.read(8);
@@ -117,7 +117,7 @@ void Reader::State::end_block() {
     all_checksums = std::rotl(all_checksums, 1) ^ stated_checksum;
 }
 
-// Lets libbz2 read the stream from its beginning, and drops what was given out already.
+// Lets libbz2 read the stream from its beginning, and drops the bytes that were already returned.
 void Reader::State::hand_over() {
     library.emplace(input);
     std::vector<std::byte> dropped(checked_piece);
@@ -149,7 +149,7 @@ Reader::~Reader() = default;
 std::size_t Reader::read(std::span<std::byte> out) {
     State& state = *state_;
     std::size_t count = 0;
-    // A block ends with its last byte, and what follows it is read at once, even if there is no
+    // A block ends with its last byte, and the bytes after it are read at once, even if there is no
     // room left. So a stream ends with its last byte.
     while (!state.ended && !out.empty() && !state.library) {
         if (!state.in_block) {
@@ -192,7 +192,7 @@ Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& bu
         made += reader.read(std::span{buffer}.first(room).subspan(made));
         if (reader.ended()) return {reader.status(), made, reader.input_bytes()};
         if (made >= limit) {
-            // libbz2 stops when the room is full, and nothing was read if the limit is 0. One byte
+            // libbz2 stops when the room is full, and reads nothing if the limit is 0. One byte
             // more tells whether the output is longer.
             std::byte surplus{};
             const bool is_longer = reader.read({&surplus, 1}) > 0;

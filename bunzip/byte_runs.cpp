@@ -9,7 +9,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bunzip/byte_runs.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, which compiles this file once for each target.
+// This include must come after foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
 #include "bunzip/kernels-inl.h"
@@ -21,7 +21,7 @@ namespace stormcellar::bunzip {
 // This is larger than any block, so the caller finds the block bad.
 constexpr std::uint64_t too_many_bytes = std::uint64_t{1} << 62;
 
-// Row k is the permutation that moves the byte at place k to the front, and the bytes before it one
+// Row k is the permutation that moves the byte at place k to the front, and each byte before it one
 // place back.
 template <std::size_t Size>
 constexpr auto make_patterns() {
@@ -81,9 +81,9 @@ class FrontList {
     static HWY_INLINE std::uint8_t first_of(__m512i part) {
         return static_cast<std::uint8_t>(_mm_cvtsi128_si32(_mm512_castsi512_si128(part)));
     }
-    // A move from farther back turns every register before the one that holds the byte, so that its
-    // last byte comes to its front. That byte goes to the front of the next register, and the byte
-    // that was found to the front of the first.
+    // A move from farther back rotates every register before the one that holds the byte, so that
+    // its last byte comes to its front. That byte then goes to the front of the next register, and
+    // the moved byte to the front of the first.
     HWY_INLINE void move_far(std::uint32_t place) {
         const __mmask64 first = 1;
         const __m512i front = to_front(part_[0], 63);
@@ -112,7 +112,7 @@ class FrontList {
     __m512i part_[4];
 };
 
-// Which of 64 symbols are moves, and which are the digit 1 (run_b).
+// Masks of 64 symbols: which are moves, and which are the digit 1 (run_b).
 struct SymbolMasks {
     std::uint64_t moves, ones;
 };
@@ -211,7 +211,7 @@ HWY_INLINE bool take_symbols(RunMaker& maker, FrontList& list, const std::uint16
     const std::uint64_t valid = ~std::uint64_t{0} >> (64 - there);
     std::uint64_t moves = masks.moves & valid;
     const std::uint64_t ones = masks.ones & valid;
-    // No move: all symbols are digits of the run that goes on.
+    // Without a move, all symbols are digits of the run that continues.
     if (moves == 0) {
         maker.digit_bits |= static_cast<std::uint32_t>(ones << std::min(maker.digits, 32U));
         maker.digits += there;
@@ -242,7 +242,7 @@ HWY_INLINE bool take_symbols(RunMaker& maker, FrontList& list, const std::uint16
         list.move(symbols[next] - 1U);
         at = next;
     }
-    // The digits after the last move belong to a run that goes on.
+    // The digits after the last move belong to a run that continues.
     maker.bytes += bytes;
     maker.digits = there - at - 1;
     maker.digit_bits = static_cast<std::uint32_t>(ones >> at >> 1U);
@@ -306,7 +306,7 @@ class PlainList {
     std::uint64_t front_ = 0;
 };
 
-// The same for any machine, symbol by symbol.
+// Does the same on any machine, symbol by symbol.
 std::size_t make_runs_plainly(RunMaker& maker, std::span<const std::uint16_t> symbols,
                               ByteRun* to) {
     const ByteRun* const begin = to;

@@ -2,12 +2,12 @@
 // symbols.
 //
 // A symbol from 2 on is a place in a list of bytes; the byte at this place moves to the front.
-// Symbols 0 and 1 are the digits, 1 and 2, of a number that says how many more times the front byte
-// occurs; each digit is worth twice the one before.
+// Symbols 0 and 1 are the digits 1 and 2 of a number, which counts how many more times the front
+// byte occurs. Each digit is worth twice the previous one.
 //
 // The kind of the next symbol cannot be predicted, so the runs are made in one pass without a
-// branch on it. A mask of 64 symbols says which are moves, and the length of a run is read from the
-// mask of the digits between two moves. The list is held in registers as far as the Path allows.
+// branch on it. A mask of 64 symbols says which are moves, and the mask of the digits between two
+// moves gives the length of a run. The list is in registers as far as the Path allows.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -35,7 +35,7 @@ class ByteRun {
 
 struct RunMaker {
     alignas(64) std::array<std::uint8_t, 256> list{};  // the front first
-    std::uint32_t digits = 0;                          // digits after the last move
+    std::uint32_t digits = 0;                          // number of digits after the last move
     std::uint32_t digit_bits = 0;                      // which of them are 1, the first one lowest
     std::uint32_t times = 0;                           // 0 before the first move, then 1
     std::uint64_t bytes = 0;                           // bytes in the runs that have ended
@@ -45,12 +45,12 @@ struct RunMaker {
 };
 
 // Appends to `to` the runs that end within `symbols`, at most as many as there are symbols, and
-// returns their number. The run that goes on is kept for the next call. If it has too many digits,
+// returns their number. A run that continues is kept for the next call. If it has too many digits,
 // or `bytes` exceeds a block's size, the block is bad and there must be no next call.
 using MakeRuns = std::size_t (*)(RunMaker& maker, std::span<const std::uint16_t> symbols,
                                  ByteRun* to);
 [[nodiscard]] MakeRuns make_runs_by(Path path);
-// Returns the run that is left at the end of a block.
+// Returns the run that remains at the end of a block.
 [[nodiscard]] ByteRun last_run(RunMaker& maker);
 
 }  // namespace stormcellar::bunzip

@@ -9,7 +9,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bunzip/bzip2_checksum.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, which compiles this file once for each target.
+// This include must come after foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
 #include "bunzip/kernels-inl.h"
@@ -23,7 +23,7 @@ constexpr std::uint32_t polynomial = 0x04C11DB7;
 constexpr std::uint32_t times_x(std::uint32_t remainder) {
     return remainder << 1 ^ (remainder >> 31 != 0 ? polynomial : 0);
 }
-// Returns x to that power, modulo the polynomial.
+// Returns x to the power of `exponent`, modulo the polynomial.
 constexpr std::uint32_t power_of_x(unsigned exponent) {
     std::uint32_t remainder = 1;
     for (unsigned i = 0; i < exponent; ++i)
@@ -31,7 +31,7 @@ constexpr std::uint32_t power_of_x(unsigned exponent) {
     return remainder;
 }
 
-// tables[k][b] is what byte b does to the state if k more bytes follow it.
+// tables[k][b] is the change that byte b makes to the state if k more bytes follow it.
 constexpr auto make_tables() {
     std::array<std::array<std::uint32_t, 256>, 16> tables{};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {
@@ -76,7 +76,7 @@ HWY_INLINE __m128i load_reversed(const std::uint8_t* from) {
 
 // Moves a remainder of 128 bits forward by the distance of `powers`: its high half times
 // x^(distance + 64) plus its low half times x^distance. The products have at most 96 bits, so they
-// fit. They equal the moved remainder modulo the polynomial, which is all that counts.
+// fit. Modulo the polynomial they equal the moved remainder, which is sufficient.
 HWY_INLINE __m128i fold(__m128i sum, __m128i powers) {
     return _mm_xor_si128(_mm_clmulepi64_si128(sum, powers, 0x11),
                          _mm_clmulepi64_si128(sum, powers, 0x00));
@@ -87,8 +87,8 @@ HWY_INLINE __m128i powers_of() {
     return _mm_set_epi64x(high, low);
 }
 
-// Computes the checksum of long input with carry-less multiplications. Four sums of 16 bytes take
-// turns, so that no multiplication waits for the one before; then they are folded into one.
+// Computes the checksum of long input with carry-less multiplications. Four sums of 16 bytes
+// alternate, so that no multiplication waits for the previous one; then they are folded into one.
 std::uint32_t checksum(std::uint32_t state, std::span<const std::uint8_t> bytes) {
     constexpr std::size_t step = 64;
     if (bytes.size() < 2 * step) return checksum_plainly(state, bytes);
@@ -107,7 +107,7 @@ std::uint32_t checksum(std::uint32_t state, std::span<const std::uint8_t> bytes)
     __m128i sum = sums[0];
     for (int k = 1; k < 4; ++k)
         sum = _mm_xor_si128(fold(sum, near), sums[k]);
-    // The sum that is left is a message of 16 bytes with the same remainder.
+    // The remaining sum is a message of 16 bytes with the same remainder.
     std::uint8_t message[16];
     const __m128i order = _mm_setr_epi8(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(message), _mm_shuffle_epi8(sum, order));

@@ -1,5 +1,5 @@
 // bunzip/bzip2_checksum.h -- the checksum of bzip2: CRC-32 with the polynomial 04C11DB7, the
-// highest bit first, which begins with FFFFFFFF and is combined with FFFFFFFF at the end.
+// highest bit first. It begins with FFFFFFFF and is combined with FFFFFFFF at the end.
 //
 // Threads   Pure functions.
 #pragma once

@@ -1,9 +1,9 @@
 // bunzip/bzip2_format.h -- the numbers of the bzip2 format, and how a part of a stream can end.
 //
-// A stream has "BZh", a digit d (blocks have at most d times 100,000 bytes), blocks, and an
-// end. A block has a mark (48 bits), a checksum (32), whether it is randomized (1), the origin
-// (24), its tables (block_tables.h), and symbols. The end has a mark and the checksum of the
-// checksums of all blocks.
+// A stream has "BZh", a digit d (blocks have at most d times 100,000 bytes), blocks, and an end. A
+// block has a mark (48 bits), a checksum (32), a flag for randomized blocks (1), the origin (24),
+// its tables (block_tables.h), and symbols. The end has a mark and the checksum of the checksums of
+// all blocks.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ enum class Found : std::uint8_t {
     good,
     cut,         // the bytes end inside the part
     bad,         // the bytes contradict the format
-    randomised,  // made by bzip2 before 0.9.5: left to libbz2
+    randomised,  // made by bzip2 before 0.9.5; libbz2 reads it
 };
 
 }  // namespace stormcellar::bunzip

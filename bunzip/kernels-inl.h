@@ -1,4 +1,4 @@
-// bunzip/kernels-inl.h -- chooses the form of a kernel by the path that is taken.
+// bunzip/kernels-inl.h -- chooses the form of a kernel by the path in use.
 //
 // Include it after hwy/highway.h, outside the namespaces of the targets.
 // NOLINTBEGIN(llvm-header-guard)
@@ -9,7 +9,7 @@
 
 #include "bunzip/paths.h"
 
-// The kernel of that name as compiled for AVX2 or AVX-512; null if it was not.
+// The kernel of this name as compiled for AVX2 or AVX-512; null if it was not compiled.
 #if HWY_TARGETS & HWY_AVX2
 #define STORMCELLAR_BUNZIP_AVX2(kernel) N_AVX2::kernel
 #else
@@ -23,8 +23,8 @@
 
 namespace stormcellar::bunzip {
 
-// Pointers to the forms of a kernel. This machine must have the path. If the path has no form of
-// its own, the plain one is taken.
+// Pointers to the forms of a kernel. This machine must support the path. If the path has no form of
+// its own, the plain one is used.
 template <class Kernel>
 struct Kernels {
     Kernel plain;

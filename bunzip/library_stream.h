@@ -1,5 +1,5 @@
-// bunzip/library_stream.h -- a stream read by libbz2: the fallback, and the reference that all
-// other paths are tested against.
+// bunzip/library_stream.h -- reads a stream with libbz2: the fallback, and the reference for the
+// tests of all other paths.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -16,11 +16,11 @@ static_assert(LinkWalk::most_segments < marked && (most_rows + 1) << link_shift 
 
 }  // namespace
 
-// The place of each lane, and the segment that it reads. A lane without a segment goes round on the
-// row after the last one, which links to itself.
+// The place of each lane, and the segment that it reads. A lane without a segment stays on the row
+// after the last one, which links to itself.
 struct LinkWalk::Lanes {
     Link idle;
-    std::array<Link, lanes> link;  // of the row that is read next
+    std::array<Link, lanes> link;  // link of the row that is read next
     std::array<std::uint32_t, lanes> segment{};
     std::uint32_t begun = 0;  // number of segments that were begun
     std::uint32_t busy = 0;   // number of lanes with a segment
@@ -30,9 +30,8 @@ std::uint32_t LinkWalk::mark_count(std::uint32_t rows) {
     return std::min(most_segments - 1, rows / rows_a_segment);
 }
 
-// Returns the i-th marked row. The block is cut into as many equal pieces as there are marks, and
-// each piece has its mark somewhere inside it, by the golden ratio, which does not agree with any
-// period in the data.
+// Returns the i-th marked row. The block is cut into as many equal pieces as there are marks. The
+// mark is somewhere inside its piece, by the golden ratio, which matches no period in the data.
 std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
     const std::uint64_t count = mark_count(rows);
     const std::uint64_t begin = rows * std::uint64_t{i} / count;
@@ -41,8 +40,7 @@ std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
     return static_cast<std::uint32_t>(begin + ((end - begin) * share >> 32));
 }
 
-// Marks the rows at which segments begin. A mark takes the place of the row's link, which the
-// segment keeps.
+// Marks the rows at which segments begin. A mark replaces the row's link, which the segment keeps.
 void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t origin) {
     segment_count_ = 0;
     const auto add = [&](std::uint32_t row) {
@@ -59,7 +57,7 @@ void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
     }
 }
 
-// Ends the segments of all lanes that have met a mark, and begins new ones in these lanes.
+// Ends the segments of all lanes that met a mark, and begins new ones in these lanes.
 void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
         if ((at.link[lane] & marked) == 0) continue;
@@ -79,10 +77,10 @@ void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
     }
 }
 
-// Walks along the links with all lanes at once. The inner loop does nothing but read a link, write
-// its byte and go on, for each lane; it stops when any lane has met a mark. The loads of the lanes
-// do not depend on each other, so that the processor waits for all of them together. Returns false
-// if a lane has no room left.
+// Walks along the links with all lanes at once. The inner loop only reads a link, writes its byte
+// and continues, for each lane; it stops when any lane has met a mark. The loads of the lanes do
+// not depend on each other, so the processor waits for all of them together. Returns false if a
+// lane has no room left.
 bool LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
     Lanes at{rows << link_shift, {}};
     links[rows] = at.idle;
@@ -142,7 +140,7 @@ void LinkWalk::read(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
     for (std::uint32_t i = 0; i < segment_count_; ++i)
         links[segments_[i].row] = segments_[i].link;
     if (!walked_alone_) return join(bytes);
-    // A single walk reads the block if the lanes had too little room.
+    // If the lanes had too little room, a single walk reads the block.
     Link link = links[origin];
     for (std::uint8_t& byte : bytes) {
         byte = static_cast<std::uint8_t>(link);

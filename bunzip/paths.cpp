@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "bunzip/targets-inl.h"
-// After what it is to be compiled for.
+// This include must come after the choice of targets.
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 

@@ -1,8 +1,8 @@
-// bunzip/paths.h -- the ways in which a machine can decompress: which exist, and which is taken.
+// bunzip/paths.h -- the ways in which a machine can decompress, and the choice among them.
 //
-// All give the same bytes. The fastest path that this machine has is the usual one, unless the
-// environment variable STORMCELLAR_BUNZIP names another, or set_usual_path() has set one, which
-// overrides both.
+// All give the same bytes. The usual path is the fastest one that this machine supports, unless the
+// environment variable STORMCELLAR_BUNZIP names another. A path set by set_usual_path() overrides
+// both.
 //
 // Threads   Any thread may call every function.
 #pragma once
@@ -23,16 +23,16 @@ enum class Path : std::uint8_t {
 inline constexpr std::array all_paths = {Path::libbz2, Path::plain, Path::avx2, Path::avx512};
 
 [[nodiscard]] std::string_view name_of(Path path);
-// Returns none if no path has this name.
+// Finds a path by its name. Returns none if no path has this name.
 [[nodiscard]] std::optional<Path> path_named(std::string_view name);
 [[nodiscard]] bool is_available(Path path);
 [[nodiscard]] Path fastest_path();
 
-// Returns the path that is used if none is given: the one that was set here, else the one named in
-// STORMCELLAR_BUNZIP (a name without a path, or of a path that this machine lacks, is ignored),
-// else the fastest.
+// Returns the path that is used if none is given: the path that was set here, else the path named
+// in STORMCELLAR_BUNZIP (an unknown name, or a path that this machine lacks, is ignored), else the
+// fastest.
 [[nodiscard]] Path usual_path();
-// Returns false and changes nothing if this machine lacks the path.
+// Sets the usual path. Returns false and changes nothing if this machine lacks the path.
 bool set_usual_path(Path path);
 
 }  // namespace stormcellar::bunzip

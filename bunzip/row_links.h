@@ -17,13 +17,14 @@
 
 namespace stormcellar::bunzip {
 
-// The row that is linked to, above the first byte of the row.
+// The linked row, in the bits above the first byte of the row.
 using Link = std::uint32_t;
 inline constexpr unsigned link_shift = 8;
-// How many links after the last row may be overwritten.
+// Number of links after the last row that may be overwritten.
 inline constexpr std::size_t link_slack = 16;
 
-// `count` has the number of each byte in `runs`; `links` has room for all rows and link_slack more.
+// Links the rows. `count` has the number of each byte in `runs`; `links` has room for all rows and
+// link_slack more.
 using LinkRows = void (*)(std::span<const ByteRun> runs,
                           const std::array<std::uint32_t, 256>& count, Link* links);
 [[nodiscard]] LinkRows link_rows_by(Path path);

@@ -9,7 +9,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bunzip/run_expander.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, which compiles this file once for each target.
+// This include must come after foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
 #include "bunzip/kernels-inl.h"
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::bunzip::HWY_NAMESPACE {
 
-// Bit i of `equal`: byte i is equal to byte i + 1.
+// Bit i of `equal` is set if byte i equals byte i + 1.
 #if HWY_TARGET == HWY_AVX3_DL
 constexpr unsigned width = 64;
 struct Window {
@@ -51,11 +51,11 @@ HWY_INLINE void fill(std::uint8_t* to, std::uint8_t byte) {
 }
 #endif
 
-// Copies whole windows of bytes as long as they hold no four equal bytes. At such a run, it writes
-// the run with its repetitions and continues after the count.
+// Copies whole windows of bytes as long as they hold no four equal bytes. At four equal bytes,
+// writes the run with its repetitions and continues after the count.
 RunExpander::Place expand(RunExpander::Place place, const std::uint8_t* end,
                           const std::uint8_t* to_end) {
-    // All bits of the window but three say whether four bytes are equal.
+    // All bits of the window except two decide whether four bytes are equal.
     constexpr unsigned step = width - 2;
     constexpr std::ptrdiff_t most_read = width + 8, most_made = 2 * width + 260;
     auto [from, to] = place;
@@ -141,7 +141,7 @@ void RunExpander::begin(std::span<const std::uint8_t> bytes_and_one_more, Path p
     equal_ = 0;
 }
 
-// Reads byte by byte where the block or the room ends.
+// Reads byte by byte at the end of the block or of the room.
 void RunExpander::read_careful(std::span<std::uint8_t> out, std::size_t& made) {
     while (made < out.size()) {
         if (fill_left_ > 0) {

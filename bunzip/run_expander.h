@@ -1,5 +1,5 @@
-// bunzip/run_expander.h -- undoes the first step of bzip2, in which four equal bytes are followed
-// by a byte that says how many more of them there are.
+// bunzip/run_expander.h -- reverses the first step of bzip2, in which a byte after four equal bytes
+// says how many more of them there are.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -14,11 +14,11 @@ namespace stormcellar::bunzip {
 
 class RunExpander {
   public:
-    // Begins a block, which is all bytes but the last. The last byte follows the block when it is
-    // read as a ring. If a block ends with four equal bytes, libbz2 takes it for the count, and the
-    // block is then bad; the same is done here.
+    // Begins a block, which is all bytes but the last. The last byte is the one that follows the
+    // block when it is read as a ring. If a block ends with four equal bytes, libbz2 takes that
+    // byte for the count, and the block is then bad. This class does the same.
     void begin(std::span<const std::uint8_t> bytes_and_one_more, Path path);
-    // Fills `out` as far as the block goes.
+    // Fills `out` as far as the block reaches.
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> out);
     // Returns true if nothing is left.
     [[nodiscard]] bool ended() const { return at_ >= end_ && fill_left_ == 0; }
@@ -26,10 +26,10 @@ class RunExpander {
     [[nodiscard]] bool bad() const { return at_ > end_; }
 
     struct Place {
-        const std::uint8_t* from;  // the byte that is read next
-        std::uint8_t* to;          // the place that is written next
+        const std::uint8_t* from;  // the next byte to read
+        std::uint8_t* to;          // the next place to write
     };
-    // Expands what comes before `end`, if there is room for it up to `to_end`, and stops before
+    // Expands the bytes before `end` if there is room for them up to `to_end`, and stops before
     // anything that needs care. It may read up to `slack` bytes after the place where it stops.
     using Expand = Place (*)(Place place, const std::uint8_t* end, const std::uint8_t* to_end);
 

@@ -27,9 +27,9 @@ std::span<const std::uint16_t> SymbolReader::next_batch() {
     return {batch_.data(), to};
 }
 
-// Reads a group whose bits are all there. `bits` holds what follows, the first bit highest; `at` is
-// its place in the stream. One load serves several lookups, so the usual symbol costs one lookup
-// and one shift.
+// Reads a group whose bits are all there. `bits` holds the next bits, the first one highest; `at`
+// is their place in the stream. One load serves several lookups, so the usual symbol costs one
+// lookup and one shift.
 std::uint16_t* SymbolReader::read_group(const PrefixCode& code, std::uint16_t* to) {
     const std::byte* const bytes = reader_.bytes().data();
     const std::uint16_t* const lookup = code.lookup();
@@ -42,7 +42,7 @@ std::uint16_t* SymbolReader::read_group(const PrefixCode& code, std::uint16_t* t
             unsigned length = entry & ((1U << PrefixCode::length_bits) - 1);
             std::uint16_t symbol = entry >> PrefixCode::length_bits;
             if (entry == 0) [[unlikely]] {
-                // A long word can take more bits than are left of those that were loaded.
+                // A long word can take more bits than the last load has left.
                 bits = load_big_endian(bytes + at / 8) << (at % 8);
                 const PrefixCode::Word word = code.decode(bits);
                 length = word.length;
@@ -69,7 +69,7 @@ std::uint16_t* SymbolReader::read_group(const PrefixCode& code, std::uint16_t* t
     return to;
 }
 
-// Reads a group in which the bytes may end, with a check of each symbol.
+// Reads a group in which the bytes may end, and checks each symbol.
 std::uint16_t* SymbolReader::read_last_group(const PrefixCode& code, std::uint16_t* to) {
     for (std::size_t i = 0; i < group_symbols; ++i) {
         const PrefixCode::Word word = code.decode(reader_.peek());

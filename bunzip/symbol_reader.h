@@ -1,6 +1,6 @@
 // bunzip/symbol_reader.h -- reads the symbols of a block, in groups of 50, each with its own code.
 //
-// Threads   One thread at a time. What the reader and the tables refer to must outlive it.
+// Threads   One thread at a time. The objects that it refers to must outlive it.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ class SymbolReader {
     static constexpr std::size_t batch_symbols = batch_groups * group_symbols;
 
     // Returns the next symbols, without the end of the block, valid until the next call. Symbols
-    // before a bad or cut place are returned too; found() then says what was found.
+    // before a bad or cut place are returned too; found() then gives the reason.
     [[nodiscard]] std::span<const std::uint16_t> next_batch();
-    // Returns true if the end of the block was read; the reader then stands after it.
+    // Returns true if the end of the block was read; then the bit reader is just after it.
     [[nodiscard]] bool ended() const { return ended_; }
     [[nodiscard]] Found found() const { return found_; }
 
