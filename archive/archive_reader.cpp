@@ -25,12 +25,12 @@ namespace {
 constexpr std::size_t tar_block_bytes = 512;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_name_bytes = 1024;
-constexpr std::size_t most_left_out = 100;  // the most that are named
+constexpr std::size_t most_left_out = 100;  // at most this many are listed
 // libarchive may read this much for one header, and one block more. The header of a long name has a
-// few kilobytes. Its time matters more than its memory: each entry of an access list is compared
-// with all before.
+// few kilobytes. The limit bounds time more than memory, because libarchive compares each entry of
+// an access list with all previous ones.
 constexpr std::uint64_t most_header_bytes = std::uint64_t{128} << 10;
-// A zip's directory is read with its first header: a member takes some 100 bytes.
+// A zip's directory is read with its first header; each member takes about 100 bytes.
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{16} << 20;
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
@@ -55,7 +55,7 @@ bool is_tar_header(std::span<const std::byte> bytes) {
 }
 
 // Returns true if the first 512 bytes may begin an archive. A packed archive must be unpacked to
-// know.
+// decide.
 bool may_be_archive(std::span<const std::byte> start) {
     return begins_with(start, "PK\x03\x04") || begins_with(start, "PK\x05\x06") ||
            is_tar_header(start) || is_packed(start);
@@ -68,7 +68,7 @@ Handle new_reader() {
     const bool formats =
         support(archive_read_support_format_tar) && support(archive_read_support_format_zip);
     // Blocks of zeros between two members are a lost page of the file, or the end of one of several
-    // tars that were joined: members stand behind them.
+    // joined tars. In both cases members follow them.
     const bool goes_on =
         archive_read_set_format_option(handle.get(), "tar", "read_concatenated_archives", "1") >=
         ARCHIVE_WARN;
@@ -79,8 +79,8 @@ bool is_zip(::archive* handle) {
     return (archive_format(handle) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_ZIP;
 }
 
-// Returns true if the codec of a zip's member is small, by the name that the library gives it. The
-// member's header must have been read.
+// Returns true if the codec of a zip's member needs little memory, by the library's name for it.
+// The member's header must have been read.
 bool is_small_codec(::archive* handle) {
     const char* const text = archive_format_name(handle);
     const std::string_view name = text == nullptr ? std::string_view{} : std::string_view{text};
@@ -94,13 +94,13 @@ std::string name_of(::archive_entry* entry) {
     return name == nullptr ? std::string{} : std::string{name};
 }
 
-// Returns why the entry is not a file that is returned; empty if it is one.
+// Returns the reason why an entry is not returned as a file; empty if it is returned.
 std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
     if (archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr) {
         return "is a link";
     }
     if (archive_entry_filetype(entry) != AE_IFREG) return "is not a regular file";
-    // Nobody packs radar data so, and libarchive would make the holes of it.
+    // Radar data are not packed as sparse files, and libarchive would write out their holes.
     if (archive_entry_sparse_count(entry) > 0) return "is a sparse file";
     if (name.empty()) return "has no name";
     if (name.size() > most_name_bytes) return "has a name of more than 1024 bytes";
@@ -113,13 +113,13 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
 
 struct ArchiveReader::Impl {
     Limits limits;
-    ReadBudget header, of_source;          // of the tar or zip, and of what it is packed in
+    ReadBudget header, of_source;          // for the tar or zip, and for what it is packed in
     std::unique_ptr<PlainSource> plain;    // the bytes of the archive
     std::unique_ptr<PackedStream> packed;  // null: the archive is not packed
-    Handle handle;                         // must end before what it reads from
-    // size of the archive; 0: not known, so what was read of it counts
+    Handle handle;                         // must end before the source that it reads from
+    // size of the archive; 0: not known, so the bytes read so far count instead
     std::uint64_t source_bytes = 0;
-    ::archive_entry* first = nullptr;  // the header that opening has read
+    ::archive_entry* first = nullptr;  // the header that opening has already read
     std::size_t members = 0;
     std::uint64_t given_bytes = 0;
     std::map<std::string, int> names;  // names, and how many members had each
@@ -144,7 +144,8 @@ struct ArchiveReader::Impl {
         of_source.set_deadline(time);
     }
 
-    // Returns false if it is not an archive. The library may take zeros for an empty archive.
+    // Begins to read. Returns false if it is not an archive. The library may take zeros for an
+    // empty archive.
     bool begin(std::span<const std::byte> start, PlainSource::ReadAt read_at) {
         handle = new_reader();
         if (!handle) return false;
@@ -169,14 +170,14 @@ struct ArchiveReader::Impl {
         return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
     }
 
-    // The data of the member before are passed over first: they are no header.
+    // The data of the previous member are skipped first, because they do not count as a header.
     int read_header(::archive_entry*& entry, std::uint64_t most) {
         const auto place = [this] { return archive_filter_bytes(handle.get(), 0); };
         const la_int64_t start = place();
         header.begin(most);
         const int code = archive_read_next_header(handle.get(), &entry);
         header.end();
-        // Reading a zip jumps; its members have no long headers.
+        // Reading a zip jumps, so its position says nothing; its members have no long headers.
         if (!is_zip(handle.get()))
             header.add(static_cast<std::uint64_t>(std::max<la_int64_t>(0, place() - start)));
         if (!header.is_spent()) return code;
@@ -191,7 +192,7 @@ struct ArchiveReader::Impl {
             left_out.push_back({name.substr(0, most_name_bytes), std::move(reason)});
         }
     }
-    // The reason is told even if the list of what was left out is full.
+    // Records the reason even if the list of what was left out is full.
     void end_with(std::string reason) {
         left_out.push_back({{}, reason});
         why_ended = std::move(reason);
@@ -214,7 +215,7 @@ struct ArchiveReader::Impl {
         ::archive_entry* entry = nullptr;
         const bool passed = archive_read_data_skip(handle.get()) >= ARCHIVE_WARN;
         const int code = passed ? read_header(entry, most_header_bytes) : ARCHIVE_FATAL;
-        // At a header that is damaged it says that the next block may be one.
+        // After a damaged header, libarchive reports that the next block may be one.
         if (code == ARCHIVE_OK || code == ARCHIVE_WARN) return entry;
         at_end = true;
         const bool is_behind_all = code == ARCHIVE_EOF || (passed && has_no_room_left());
@@ -229,7 +230,7 @@ struct ArchiveReader::Impl {
         return nullptr;
     }
 
-    // Returns true if what is left of a tar is less than a header takes.
+    // Returns true if the rest of a tar is shorter than a header.
     [[nodiscard]] bool has_no_room_left() const {
         const auto read = static_cast<std::uint64_t>(
             std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), 0)));
@@ -237,8 +238,8 @@ struct ArchiveReader::Impl {
                source_bytes - std::min(source_bytes, read) < tar_block_bytes;
     }
 
-    // Returns true if reading ended because too much came out of a packed archive, a header was too
-    // long, or it was time.
+    // Returns true if reading ended because a packed archive unpacked to too much, a header was too
+    // long, or the time was over.
     bool end_at_bound() {
         if (header.is_spent() || of_source.is_spent()) {
             end_with(
@@ -267,7 +268,7 @@ struct ArchiveReader::Impl {
         const std::string_view text{reinterpret_cast<const char*>(last.data()), last.size()};
         return text.find("PK\x05\x06") != std::string_view::npos;
     }
-    // Returns true if a member's end may be known only when the member is unpacked.
+    // Returns true if the end of a member may be known only after it is unpacked.
     [[nodiscard]] bool is_streamed_zip() const {
         return is_zip(handle.get()) && (packed || !has_directory());
     }
@@ -283,7 +284,7 @@ struct ArchiveReader::Impl {
                std::ranges::all_of(last, [](std::byte b) { return b == std::byte{0}; });
     }
 
-    // Returns how much may come out of the archive when this many of its bytes were read.
+    // Returns how many bytes the archive may unpack to after this many of its bytes were read.
     [[nodiscard]] std::uint64_t most_bytes(std::uint64_t read) const {
         return std::min(limits.all_bytes,
                         limits.unbounded_bytes + limits.expansion * std::max(source_bytes, read));
@@ -293,8 +294,8 @@ struct ArchiveReader::Impl {
             std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1))));
     }
 
-    // Reads more of the entry's data, at most `room` bytes, to `into`. Returns 0 at the end, and
-    // none if the data are not whole or too many, which is recorded.
+    // Reads more of the entry's data into `into`, at most `room` bytes. Returns 0 at the end, and
+    // none if the data are not whole or too many; the reason is then recorded.
     std::optional<std::size_t> read_on(const std::string& name, std::byte* into, std::size_t room) {
         const la_ssize_t got = archive_read_data(handle.get(), into, room);
         if (got < 0) {
@@ -319,7 +320,8 @@ struct ArchiveReader::Impl {
         return static_cast<std::size_t>(got);
     }
 
-    // Returns the data of the entry, or none if they are not whole, which is recorded.
+    // Returns the data of the entry. Returns none if they are not whole; the reason is then
+    // recorded.
     std::optional<std::vector<std::byte>> data_of(const std::string& name,
                                                   std::uint64_t size_hint) {
         std::vector<std::byte> bytes;
@@ -361,7 +363,7 @@ struct ArchiveReader::Impl {
         }
     }
 
-    // Returns true if the member is an archive, whose members are read next.
+    // Returns true if the member is an archive; its members are read next.
     bool begin_inner(const std::string& name, std::vector<std::byte>& bytes) {
         if (nesting >= limits.nesting) return false;
         auto reader = make(bytes, limits);
@@ -394,7 +396,7 @@ struct ArchiveReader::Impl {
         }
         if (!inner->why_ended.empty()) leave_out(inner_name, inner->why_ended);
         is_cut = is_cut || inner->is_cut;
-        // Bytes that the inner archive unpacked and passed over count as well.
+        // Bytes that the inner archive unpacked and skipped count as well.
         const std::uint64_t unpacked = inner->packed ? inner->packed->unpacked() : 0;
         given_bytes =
             std::max(given_bytes, given_before_inner + std::max(unpacked, inner->given_bytes));
@@ -439,8 +441,7 @@ struct ArchiveReader::Impl {
                 modified = UtcTime{std::chrono::seconds{
                     std::clamp<la_int64_t>(archive_entry_mtime(entry), 0, 7'000'000'000)}};
             }
-            // The size that the header claims is only a hint, and never more than the archive may
-            // hold.
+            // The size in the header is only a hint, and never more than the archive may hold.
             const std::uint64_t claimed =
                 archive_entry_size_is_set(entry) != 0
                     ? static_cast<std::uint64_t>(std::max<la_int64_t>(0, archive_entry_size(entry)))

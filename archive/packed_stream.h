@@ -1,8 +1,8 @@
 // archive/packed_stream.h -- unpacks the bytes of a packed archive and counts each of them.
 //
-// This is used only inside the archive room. libarchive skips members by unpacking them and counts
-// nothing meanwhile; here every unpacked byte is checked against a bound. An archive that is packed
-// twice is none: only one layer is unpacked.
+// Only the archive room uses this. libarchive skips members by unpacking them and counts nothing
+// meanwhile; here every unpacked byte is checked against a bound. An archive that is packed twice
+// is not accepted, because only one layer is unpacked.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -20,11 +20,11 @@ struct archive;
 
 namespace stormcellar::archive {
 
-// Counts what libarchive reads while it looks for the next header. It keeps what a header says (the
-// map of a sparse file takes twelve times its size, the directory of a zip three times) before
-// anybody sees it, so this is the only place where that can be bounded. The source gives its bytes
-// in small blocks, because a block counts as a whole. Everything else that it reads is bounded by
-// time alone: one call may unpack gigabytes only to pass them over.
+// Counts the bytes that libarchive reads while it looks for the next header. libarchive keeps the
+// contents of a header (the map of a sparse file takes twelve times its size, the directory of a
+// zip three times) before anybody sees it, so they can only be bounded here. The source gives its
+// bytes in small blocks, because a block counts as a whole. Only time bounds everything else that
+// libarchive reads: one call may unpack gigabytes just to skip them.
 class ReadBudget {
   public:
     void set_deadline(SteadyTime deadline) { deadline_ = deadline; }
@@ -33,7 +33,7 @@ class ReadBudget {
         counts_ = true;
     }
     void end() { counts_ = false; }
-    // Counts a header that was read. Many long ones take as much time as a longer one.
+    // Counts a header that was read. Many long headers take as much time as one longer header.
     void add(std::uint64_t bytes);
     // Returns false, and sets the handle's error, if a header is longer than it may be or the
     // deadline has passed.
@@ -43,7 +43,7 @@ class ReadBudget {
 
   private:
     std::uint64_t left_ = 0;
-    std::uint64_t long_bytes_ = 0;  // of all headers, beyond what is usual
+    std::uint64_t long_bytes_ = 0;  // of all headers, beyond the usual length
     SteadyTime deadline_ = SteadyTime::max();
     bool counts_ = false;
     bool is_spent_ = false;
@@ -55,7 +55,7 @@ struct CloseArchive {
 };
 using Handle = std::unique_ptr<::archive, CloseArchive>;
 
-// Returns libarchive's own words for what is wrong.
+// Returns libarchive's own message for an error.
 [[nodiscard]] std::string error_text_of(::archive* handle);
 
 // Returns true if these first bytes are those of a known codec.
@@ -65,25 +65,25 @@ class PackedStream {
   public:
     // Opens a reader on the packed bytes. It is closed with the stream.
     using OpenSource = std::function<bool(::archive* handle)>;
-    // Returns how many bytes may come out when this many bytes of the source were read.
+    // Returns how many bytes may be unpacked after this many bytes of the source were read.
     using Bound = std::function<std::uint64_t(std::uint64_t source_bytes)>;
 
-    // Opens a stream on a source with this start. Returns none if it is not packed by a known
-    // codec. `small_codecs` allows gzip, bzip2 and compress, which take a few megabytes of memory
-    // whatever the input says; without it, xz and zstd are allowed too (up to 1 GiB). `of_source`,
-    // which must outlive the object, counts what is read of the source at a time: the header of a
-    // gzip file may have a name without an end.
+    // Opens a stream on a source with this start. Returns none if no known codec packed it.
+    // `small_codecs` allows gzip, bzip2 and compress, which take a few megabytes of memory whatever
+    // the input claims; without it, xz and zstd are allowed too (up to 1 GiB). `of_source`, which
+    // must outlive the object, limits how much is read of the source at a time, because the header
+    // of a gzip file may have a name without an end.
     [[nodiscard]] static std::unique_ptr<PackedStream> open(std::span<const std::byte> start,
                                                             const OpenSource& source,
                                                             ReadBudget& of_source,
                                                             bool small_codecs, Bound bound);
-    // Lets `handle`, which must end before this object, read the unpacked bytes.
-    // `header`, which must outlive `handle`, counts what its headers take.
+    // Lets `handle`, which must end before this object, read the unpacked bytes. `header`, which
+    // must outlive `handle`, counts the bytes of its headers.
     [[nodiscard]] bool feed(::archive* handle, ReadBudget& header);
     // Returns the bound in bytes if it was reached.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
     [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
-    // Returns true if the first byte that came out is zero, which begins no archive.
+    // Returns true if the first unpacked byte is zero, which begins no archive.
     [[nodiscard]] bool begins_with_zero() const { return begins_with_zero_; }
 
   private:

@@ -1,7 +1,7 @@
 // archive/plain_source.h -- gives libarchive the bytes of an archive that is not packed, and counts
-// those that its headers take.
+// the bytes of its headers.
 //
-// This is used only inside the archive room.
+// Only the archive room uses this.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -18,7 +18,7 @@ namespace stormcellar::archive {
 
 class PlainSource {
   public:
-    // Reads at most as many bytes as fit, from that place. Negative: they cannot be read.
+    // Reads bytes from this place, at most as many as fit. Negative: they cannot be read.
     using ReadAt = std::function<std::int64_t(std::uint64_t at, std::span<std::byte> into)>;
     PlainSource(ReadAt read_at, std::uint64_t size, ReadBudget& header);
 

@@ -1,22 +1,22 @@
 // stormcellar/archive/archive_reader.h -- reads the members of tar and zip archives, one after the
 // other.
 //
-// NCEI delivers orders as tar files, and people send what they have as zip. Members are read into
+// NCEI delivers orders as tar files, and people send their files as zip. Members are read into
 // memory and never unpacked under their own names. Links, devices, directories, encrypted members
 // and members whose names lead out of the archive are left out. The members of an archive inside an
 // archive are read too, one level deep.
 //
-// The input is hostile, so `Limits` bounds whatever it can claim: at a bound the reader stops and
-// says so. Data that is unpacked only to be passed over counts as well, and so does what one header
-// makes libarchive read (128 KiB, and 4 MiB of long headers together; the directory of a zip 16
-// MiB). Sparse files are left out. From a
-// damaged archive the reader returns the members that are whole, and those behind blocks of zeros,
-// as where tars were joined. Formats, found by content with
-// libarchive: tar (also compressed by gzip, bzip2, xz, zstd or compress) and zip.
+// The input is hostile, so `Limits` bounds everything that it can claim. At a bound the reader
+// stops and reports it. Data that are unpacked only to be skipped count as well, and so do the
+// bytes that one header makes libarchive read (128 KiB, and 4 MiB of long headers together; 16 MiB
+// for the directory of a zip). Sparse files are left out. From a damaged archive the reader returns
+// the whole members, and those after blocks of zeros, where tars may have been joined. Formats,
+// recognized by content with libarchive: tar (also compressed by gzip, bzip2, xz, zstd or compress)
+// and zip.
 //
 // Units     All sizes are in bytes.
 // Threads   Each reader may be used by one thread at a time.
-// Errors    ArchiveReader returns none: whatever it cannot give is in left_out().
+// Errors    ArchiveReader returns none; left_out() lists what it cannot return.
 //           SourceReader::read() returns those of read_file(), and not_found.
 #pragma once
 
@@ -47,7 +47,7 @@ struct Limits {
     std::uint64_t expansion = 200;  // unpacked bytes for each byte of the archive
     // an archive may unpack to this many bytes, whatever its expansion
     std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;
-    // of one call of next(), which may pass over much: the rest of the archive is not read then
+    // of one call of next(), which may skip much; after that the rest of the archive is not read
     std::chrono::seconds time{std::chrono::hours{24}};
     int nesting = 1;  // how deep archives inside archives are read
     // Allows only codecs that need a few megabytes of memory whatever the input says: gzip, bzip2
@@ -62,7 +62,7 @@ struct Member {
     std::vector<std::byte> bytes;
 };
 
-// Something in the archive that the reader does not return, with the reason for a person to read.
+// Something in the archive that the reader does not return, with a readable reason.
 struct LeftOut {
     std::string name;  // the member's name; empty: the archive itself
     std::string reason;
@@ -70,11 +70,11 @@ struct LeftOut {
 
 class ArchiveReader {
   public:
-    // Opens an archive, reading the descriptor from the start of the file. The descriptor must stay
-    // open as long as the reader. Returns none if the file is not an archive. If its start cannot
-    // be read, which may pass, the reader says so.
+    // Opens an archive and reads the descriptor from the start of the file. The descriptor must
+    // stay open as long as the reader. Returns none if the file is not an archive. If its start
+    // cannot be read, which may be temporary, returns a reader whose is_unreadable() is true.
     [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
-    // The same for an archive in memory. The bytes must outlive the reader.
+    // Does the same for an archive in memory. The bytes must outlive the reader.
     [[nodiscard]] static std::optional<ArchiveReader> open(std::span<const std::byte> bytes,
                                                            Limits limits = {});
     ArchiveReader(ArchiveReader&&) noexcept;
@@ -83,21 +83,21 @@ class ArchiveReader {
 
     // Returns the next member that is a file, or none at the end of the archive.
     [[nodiscard]] std::optional<Member> next();
-    // Returns what was left out up to now.
+    // Returns the members and parts that have been left out so far.
     [[nodiscard]] const std::vector<LeftOut>& left_out() const;
     // Returns true if the archive ends too early or is damaged, so that members may be missing. The
     // file may still be growing.
     [[nodiscard]] bool is_cut() const;
-    // Says why the members behind the last one were not read. Empty: the archive was read to its
-    // end, or its end is not reached yet.
+    // Returns the reason why the members after the last one were not read. Empty: the archive was
+    // read to its end, or its end is not reached yet.
     [[nodiscard]] const std::string& why_ended() const;
-    // Says why next() did not give the member of that name.
+    // Returns the reason why next() did not return the member of that name.
     [[nodiscard]] std::string why_missing(const std::string& name) const;
-    // Returns true if the archive was not read to its end because of an error of the system, which
-    // may pass. is_cut() is true then.
+    // Returns true if the archive was not read to its end because of a system error, which may be
+    // temporary. is_cut() is true then.
     [[nodiscard]] bool is_unreadable() const;
-    // Returns true if the last bytes are the end of an uncompressed tar or of a zip. The end of a
-    // compressed archive cannot be known before it is read, so the result is true for those.
+    // Returns true if the last bytes are the end of an uncompressed tar or of a zip. For a
+    // compressed archive the end cannot be known before it is read, so the result is true.
     [[nodiscard]] bool may_have_its_end() const;
 
   private:
@@ -106,16 +106,16 @@ class ArchiveReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// Splits a path such as DIR/a.tar!NAME, for which DIR/a.tar is a file and the whole path is not,
-// into the archive and the member. Returns none for any other path.
+// Splits a path such as DIR/a.tar!NAME into the archive and the member, if DIR/a.tar is a file and
+// the whole path is not. Returns none for any other path.
 [[nodiscard]] std::optional<MemberName> member_path_of(const std::filesystem::path& path);
 // Returns the member of that name. The descriptor is used as in open(). Errors: corrupt, with the
-// reason, if there is none; io if the archive cannot be read.
+// reason, if there is no such member; io if the archive cannot be read.
 [[nodiscard]] Result<Member> find_member(int descriptor, const std::string& name,
                                          Limits limits = {});
 
-// Reads files, and members of archives named as "ARCHIVE!MEMBER". Members are read fastest in the
-// order in which they stand in the archive.
+// Reads files, and members of archives named as "ARCHIVE!MEMBER". Reading members in the order of
+// the archive is fastest.
 class SourceReader {
   public:
     // Returns the bytes of the file or member. Errors: those of read_file(); not_found if the
