@@ -1,4 +1,4 @@
-// stormcellar-web: the data server as a service. Its usage is the text below.
+// stormcellar-web: the data server as a service. The text below describes its usage.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -33,7 +33,7 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-// Each connection, open grid and raw file takes one.
+// Each connection, open grid and raw file takes a descriptor.
 constexpr std::uint64_t wanted_descriptors = 65'536;
 
 void reload(WebService& service, const std::filesystem::path& file) {
@@ -51,7 +51,8 @@ void reload(WebService& service, const std::filesystem::path& file) {
     }
 }
 
-// Without the right to read it, clients are told only that a file cannot be read now.
+// Warns if the drop directory cannot be read. Clients would learn only that a file cannot be read
+// now.
 void look_at_drop(const std::filesystem::path& drop) {
     if (drop.empty()) return;
     const auto names = names_beneath(drop, drop);
@@ -62,7 +63,7 @@ void look_at_drop(const std::filesystem::path& drop) {
         names.error().message);
 }
 
-// For want of memory or threads a turn may fail; the server goes on as it is.
+// Takes a turn. If it fails because memory or threads have run out, the server goes on unchanged.
 void take_turn(WebService& service, const std::filesystem::path& file, bool reloads) {
     try {
         if (reloads) {

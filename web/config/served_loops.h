@@ -1,8 +1,8 @@
 // web/config/served_loops.h -- the animations that stormcellard keeps up to date, as the data
 // server gives them out.
 //
-// They are those of the tables [[loop]]. stormcellard itself checks these tables; here, what makes
-// no sense is passed over.
+// The loops are those of the tables [[loop]]. stormcellard checks these tables; this reader skips
+// entries that make no sense.
 //
 // Threads   Plain data and a pure function, which reads files.
 #pragma once
@@ -19,8 +19,8 @@ struct ServedLoop {
     bool operator==(const ServedLoop&) const = default;
 };
 
-// Returns the loops of stormcellard.toml. One without outputs of its own has those of its scene.
-// A file that cannot be read has none.
+// Returns the loops of stormcellard.toml. A loop without outputs of its own has the outputs of its
+// scene. A file that cannot be read gives an empty list.
 [[nodiscard]] std::vector<ServedLoop> read_served_loops(const std::filesystem::path& file);
 
 }  // namespace stormcellar::web

@@ -76,7 +76,7 @@ struct ConfiguredCollection {
     // A directory of files of Level III, named Level3_FTG_N0Q_20150615_1201.nids. Empty: the data
     // set is described, but has no files.
     std::filesystem::path files;
-    std::vector<std::string> stations;  // that it names; empty: those of the catalog
+    std::vector<std::string> stations;  // the stations to list; empty: those of the catalog
     bool operator==(const ConfiguredCollection&) const = default;
 };
 
@@ -91,18 +91,18 @@ struct ConfiguredPlace {
 struct ThreddsConfig {
     std::vector<ConfiguredCollection> collections;  // never empty
     std::vector<ConfiguredPlace> places;
-    std::vector<std::string> denied;  // beginnings of paths below /thredds: 403
+    std::vector<std::string> denied;  // prefixes of paths below /thredds that get 403
     bool operator==(const ThreddsConfig&) const = default;
 };
 
 struct WebLimits {
     int connections = 1024;
-    int connections_of_an_address = 256;  // trusted proxies have as many as there are in all
-    int event_streams = 2048;             // these count apart from other connections
+    int connections_of_an_address = 256;  // trusted proxies may have every connection
+    int event_streams = 2048;             // counted apart from other connections
     int event_streams_of_a_client = 64;
     std::uint64_t header_bytes = 32'768;
     std::chrono::seconds request{20};  // from the opening, or the last answer, to a request's end
-    std::uint64_t least_bytes_per_second = 1'000;  // that a client must take of an answer
+    std::uint64_t least_bytes_per_second = 1'000;  // a client must take an answer this fast
     int workers = 0;                               // 0: two for each processor
     int renders = 1;                               // pictures and grids computed at the same time
     int waiting = 32;                              // requests that wait for a render; beyond, 503
@@ -110,7 +110,7 @@ struct WebLimits {
     std::uint64_t kept_bytes = 256'000'000;        // packed grids and lists kept in memory
     std::uint64_t kept_picture_bytes = 64'000'000;
     int open_grids = 64;
-    std::uint64_t answer_bytes = 256'000'000;  // of answers on their way, in memory
+    std::uint64_t answer_bytes = 256'000'000;  // of all answers on their way, in memory
     bool operator==(const WebLimits&) const = default;
 };
 
@@ -132,8 +132,8 @@ struct WebConfig {
     bool operator==(const WebConfig&) const = default;
 };
 
-// Reads [web], [web.thredds], [[web.thredds.collection]] and [web.limits]. What is wrong is
-// recorded as a complaint.
+// Reads [web], [web.thredds], [[web.thredds.collection]] and [web.limits]. Records each error as a
+// complaint of the table.
 [[nodiscard]] WebConfig read_web_config(TomlTable& root);
 
 }  // namespace stormcellar::web

@@ -11,7 +11,7 @@
 namespace stormcellar::web {
 namespace {
 
-// tests/web/web_setup_test.cpp reads the shipped file, which has all of them.
+// Tables of stormcellard.toml that other programs read.
 constexpr std::array<std::string_view, 10> tables_of_others = {
     "ingest", "cache", "domain", "partials", "loop", "catalog", "watch", "status", "pull", "feed"};
 

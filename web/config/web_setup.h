@@ -1,5 +1,5 @@
-// web/config/web_setup.h -- all that the data server reads of stormcellard.toml: its own tables,
-// the directories, the stations that were added, and the level of the log.
+// web/config/web_setup.h -- what the data server reads from stormcellard.toml: its own tables, the
+// directories, the added stations, and the log level.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -16,12 +16,12 @@
 namespace stormcellar::web {
 
 struct WebSetup {
-    std::filesystem::path drop;  // empty: it is not known
+    std::filesystem::path drop;  // empty: unknown
     std::filesystem::path state = "/var/lib/stormcellar";
     std::filesystem::path catalog = "/var/lib/stormcellar/catalog";  // empty: none
     std::filesystem::path cache = "/var/cache/stormcellar";          // empty: none
-    // Where the server keeps the numbers of times (web/data/zarr/time_numbers.h). Empty: in memory.
-    // It is not in the file; stormcellar-web takes it from $STATE_DIRECTORY.
+    // Directory for the numbers of times (web/data/zarr/time_numbers.h). Empty: in memory. The file
+    // has no such key; stormcellar-web takes it from $STATE_DIRECTORY.
     std::filesystem::path numbers;
     std::vector<AddedStation> added_stations;
     std::vector<ServedLoop> loops;
@@ -30,13 +30,13 @@ struct WebSetup {
     bool operator==(const WebSetup&) const = default;
 };
 
-// Relative paths start at the directory of the file. The tables that are stormcellard's alone are
-// not looked at. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key: why".
+// Relative paths start at the directory of the file. Tables that only stormcellard uses are
+// ignored. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key: why".
 [[nodiscard]] Result<WebSetup> load_web_setup(const std::filesystem::path& file);
 
-// Returns a sentence for each part of `fresh` that differs from `running` and that a reload cannot
-// apply: [paths] and [[station]] take effect only at a start. All of [web], [log] and [[loop]]
-// takes effect at once.
+// Returns a sentence for each difference between `fresh` and `running` that a reload cannot apply:
+// [paths] and [[station]] take effect only at a start. [web], [log] and [[loop]] take effect at
+// once.
 [[nodiscard]] std::vector<std::string> needs_restart(const WebSetup& fresh,
                                                      const WebSetup& running);
 

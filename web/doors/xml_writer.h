@@ -1,4 +1,4 @@
-// web/doors/xml_writer.h -- writes XML, escaped, one element a line.
+// web/doors/xml_writer.h -- writes escaped XML, one element a line.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -13,16 +13,16 @@ namespace stormcellar::web {
 
 class XmlWriter {
   public:
-    // Names and values are copied at once. Names of elements and attributes are ours, so they are
-    // not escaped.
+    // Names and values are copied at once. The program itself names elements and attributes, so
+    // names are not escaped.
     using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
-    XmlWriter();  // begins with the declaration of XML 1.0 in UTF-8
+    XmlWriter();  // writes the declaration of XML 1.0 in UTF-8
     XmlWriter& open(std::string_view name, Attributes attributes = {});
-    XmlWriter& close();  // the element that was opened last
+    XmlWriter& close();  // closes the element that was opened last
     XmlWriter& leaf(std::string_view name, std::string_view text, Attributes attributes = {});
     XmlWriter& empty(std::string_view name, Attributes attributes = {});
-    // Closes what is still open.
+    // Closes all open elements and returns the document.
     [[nodiscard]] std::string take();
 
   private:

@@ -85,8 +85,8 @@ unsigned status_of(const Error& error) {
     return 500;
 }
 
-// A path begins with a slash at the beginning of a word, and goes on to what is said of it: names
-// of files may hold blanks.
+// Replaces paths. A path begins with a slash at the start of a word and ends where the message goes
+// on about it, because names of files may hold blanks.
 std::string without_paths(std::string_view message) {
     std::string out;
     while (!message.empty()) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::chrono::seconds given_to_new_for{10};
 
-// The object that a piece keeps in memory, with all of its bytes.
+// Returns the object that a piece keeps in memory, with its full size.
 AnswerBudget::HeldObject object_of(const Piece& piece) {
     if (const auto* text = std::get_if<Text>(&piece)) return {text->get(), (*text)->size()};
     const auto& slice = std::get<FileSlice>(piece);
@@ -17,7 +17,7 @@ AnswerBudget::HeldObject object_of(const Piece& piece) {
 
 }  // namespace
 
-// Many small pieces of one answer are as much as a large one.
+// Returns true if the pieces together are large enough; many small pieces count as one large one.
 bool AnswerBudget::is_counted(const Pieces& pieces) {
     std::uint64_t sum = 0;
     for (const Piece& piece : pieces)

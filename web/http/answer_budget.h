@@ -1,10 +1,10 @@
-// web/http/answer_budget.h -- bounds the memory of answers that are on their way to clients.
+// web/http/answer_budget.h -- limits the memory of answers that are on their way to clients.
 //
-// Counted are bytes in memory and files without a name, each once however many answers share it;
-// answers below 64 KiB are not counted, so that they pass when the budget is spent. One client
-// holds at most half of what the others leave. An answer that is larger passes if it is the only
-// one. For 10 s after a refusal for want of room, clients that hold something get nothing: else
-// those whose slow answers are ended ask again, share what others hold, and nothing becomes free.
+// The budget counts bytes in memory and nameless files, each once however many answers share it.
+// Answers below 64 KiB are not counted, so they pass even when the budget is spent. One client may
+// hold at most half of what the others leave. A larger answer passes if it is the only one. For 10
+// s after a refusal, clients that hold something get nothing more. Otherwise clients whose slow
+// answers were cut off would ask again and share what others hold, and nothing would become free.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -27,7 +27,7 @@ class AnswerBudget {
     explicit AnswerBudget(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
 
     [[nodiscard]] static bool is_counted(const Pieces& pieces);
-    // Returns false if the budget, or the client's share of it, has no room; then nothing is taken.
+    // Returns false, and takes nothing, if the budget or the client's share of it has no room.
     [[nodiscard]] bool take(const std::string& client, const Pieces& pieces);
     // Call once for each take() that succeeded, with the same pieces.
     void give_back(const std::string& client, const Pieces& pieces);
@@ -41,7 +41,7 @@ class AnswerBudget {
   private:
     using Objects = std::vector<HeldObject>;
     static Objects objects_of(const Pieces& pieces);
-    // Objects that one client or all together hold, with the number of answers that use each.
+    // Objects that one client, or all together, hold, with the number of answers that use each.
     struct Holder {
         std::map<const void*, std::uint64_t> uses;
         std::uint64_t bytes = 0;

@@ -25,7 +25,7 @@ std::string text_of_v6(const in6_addr& address) {
     return text.data();
 }
 
-// Returns what stands before the port.
+// Returns the part before the port.
 std::string_view host_of(std::string_view text) {
     if (text.starts_with('[')) {
         const std::size_t end = text.find(']');

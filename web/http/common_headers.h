@@ -1,5 +1,5 @@
-// web/http/common_headers.h -- what every answer has: what a browser must not do with it, and who
-// may read it.
+// web/http/common_headers.h -- adds the headers that every answer has: restrictions for browsers,
+// and which origins may read it.
 //
 // Threads   Pure functions.
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace stormcellar::web {
 
-// `any_origin`: the pages of other servers may read it.
+// `any_origin` lets pages of other servers read the answer.
 void add_common_headers(Answer& answer, const Request& request, bool any_origin);
 
 }  // namespace stormcellar::web

@@ -18,21 +18,22 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::milliseconds look_every{500};
-// A body has so much time before its rate says anything.
+// The rate of a body is not judged before this time.
 constexpr std::chrono::seconds rate_is_known_after{5};
-// A client that takes a whole body at this many times the least rate is never cut off.
+// A client that takes a whole body at this multiple of the least rate is never cut off.
 constexpr std::uint64_t times_least_rate = 20;
-// Each takes a look at all bodies, while others wait for the lock.
+// Each cut scans all bodies while other threads wait for the lock.
 constexpr int most_cut_at_once = 16;
-// A new connection has so much time to say what it wants before it counts as idle.
+// A new connection has this long to send something before it counts as idle.
 constexpr std::chrono::milliseconds first_words_within{250};
-// So much of a body waits in the kernel beyond what the client's window takes. With the smaller
-// number a volume takes twice the processor time, because the server is woken for little pieces;
-// with the larger one slow readers on all connections would take gigabytes.
+// Bytes of a body that may wait in the kernel beyond the client's window, with few and with many
+// connections. With the smaller limit a volume takes twice the processor time, because the server
+// is woken for small pieces; with the larger limit slow readers on all connections would take
+// gigabytes.
 constexpr int most_unsent_of_few = 2 * 1024 * 1024, most_unsent_of_many = 256 * 1024;
 constexpr std::size_t few_connections = 128;
 
-// The bytes that the other side has acknowledged since the connection was opened.
+// Returns the bytes that the other side has acknowledged since the connection was opened.
 std::uint64_t acknowledged_bytes(int descriptor) {
     tcp_info info{};
     socklen_t size = sizeof info;
@@ -215,14 +216,15 @@ ConnectionWatch::Open* ConnectionWatch::longest_without_request() {
         if (open.is_cut || open.phase != Phase::request) continue;
         if (oldest == nullptr || open.since < oldest->since) oldest = &open;
     }
-    // A newcomer may be about to send its first request.
+    // A new connection may be about to send its first request.
     const bool is_new =
         oldest != nullptr && std::chrono::steady_clock::now() - oldest->since < first_words_within;
     return is_new ? nullptr : oldest;
 }
 
-// Bodies that hardly move go first, whoever their client is, then those of the client that has most
-// connections. A proxy stands for many clients, so it counts as if it had one.
+// Returns the body to cut first: a body that hardly moves, whoever its client is, else the slowest
+// one of the client that has most connections. A proxy counts as if it had one connection, because
+// it represents many clients.
 ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
     const auto least_rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
     Open* slowest = nullptr;
@@ -293,7 +295,7 @@ ConnectionWatch::Streams ConnectionWatch::look(SteadyTime now) {
     for (auto& [connection, open] : open_)
         if (!open.is_cut && is_too_slow(open, now)) cut(open);
     cut_slowest_bodies(now);
-    // An answer that many share becomes free when all of them have ended.
+    // If many answers share memory, it becomes free only when all of them have ended.
     const int most_cut = is_memory_short_.exchange(false) ? most_cut_at_once : 0;
     for (int cuts = 0; cuts < most_cut; ++cuts) {
         Open* slowest = slowest_that_holds_memory(now);

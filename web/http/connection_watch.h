@@ -1,12 +1,12 @@
 // web/http/connection_watch.h -- cuts off connections that wait too long, and counts them.
 //
-// libmicrohttpd's own timeout is for inactivity: a client that sends one byte every few seconds
-// would hold a connection forever. This watch sets a total for the arrival of a request, and for a
-// body that a client takes a least rate and a total. It ends a connection by shutdown(2);
-// libmicrohttpd then sees its end and closes it. While a stream has nothing to send, libmicrohttpd
-// does not look at its connection; the watch does, and ends the stream if the client is gone.
+// libmicrohttpd's own timeout is for inactivity, so a client that sends one byte every few seconds
+// would hold a connection forever. This watch limits the total time of a request's arrival, and the
+// rate and total time of a body. It ends a connection by shutdown(2); libmicrohttpd then closes it.
+// libmicrohttpd does not look at a connection whose stream has nothing to send; the watch does, and
+// ends the stream if the client is gone.
 //
-// Threads   Many threads may use it; a thread of its own looks twice a second.
+// Threads   Many threads may use it. Its own thread looks twice a second.
 #pragma once
 
 #include <atomic>
@@ -35,25 +35,24 @@ class ConnectionWatch {
     ConnectionWatch& operator=(const ConnectionWatch&) = delete;
     ~ConnectionWatch();
 
-    // Returns false if this client has too many connections, or all clients together. A connection
-    // that carries a stream does not count: who makes streams limits them.
+    // Returns false if this client, or all clients together, have too many connections. Connections
+    // with streams do not count; their doors limit them.
     [[nodiscard]] bool may_open(const std::string& client) const;
-    // If three quarters of the connections are open, the one that has waited longest for a request
-    // is ended. While seven eighths are open, the slowest bodies of the client that has most
-    // connections are ended, too. Streams do not count.
+    // Call when a connection has opened. If three quarters of the connections are open, the watch
+    // ends the one that has waited longest for a request. While seven eighths are open, it also
+    // ends the slowest bodies of the client that has most connections. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
-    // The answer goes out from now on: a body, or a stream, which may have nothing to send for
-    // long.
-    // `holds_memory`: the body counts among the bytes that are on their way.
+    // Call when the answer starts to go out: a body, or a stream, which may have nothing to send
+    // for long. `holds_memory` says that the answer budget counts the body.
     void sending_body(MHD_Connection* connection, std::uint64_t bytes, bool holds_memory = false);
     void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
-    // An answer was refused for want of memory: the slowest body that holds some is ended, unless
-    // its client takes it at twenty times the least rate.
+    // Call when an answer was refused for want of memory. The watch ends the slowest body that
+    // holds some, unless its client takes it at twenty times the least rate.
     void memory_is_short() { is_memory_short_ = true; }
-    [[nodiscard]] std::size_t count() const;  // with streams
+    [[nodiscard]] std::size_t count() const;  // including streams
     // Returns true if no answer is being made or sent, and no request may be about to be read.
     [[nodiscard]] bool is_idle() const;
 
@@ -61,12 +60,12 @@ class ConnectionWatch {
     enum class Phase { request, thinking, body, stream };
     struct Open {
         int descriptor = -1;
-        std::string client;  // as it is counted
+        std::string client;  // the name under which it is counted
         Phase phase = Phase::request;
         SteadyTime since;                       // of the phase, or of the last look at the rate
-        std::uint64_t taken_bytes = 0;          // what the client had acknowledged then
-        SteadyTime began = {};                  // of the phase
-        std::uint64_t acknowledged_before = 0;  // what the client had acknowledged then
+        std::uint64_t taken_bytes = 0;          // acknowledged by the client at that time
+        SteadyTime began = {};                  // start of the phase
+        std::uint64_t acknowledged_before = 0;  // acknowledged by the client at that time
         std::uint64_t body_bytes = 0;
         bool holds_memory = false;
         bool is_cut = false;
@@ -86,12 +85,13 @@ class ConnectionWatch {
     [[nodiscard]] Open* slowest_body(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
     [[nodiscard]] Open* slowest_that_holds_memory(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
     [[nodiscard]] bool takes_too_long(const Open& open, SteadyTime now) const;
-    // The name under which a client's connections are counted: a proxy that may have all is itself.
+    // Returns the name under which a client's connections are counted. Proxies that may have all
+    // connections are counted by their own address.
     [[nodiscard]] std::string name_of(const std::string& client) const;
     void count_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
     void forget_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
     static void cut(Open& open);
-    // Bytes a second, of the phase.
+    // Returns the rate of the phase, in bytes a second.
     static double rate_of(const Open& open, SteadyTime now);
 
     const ServerLimits limits_;

@@ -1,8 +1,8 @@
-// web/http/counters.h -- what the server did, counted for /metrics.
+// web/http/counters.h -- counts the server's requests and answers for /metrics.
 //
-// The server's `on_answer` (web/http/server_options.h) calls count(). A door is named by its
-// prefix, so that the labels are few whatever clients ask for. Other rooms add gauges and counters
-// of their own as functions, which are called when /metrics is asked.
+// The server's `on_answer` (web/http/server_options.h) calls count(). Doors are labeled by prefix,
+// so clients cannot create labels. Other rooms add gauges and counters as functions, which are
+// called when /metrics is requested.
 //
 // Units     Seconds and bytes.
 // Threads   Doors, gauges and counters are added before the server starts. After that, many threads
@@ -24,20 +24,20 @@
 
 namespace stormcellar::web {
 
-// The statuses that the server sends; a status that is not among them counts as the last.
+// The statuses that the server sends; any other status is counted as the last.
 inline constexpr std::array<unsigned, 22> counted_statuses = {
     200, 204, 206, 301, 302, 304, 308, 400, 403, 404, 405,
     406, 410, 412, 414, 416, 421, 429, 431, 500, 501, 503};
-// Upper bounds of the histogram of seconds, but for infinity.
+// Upper bounds of the histogram of seconds, except infinity.
 inline constexpr std::array<double, 9> counted_seconds = {0.0005, 0.002, 0.01, 0.05, 0.1,
                                                           0.5,    1,     5,    30};
 
 class Counters {
   public:
-    // Counts requests below this prefix ("/tiles") apart. Others count as "other", and requests
-    // that could not be read as "unread".
+    // Counts requests below this prefix ("/tiles") separately. Other requests count as "other", and
+    // requests that could not be read as "unread".
     void add_door(std::string prefix);
-    // A number that rises and falls, or that only rises. The name is that of the family:
+    // Add a number that rises and falls, or one that only rises. The name is the family's, such as
     // "stormcellar_web_kept_bytes".
     void add_gauge(std::string name, std::string help, std::function<double()> value,
                    Fields labels = {});
@@ -45,7 +45,7 @@ class Counters {
 
     void count(const Served& served);
 
-    // Returns all of it in the text format of Prometheus, version 0.0.4.
+    // Returns all metrics in the text format of Prometheus, version 0.0.4.
     [[nodiscard]] std::string text() const;
 
   private:

@@ -1,4 +1,5 @@
-// web/http/door.h -- what answers below one path, and how a request finds it.
+// web/http/door.h -- doors, which answer requests below one path, and the choice of a door for a
+// request.
 //
 // Threads   The server calls a door from many threads at once.
 #pragma once
@@ -18,23 +19,24 @@ namespace stormcellar::web {
 class Door {
   public:
     virtual ~Door() = default;
-    // Returns the answer if that takes well under a millisecond: it is kept in memory, or a file is
-    // opened. The thread that serves all connections calls it. None: a worker calls answer().
+    // Returns the answer if that takes well under a millisecond, because it is kept in memory or
+    // only a file must be opened. The thread that serves all connections calls it. None: a worker
+    // calls answer().
     virtual std::optional<Answer> answer_at_once(const Request& /*request*/) {
         return std::nullopt;
     }
     // Makes the answer, however long that takes. If it throws, the client gets 503.
     virtual Answer answer(const Request& request) = 0;
-    // Returns the answer unless it must be computed for long. None: answer() makes it, called by
-    // the workers for long answers. Only a door that has such workers needs it.
+    // Returns the answer unless computing it takes long. None: the workers for long answers call
+    // answer(). Only a door with such workers needs this.
     virtual std::optional<Answer> answer_soon(const Request& request) { return answer(request); }
 
-    // A door whose answers take long has workers of its own, which several doors may share: then
-    // the other doors need not wait for them, and what they cannot take is answered with 503. Null:
-    // the workers of the server. To be set before the server opens.
+    // Gives a door with slow answers its own workers, which several doors may share, so that the
+    // other doors need not wait. Requests beyond their capacity get 503. Null: the server's
+    // workers. Call before the server opens.
     void set_workers(std::shared_ptr<WorkQueue> workers) { workers_ = std::move(workers); }
     [[nodiscard]] const std::shared_ptr<WorkQueue>& workers() const { return workers_; }
-    // The same for answers that answer_soon() leaves.
+    // Does the same for the answers that answer_soon() leaves.
     void set_long_workers(std::shared_ptr<WorkQueue> workers) {
         long_workers_ = std::move(workers);
     }
@@ -44,16 +46,16 @@ class Door {
     std::shared_ptr<WorkQueue> workers_, long_workers_;
 };
 
-// A door finds itself by the longest prefix of whole segments: "/s3" answers "/s3", "/s3/" and
-// "/s3/a", not "/s3a". "/" answers what no other door does.
+// Finds the door with the longest prefix of whole segments: "/s3" answers "/s3", "/s3/" and
+// "/s3/a", not "/s3a". "/" answers everything else.
 class Doors {
   public:
     void add(std::string prefix, std::shared_ptr<Door> door);
-    // Never null once "/" was added.
+    // Returns the door; never null once "/" was added.
     [[nodiscard]] std::shared_ptr<Door> find(std::string_view path) const;
-    // The longest first; "/" is among them as "/".
+    // Returns the prefixes, the longest first; "/" is one of them.
     [[nodiscard]] std::vector<std::string> prefixes() const;
-    // The workers that doors have of their own, each once.
+    // Returns the doors' own workers, each once.
     [[nodiscard]] std::vector<std::shared_ptr<WorkQueue>> workers() const;
 
   private:

@@ -1,4 +1,4 @@
-// Conditional requests and ranges: RFC 9110 sections 13 and 14.
+// Answers conditional requests and ranges: RFC 9110 sections 13 and 14.
 #include <algorithm>
 #include <charconv>
 
@@ -19,7 +19,8 @@ std::string_view without_spaces(std::string_view text) {
     return text;
 }
 
-// Calls `take` with each item of a list with commas. Tags may hold commas; ours do not.
+// Calls `take` with each item of a comma-separated list. The tags of this server hold no commas,
+// though others' may.
 template <class Take>
 void each_item(std::string_view list, Take take) {
     while (!list.empty()) {
@@ -40,7 +41,7 @@ bool names_tag(std::string_view list, std::string_view etag, bool weakly) {
     return found;
 }
 
-// The second in which it was changed: dates of HTTP have no more.
+// Returns the second of the last change, because dates of HTTP have whole seconds.
 std::optional<std::chrono::sys_seconds> seconds_of(std::optional<UtcTime> time) {
     if (!time) return std::nullopt;
     return std::chrono::floor<std::chrono::seconds>(*time);
@@ -89,7 +90,7 @@ std::optional<std::uint64_t> whole_number(std::string_view text) {
 
 struct Ranges {
     bool makes_sense = true;
-    std::vector<ByteRange> parts;  // those that the bytes have
+    std::vector<ByteRange> parts;  // the parts that the bytes have
 };
 
 Ranges parse_ranges(std::string_view header, std::uint64_t size) {
@@ -154,7 +155,8 @@ Answer several_parts(const Entity& entity, const std::vector<ByteRange>& ranges)
     return answer;
 }
 
-// Ranges that together ask for more than the whole are an attack or a mistake: the whole is sent.
+// Returns true if the ranges together ask for more than the whole, which is an attack or a mistake;
+// the whole is sent then.
 bool asks_too_much(const std::vector<ByteRange>& ranges, std::uint64_t size) {
     std::uint64_t sum = 0;
     for (const ByteRange& range : ranges)

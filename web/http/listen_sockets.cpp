@@ -42,7 +42,7 @@ Result<Descriptor> listen_at(const ListenAddress& where) {
     if (!socket.is_open()) return system_failure(what, errno);
     const int on = 1;
     ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    // Connections inherit it.
+    // Accepted connections inherit this option.
     if (is_v6) ::setsockopt(socket.number(), IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
     if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&storage), size) != 0 ||
         ::listen(socket.number(), 1024) != 0) {

@@ -1,6 +1,6 @@
-// web/http/listen_sockets.h -- the sockets on which a server listens. They are apart from the
-// server so that one server can follow another without closing a port, which another program could
-// take.
+// web/http/listen_sockets.h -- the sockets on which a server listens. They are separate from the
+// server so that a new server can replace the old one without closing a port, which another program
+// could take.
 //
 // Threads   Plain values; many may share a socket.
 #pragma once
@@ -17,7 +17,7 @@ struct sockaddr;
 
 namespace stormcellar::web {
 
-// The address and port of a socket's other or own end.
+// The address and port of either end of a socket.
 struct EndPoint {
     std::string address;
     int port = 0;
@@ -25,15 +25,15 @@ struct EndPoint {
 [[nodiscard]] EndPoint end_point_of(const sockaddr* raw);
 
 struct ListenSocket {
-    ListenAddress where;  // as it was asked for
+    ListenAddress where;  // the requested address
     std::shared_ptr<const Descriptor> socket;
-    int port = 0;     // that it has
+    int port = 0;     // the actual port
     std::string url;  // "http://127.0.0.1:8090/"
 };
 using ListenSockets = std::vector<ListenSocket>;
 
-// Returns a socket for each address: that of `held` if this has one for the same address, else a
-// new one. Errors: busy: an address is in use; bad_argument: it is no address; io.
+// Returns a socket for each address: the one in `held` if there is one for the same address, else a
+// new one. Errors: busy if an address is in use; bad_argument if it is not an address; io.
 [[nodiscard]] Result<ListenSockets> open_listen_sockets(const std::vector<ListenAddress>& wanted,
                                                         const ListenSockets& held = {});
 

@@ -23,7 +23,7 @@ bool is_port_number(std::string_view text) {
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The name without its port; empty if what follows is no port.
+// Returns the name without its port; empty if the rest is not a port.
 std::string_view name_of_host(std::string_view host) {
     const bool is_v6 = host.starts_with('[');
     const std::size_t end = is_v6 ? host.find(']') : host.find(':');
@@ -34,7 +34,8 @@ std::string_view name_of_host(std::string_view host) {
     return {};
 }
 
-// The value of `name` in the last element of a Forwarded field, which our proxy has added.
+// Returns the value of `name` in the last element of a Forwarded field, which the trusted proxy
+// added.
 std::string forwarded_value(std::string_view field, std::string_view name) {
     const std::size_t comma = field.rfind(',');
     std::string_view last = comma == std::string_view::npos ? field : field.substr(comma + 1);
@@ -65,7 +66,7 @@ std::string last_of(std::string_view list) {
     return std::string(list);
 }
 
-// Statements of a trusted proxy about the client and the address that the client used.
+// Statements of a trusted proxy about the client, and about the address that the client used.
 struct ForwardedFacts {
     std::string client, scheme, host;
 };
@@ -81,9 +82,9 @@ ForwardedFacts facts_of_x_forwarded(const Request& request) {
     return {last_in("X-Forwarded-For"), last_in("X-Forwarded-Proto"), last_in("X-Forwarded-Host")};
 }
 
-// A proxy writes one kind of fields, and passes on the other kind as its client sent it unless it
-// was told not to. So if there are both and they name different clients, neither is believed: the
-// client is then the proxy.
+// Returns the proxy's statements. A proxy writes one kind of field and, unless configured
+// otherwise, passes on the other kind as its client sent it. So if both kinds are present and name
+// different clients, neither is believed and the proxy counts as the client.
 ForwardedFacts forwarded_facts(const Request& request) {
     const auto field = request.header("Forwarded");
     ForwardedFacts facts = facts_of_x_forwarded(request);
@@ -111,7 +112,7 @@ std::optional<Refusal> check_host(const RawRequest& raw, const Request& request,
     const std::size_t hosts = count_of(raw.headers, "host");
     if (hosts > 1) return Refusal{400, "The request has several Host fields."};
     if (hosts == 0) {
-        // HTTP/1.0 knows no Host, and no browser speaks it.
+        // HTTP/1.0 has no Host field, and browsers do not use it.
         if (raw.is_http_1_0) return std::nullopt;
         return Refusal{400, "The request has no Host field."};
     }
@@ -141,7 +142,7 @@ std::string base_of(const RawRequest& raw, const Request& request, const Identit
 
 Identity identity_of(const ServerOptions& options) {
     Identity identity;
-    // The name as the field Host has it.
+    // Store the name as it appears in the field Host.
     const auto add_name = [&](const std::string& name) {
         const bool is_v6 = name.find(':') != std::string::npos;
         identity.names.insert(lower_case(is_v6 ? fmt::format("[{}]", name) : name));
@@ -150,7 +151,7 @@ Identity identity_of(const ServerOptions& options) {
         add_name(name);
     for (const ListenAddress& listen : options.listen)
         add_name(listen.address);
-    // An address of IPv6 may be written in several ways.
+    // Normalize addresses, because IPv6 has several forms of one address.
     for (const std::string& proxy : options.trusted_proxies)
         identity.proxies.insert(read_address(proxy).value_or(proxy));
     identity.public_address = options.public_address;
@@ -159,7 +160,7 @@ Identity identity_of(const ServerOptions& options) {
     identity.prefix = options.prefix;
     while (identity.prefix.ends_with('/'))
         identity.prefix.pop_back();
-    // The host of the public address is ours, too.
+    // The host of the public address is one of the server's names, too.
     const std::size_t scheme = identity.public_address.find("://");
     if (scheme != std::string::npos) {
         const std::string_view rest = std::string_view{identity.public_address}.substr(scheme + 3);
@@ -190,7 +191,7 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
         return reading;
     }
     const bool is_proxied = identity.proxies.contains(raw.client);
-    // If a proxy names no address but, say, "unknown", the proxy itself stays the client.
+    // If a proxy gives no address but, say, "unknown", the proxy itself stays the client.
     if (is_proxied) {
         if (auto client = read_address(forwarded_facts(request).client))
             request.client = *std::move(client);
@@ -211,7 +212,7 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
         return reading;
     }
     std::string_view target = raw.target;
-    // A target may be a whole address (RFC 9112 section 3.2.2).
+    // A target may be a full URL (RFC 9112 section 3.2.2).
     if (target.starts_with("http://") || target.starts_with("https://")) {
         target.remove_prefix(target.find("://") + 3);
         const std::size_t slash = target.find('/');

@@ -1,4 +1,5 @@
-// web/http/read_request.h -- makes a Request of what libmicrohttpd read, or says why it is refused.
+// web/http/read_request.h -- checks what libmicrohttpd read and makes a Request of it, or refuses
+// it.
 //
 // Threads   Pure functions.
 #pragma once
@@ -27,7 +28,7 @@ struct Refusal {
     std::string reason;
 };
 
-// Names and addresses that are ours, and the proxies that we trust.
+// Names and addresses of this server, and its trusted proxies.
 struct Identity {
     std::set<std::string> names;    // lower case, without ports; "*": any
     std::set<std::string> proxies;  // addresses
@@ -35,10 +36,11 @@ struct Identity {
 };
 [[nodiscard]] Identity identity_of(const ServerOptions& options);
 
-// Returns whether a Host field names us: a loopback name, or one of `names`, with any port.
+// Returns whether a Host field names this server: a loopback name, or one of `names`, with any
+// port.
 [[nodiscard]] bool names_us(std::string_view host, const Identity& identity);
 
-// Checks and decodes a request. The refusal is none if it may be answered.
+// A decoded request, and the refusal; none if the request may be answered.
 struct Reading {
     Request request;
     std::optional<Refusal> refusal;

@@ -28,8 +28,8 @@ int hex_digit(char c) {
     return -1;
 }
 
-// The length of the UTF-8 sequence at the start of the text; 0 if it is overlong, cut short, a
-// surrogate or beyond U+10FFFF.
+// Returns the length of the UTF-8 sequence at the start of the text; 0 if it is overlong,
+// truncated, a surrogate or beyond U+10FFFF.
 std::size_t sequence_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char first = byte(0);
@@ -46,7 +46,7 @@ std::size_t sequence_length(std::string_view text) {
     return code < least[length] || is_surrogate || code > 0x10FFFF ? 0 : length;
 }
 
-// Text that we can name in logs, headers and pages: UTF-8 without control characters.
+// Returns true for text that is safe in logs, headers and pages: UTF-8 without control characters.
 bool is_plain(std::string_view text) {
     while (!text.empty()) {
         const std::size_t length = sequence_length(text);
@@ -61,8 +61,8 @@ bool is_plain(std::string_view text) {
     return true;
 }
 
-// The weight that an Accept header gives a media type, by the most specific range that names it: 0
-// if none does.
+// Returns the weight that an Accept header gives a media type, from the most specific range that
+// matches it; 0 if none does.
 double weight_of_type(std::string_view list, std::string_view type, std::string_view subtype) {
     double weight = 0;
     int most_specific = 0;
@@ -122,7 +122,7 @@ bool Request::accepts(std::string_view coding) const {
         rest.remove_prefix(std::min(comma + 1, rest.size()));
         const std::size_t semicolon = std::min(item.find(';'), item.size());
         if (!is_name(trimmed(item.substr(0, semicolon)), coding)) continue;
-        // A weight is refused only if all its digits are 0.
+        // A weight refuses the coding only if all its digits are 0.
         const std::string_view weight = item.substr(semicolon);
         const std::size_t equals = weight.find('=');
         if (equals == std::string_view::npos) return true;
@@ -168,7 +168,7 @@ std::optional<std::string> decoded(std::string_view text, bool plus_is_space) {
 }
 
 std::optional<std::string> decoded_path(std::string_view target) {
-    // An encoded slash or backslash would make of one segment two, for us or for a proxy before us.
+    // Refuse an encoded slash or backslash: it would split a segment in two, here or in a proxy.
     for (std::size_t i = 0; i + 2 < target.size(); ++i) {
         if (target[i] != '%') continue;
         const int code = hex_digit(target[i + 1]) * 16 + hex_digit(target[i + 2]);

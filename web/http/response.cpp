@@ -21,7 +21,7 @@ void let_text_go(void* text) {
 
 Response response_of_text(const Text& text) {
     auto held = std::make_unique<Text>(text);
-    // libmicrohttpd does not change the bytes; its interface is older than const.
+    // libmicrohttpd does not change the bytes; its interface predates const.
     Response response(MHD_create_response_from_buffer_with_free_callback_cls(
         text->size(), const_cast<char*>(text->data()), &let_text_go, held.get()));
     if (response != nullptr) (void)held.release();
@@ -36,7 +36,7 @@ Response response_of_file(const FileSlice& slice) {
     return response;
 }
 
-// Reads pieces one after another. A file that became shorter ends the connection.
+// Reads pieces one after another. If a file became shorter, the connection ends.
 ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::size_t most) try {
     const Pieces part = part_of(*static_cast<const Pieces*>(pieces), position, most);
     std::size_t filled = 0;
@@ -55,7 +55,7 @@ ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::siz
     }
     return filled > 0 ? static_cast<ssize_t>(filled) : MHD_CONTENT_READER_END_WITH_ERROR;
 } catch (const std::exception&) {
-    return MHD_CONTENT_READER_END_WITH_ERROR;  // libmicrohttpd knows no exceptions
+    return MHD_CONTENT_READER_END_WITH_ERROR;  // exceptions must not enter libmicrohttpd
 }
 
 void let_pieces_go(void* pieces) {
@@ -101,8 +101,8 @@ Response response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Connectio
     return response;
 }
 
-// libmicrohttpd writes the end of a chunked body even after HEAD, where no body may be. Without
-// chunks the connection ends with the answer.
+// Answers HEAD for a stream. libmicrohttpd would write the end of a chunked body even here, where
+// no body is allowed; without chunks, the connection closes after the answer.
 Response response_without_stream() {
     const auto ends = +[](void*, std::uint64_t, char*, std::size_t) -> ssize_t {
         return MHD_CONTENT_READER_END_OF_STREAM;

@@ -1,6 +1,6 @@
 // web/http/response.h -- makes a response of libmicrohttpd from an Answer.
 //
-// Threads   Pure but for the files that it reads.
+// Threads   Pure, except that it reads files.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ struct ResponseDeleter {
 };
 using Response = std::unique_ptr<MHD_Response, ResponseDeleter>;
 
-// `feed` is set if the body is a stream, which HEAD does not begin. Null if there is no memory or
-// descriptor left.
+// Makes the response. It sets `feed` if the body is a stream, unless the verb is HEAD, which does
+// not begin one. Returns null if memory or descriptors have run out.
 [[nodiscard]] Response make_response(const Answer& answer, Verb verb, MHD_Connection* connection,
                                      std::shared_ptr<StreamFeed>* feed);
 

@@ -33,8 +33,8 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Exceptions must not cross libmicrohttpd. Without memory, what was read before ends up as no
-// request: all headers go.
+// Adds a header. Exceptions must not cross libmicrohttpd. If memory is short, drop all headers,
+// which makes the request invalid.
 MHD_Result take_header(void* headers, MHD_ValueKind, const char* name, const char* value) {
     auto& fields = *static_cast<Fields*>(headers);
     try {
@@ -53,12 +53,13 @@ Answer answer_of_exception(std::string_view what) {
         answer = come_back(std::chrono::seconds{5}, "This answer cannot be made now.");
         answer.trouble = what;
     } catch (const std::exception&) {
-        // There is no memory for more than the status.
+        // There is memory for the status only.
     }
     return answer;
 }
 
-// Calls `make`. What stops one answer must not stop the server: memory may be short.
+// Calls `make`, and answers 503 if it throws, because a failed answer (memory may be short) must
+// not stop the server.
 template <class Make>
 std::optional<Answer> made_or_503(const Make& make) {
     try {
@@ -70,8 +71,8 @@ std::optional<Answer> made_or_503(const Make& make) {
     }
 }
 
-// SIGPIPE is blocked while libmicrohttpd starts its thread, which inherits that: sendfile(2) to a
-// client that is gone would otherwise end the program.
+// Blocks SIGPIPE while libmicrohttpd starts its thread, which inherits the mask. Otherwise
+// sendfile(2) to a client that is gone would end the program.
 class WithoutBrokenPipes {
   public:
     WithoutBrokenPipes() {
@@ -95,17 +96,17 @@ bool is_same_file(const Descriptor& a, const Descriptor& b) {
            of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
-// One request, from its first line to the end of its answer.
+// A request, from its first line to the end of its answer.
 struct Exchange {
     RawRequest raw;
     Request request;
     std::shared_ptr<Door> door;
     std::optional<Answer> answer;
     std::shared_ptr<StreamFeed> feed;
-    std::string counts_as;      // the client's name where clients are counted
-    bool holds_budget = false;  // the answer's bytes are counted
+    std::string counts_as;      // the client's name for limits
+    bool holds_budget = false;  // the answer budget counts the bytes
     SteadyClock::time_point began = SteadyClock::now();
-    enum class Stage { first_line, headers, answer };  // what was seen of it
+    enum class Stage { first_line, headers, answer };  // how far it was read
     Stage stage = Stage::first_line;
 };
 
@@ -123,7 +124,7 @@ struct Server::Impl {
     struct Listener {
         MHD_Daemon* daemon = nullptr;
         std::string url;
-        Descriptor silent;  // an eventfd that nobody writes
+        Descriptor silent;  // an eventfd to which nobody writes
     };
 
     Status listen(const ListenSocket& socket);
@@ -166,7 +167,8 @@ struct Server::Impl {
     WorkQueue queue;
 };
 
-// libmicrohttpd gives what this returns to the functions below as the request's own.
+// Begins a request. libmicrohttpd passes the returned pointer to the functions below as the
+// request's own.
 void* Server::Impl::first_line(void* /*self*/, const char* uri, MHD_Connection* /*connection*/) {
     try {
         auto exchange = std::make_unique<Exchange>();
@@ -231,9 +233,9 @@ void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*o
     }
 }
 
-// libmicrohttpd calls this when the headers are there, again when the request has ended, and again
-// when a connection that was held still goes on. An answer to the first call ends the connection,
-// since the client may still be sending a body; so only refusals are given there.
+// Handles a request. libmicrohttpd calls this when the headers have come, again at the end of the
+// request, and again when a suspended connection is resumed. An answer to the first call closes the
+// connection, because the client may still be sending a body; so only refusals are given there.
 MHD_Result Server::Impl::handle(MHD_Connection* connection, const char* method, const char* version,
                                 Exchange& exchange) {
     switch (exchange.stage) {
@@ -284,7 +286,7 @@ bool Server::Impl::begin(MHD_Connection* connection, Exchange& exchange) {
     return exchange.answer || let_work(connection, exchange);
 }
 
-// Holds the connection still until a worker has made the answer.
+// Suspends the connection until a worker has made the answer.
 bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
     MHD_suspend_connection(connection);
     hand_over(exchange.door->workers() ? *exchange.door->workers() : queue, connection, exchange,
@@ -292,8 +294,8 @@ bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
     return false;
 }
 
-// From the moment at which the work is added, the exchange is the worker's, until it resumes the
-// connection.
+// Hands the exchange to a worker, which owns it from the moment at which the work is added until it
+// resumes the connection.
 void Server::Impl::hand_over(WorkQueue& workers, MHD_Connection* connection, Exchange& exchange,
                              bool may_take_long) {
     const auto added = made_or_503([&]() -> std::optional<Answer> {
@@ -333,7 +335,8 @@ void Server::Impl::work(WorkQueue::Turn turn, MHD_Connection* connection, Exchan
     }
 }
 
-// The answer to HEAD counts, too: who asks for many and reads nothing holds all of them.
+// Takes the answer's bytes from the budget, also for HEAD: a client that sends many such requests
+// and reads nothing holds all of the answers.
 void Server::Impl::take_budget(Exchange& exchange) {
     const auto* pieces = std::get_if<Pieces>(&exchange.answer->body);
     if (pieces == nullptr) return;
@@ -379,11 +382,12 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
 Status Server::Impl::listen(const ListenSocket& socket) {
     Descriptor silent{::eventfd(0, EFD_CLOEXEC)};
     if (!silent.is_open()) return system_failure("cannot listen on " + socket.url, errno);
-    // libmicrohttpd closes what it is given.
+    // libmicrohttpd closes the descriptor that it gets, so give it a copy.
     Descriptor own{::fcntl(socket.socket->number(), F_DUPFD_CLOEXEC, 3)};
     if (!own.is_open()) return system_failure("cannot listen on " + socket.url, errno);
     const WithoutBrokenPipes blocked;
-    // Paths and queries are decoded by read_request(), which refuses what libmicrohttpd would take.
+    // Leave paths and queries encoded: read_request() decodes them, and refuses some that
+    // libmicrohttpd would accept.
     const auto undecoded =
         +[](void*, MHD_Connection*, char* text) { return std::char_traits<char>::length(text); };
     MHD_Daemon* daemon = MHD_start_daemon(
@@ -396,7 +400,7 @@ Status Server::Impl::listen(const ListenSocket& socket) {
         MHD_OPTION_NOTIFY_CONNECTION, &Impl::connection, this, MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1,
         MHD_OPTION_END);
     if (daemon == nullptr) {
-        // Some of its failures close the socket.
+        // Some failures of libmicrohttpd close the socket.
         if (!is_same_file(own, *socket.socket)) (void)own.release();
         return fail(ErrorCode::io, "libmicrohttpd cannot begin");
     }
@@ -405,16 +409,17 @@ Status Server::Impl::listen(const ListenSocket& socket) {
     return {};
 }
 
-// MHD_quiesce_daemon() and the daemon's thread may both take the socket out of the epoll set, and
-// the second one ends the program (libmicrohttpd 0.9.75). Instead the daemon's descriptor becomes
-// one at which nothing ever happens.
+// Stops listening without MHD_quiesce_daemon(): that function and the daemon's thread may both
+// remove the socket from the epoll set, and the second removal ends the program (libmicrohttpd
+// 0.9.75). Instead, the daemon's descriptor is replaced by one at which nothing ever happens.
 void Server::Impl::stop_listening(const Listener& listener) {
     const auto info = [&](MHD_DaemonInfoType type) {
         return MHD_get_daemon_info(listener.daemon, type);
     };
     const int epoll = info(MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
     const int listening = info(MHD_DAEMON_INFO_LISTEN_FD)->listen_fd;
-    // At its limit of connections the daemon has taken it out itself, and puts it back later.
+    // At its limit of connections the daemon has removed the socket itself, and will put it back
+    // later.
     const bool was_in = ::epoll_ctl(epoll, EPOLL_CTL_DEL, listening, nullptr) == 0;
     ::dup3(listener.silent.number(), listening, O_CLOEXEC);
     epoll_event event{};
@@ -429,7 +434,7 @@ void Server::Impl::wait_until_idle(std::chrono::milliseconds most) const {
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
 }
 
-// libmicrohttpd must not be stopped while a connection is held still.
+// Stops the server. libmicrohttpd must not be stopped while a connection is suspended.
 void Server::Impl::stop() {
     is_stopping = true;
     for (const Listener& listener : listeners)
@@ -439,7 +444,7 @@ void Server::Impl::stop() {
         for (const auto& feed : feeds)
             feed->end();
     }
-    // Wait until requests that have come, or are about to, are answered and the answers have left.
+    // Wait until requests that have come, or are about to, are answered and the answers are sent.
     wait_until_idle(std::chrono::seconds{2});
     // Tell the clients of requests that still wait to come back.
     queue.stop();

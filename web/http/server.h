@@ -1,12 +1,12 @@
-// web/http/server.h -- answers HTTP/1.1 by libmicrohttpd, through doors (web/http/door.h).
+// web/http/server.h -- answers HTTP/1.1 with libmicrohttpd, through doors (web/http/door.h).
 //
-// One thread for each address that is listened on serves all of its connections. Answers that take
-// time are made by a bounded number of workers. GET, HEAD and OPTIONS are answered, and nothing
-// else; the Host field is checked before anything else, since a page of the web could otherwise
-// read what is served on loopback (DNS rebinding).
+// One thread for each listening address serves all of its connections. A bounded number of workers
+// makes the answers that take time. The server answers GET, HEAD and OPTIONS only. It checks the
+// Host field first, because otherwise a page of the web could read what is served on loopback (DNS
+// rebinding).
 //
 // Threads   Many threads may use it. Doors are called from many threads.
-// Errors    busy: an address is in use; bad_argument: it is no address; io.
+// Errors    busy if an address is in use; bad_argument if it is not an address; io.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@
 
 namespace stormcellar::web {
 
-// Connections, requests and memory that the server holds at the moment.
+// The connections, requests and memory that the server holds at the moment.
 struct ServerFacts {
     std::size_t connections = 0, streams = 0, waiting = 0, working = 0;
     std::uint64_t answer_bytes = 0;  // of answers on their way, in memory
@@ -30,18 +30,18 @@ struct ServerFacts {
 
 class Server {
   public:
-    // Listens on `sockets`, which stay open when the server ends; without any, on those that it
-    // opens for the addresses of the options.
+    // Listens on `sockets`, which stay open when the server ends. Without any, it opens sockets for
+    // the addresses of the options.
     static Result<std::unique_ptr<Server>> open(ServerOptions options,
                                                 std::shared_ptr<const Doors> doors,
                                                 ListenSockets sockets = {});
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
-    // Stops: streams end, requests that wait for a worker get 503, answers under way are finished
-    // as far as that takes no longer than two seconds.
+    // Stops. Streams end, requests that wait for a worker get 503, and answers under way are
+    // finished if that takes at most two seconds.
     ~Server();
 
-    // "http://127.0.0.1:8090/", one for each address, with the port that it has.
+    // Returns "http://127.0.0.1:8090/", one for each address, with its actual port.
     [[nodiscard]] std::vector<std::string> addresses() const;
     [[nodiscard]] ServerFacts facts() const;
 

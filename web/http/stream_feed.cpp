@@ -17,7 +17,8 @@ void StreamFeed::begin(const std::shared_ptr<StreamFeed>& self) {
     });
 }
 
-// Resuming wakes the server's thread, so only what was suspended is resumed.
+// Resumes the connection if it is suspended. Resuming wakes the server's thread, so it is done only
+// then.
 void StreamFeed::more() {
     const MutexLock lock(mutex_);
     was_told_ = true;
@@ -42,7 +43,7 @@ ssize_t StreamFeed::read(char* buffer, std::size_t most) {
         }
         const MutexLock lock(mutex_);
         if (was_told_ || has_ended_) continue;
-        // Without this, libmicrohttpd would ask again and again.
+        // Without a suspension, libmicrohttpd would ask again and again.
         is_suspended_ = true;
         MHD_suspend_connection(connection_);
         return 0;

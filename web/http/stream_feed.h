@@ -1,7 +1,7 @@
-// web/http/stream_feed.h -- passes a Stream to libmicrohttpd, and holds its connection still while
+// web/http/stream_feed.h -- passes a Stream to libmicrohttpd, and suspends the connection while
 // there is nothing to send.
 //
-// Threads   The server's thread reads; any thread may say that there is more.
+// Threads   The server's thread reads; any thread may announce more.
 #pragma once
 
 #include <memory>
@@ -21,14 +21,14 @@ class StreamFeed {
     StreamFeed(const StreamFeed&) = delete;
     StreamFeed& operator=(const StreamFeed&) = delete;
 
-    // Call once, when it is held by a shared_ptr.
+    // Call once, after a shared_ptr holds this object.
     void begin(const std::shared_ptr<StreamFeed>& self);
-    // Fills the buffer: the number of bytes, 0 if the connection was suspended, or
+    // Fills the buffer. Returns the number of bytes, 0 if the connection was suspended, or
     // MHD_CONTENT_READER_END_OF_STREAM.
     ssize_t read(char* buffer, std::size_t most);
-    // The connection is closed.
+    // Call when the connection has closed.
     void leave();
-    // The server stops: the stream ends with the next read.
+    // Call when the server stops. The stream ends at the next read.
     void end();
 
   private:

@@ -1,9 +1,9 @@
-// web/http/work_queue.h -- a bounded number of threads that make answers, and of requests that
-// wait.
+// web/http/work_queue.h -- a bounded number of threads that make answers, and a bounded number of
+// waiting requests.
 //
-// Clients share the threads: the next to be served is the client that has the fewest requests under
-// way, and among those the one that came, or whose last turn ended, longest ago. If all places are
-// taken, a client that has fewer requests than another gets the place of that one's newest.
+// Clients share the threads. The next client served is the one with the fewest requests under way;
+// among equals, the one that came, or whose last turn ended, longest ago. If all places are taken,
+// a client with fewer requests than another takes the place of the other's newest request.
 //
 // Threads   Many threads may add work.
 #pragma once
@@ -27,15 +27,15 @@ class WorkQueue {
     WorkQueue(unsigned workers, std::size_t most_waiting);
     WorkQueue(const WorkQueue&) = delete;
     WorkQueue& operator=(const WorkQueue&) = delete;
-    // Work that waits is run with `stopping`, so that it answers at once.
+    // Runs waiting work with `stopping`, so that it answers at once.
     ~WorkQueue();
 
-    // Why work is run: its turn has come, the queue stops, or another client has its place. Work
-    // must not throw.
+    // The reason for which work is run: its turn has come, the queue stops, or another client took
+    // its place. Work must not throw.
     enum class Turn { came, stopping, lost };
     using Work = std::function<void(Turn turn)>;
-    // Returns false if too much waits already. Work that loses its place to this one is run by the
-    // caller's thread.
+    // Returns false if too much work waits already. If this work takes the place of other work, the
+    // caller's thread runs the other work with `lost`.
     [[nodiscard]] bool add(const std::string& client, Work work);
     void stop();
     [[nodiscard]] std::size_t waiting() const;
@@ -45,7 +45,7 @@ class WorkQueue {
     struct Client {
         std::deque<Work> waiting;
         std::size_t working = 0;
-        std::uint64_t last_turn = 0;  // or when it came, as turns_ counts
+        std::uint64_t last_turn = 0;  // or when it came, in units of turns_
         [[nodiscard]] std::size_t requests() const { return waiting.size() + working; }
     };
     using Clients = std::map<std::string, Client>;

@@ -1,6 +1,6 @@
-// web/service/measures.h -- what one run of the server counts and measures, for /metrics.
+// web/service/measures.h -- the counters and gauges of one server, for /metrics.
 //
-// Threads   Everything is added before the server starts; after that, many threads may use it.
+// Threads   All measures are added before the server starts; after that, many threads may use it.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace stormcellar::web {
 
 class Measures {
   public:
-    // Adds what the process and the server hold.
+    // Adds the measures of the process and the server.
     Measures();
     Measures(const Measures&) = delete;
     Measures& operator=(const Measures&) = delete;
@@ -27,8 +27,8 @@ class Measures {
     void watch_grids(const std::shared_ptr<Grids>& grids);
     void watch_events(const std::shared_ptr<EventHub>& hub,
                       const std::shared_ptr<const EventFeed>& feed);
-    // The server that answers. Its doors ask for measures, so it must be named once it is open, and
-    // nobody may ask after it has ended.
+    // Sets the server that answers. Its doors read the measures, so call this once it is open;
+    // nobody may read them after it has ended.
     void set_server(const Server* server) { *server_ = server; }
 
   private:

@@ -1,7 +1,7 @@
-// web/service/sources.h -- what the doors answer from: the catalog, the grids, and the
+// web/service/sources.h -- the sources of the doors' answers: the catalog, the grids, and the
 // configuration.
 //
-// Threads   Plain data; what it points to may be used by many threads.
+// Threads   Plain data; many threads may use the objects that it points to.
 #pragma once
 
 #include <memory>
@@ -17,19 +17,19 @@ namespace stormcellar::web {
 
 struct Sources {
     WebSetup setup;
-    // Null as long as there is no catalog.
+    // Null while there is no catalog.
     std::shared_ptr<const catalog::CatalogReader> catalog;
     std::shared_ptr<Grids> grids;
-    // One object for the life of the program: clients hold its numbers.
+    // One object for the life of the program, because clients hold its numbers.
     std::shared_ptr<TimeNumbers> numbers;
 };
 
-// Opens what is there. A cache or a catalog that does not exist yet is no error. Errors: io,
-// permission and others of a catalog or cache that is there.
+// Opens the sources that exist. A cache or a catalog that does not exist yet is no error. Errors:
+// io, permission and others of a catalog or cache that exists.
 [[nodiscard]] Result<Sources> open_sources(WebSetup setup);
 
-// Returns the doors of everything that [web] serve names, and the index. What they do is counted in
-// `measures`, which are those of one server.
+// Returns the doors for all parts in `serve` of [web], and for the index. They count in `measures`,
+// which belong to one server.
 [[nodiscard]] std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures);
 
 }  // namespace stormcellar::web

@@ -19,7 +19,8 @@
 namespace stormcellar::web {
 namespace {
 
-// A machine may have IPv6 switched off, and the shipped configuration names [::1].
+// Returns whether [::1] can be used. The shipped configuration names it, but a machine may have
+// IPv6 off.
 bool has_ipv6_loopback() {
     const Descriptor socket{::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0)};
     if (!socket.is_open()) return false;
@@ -41,8 +42,8 @@ void note_answer(const Served& served) {
         served.bytes, served.seconds.count() * 1000, served.request->client);
 }
 
-// Logs what went wrong with answers: each thing once a minute, and few things. Clients can repeat
-// a request as often as they like.
+// Logs failures of answers: each one once a minute, and only a few kinds. Clients can repeat a
+// request as often as they like.
 class TroubleLog {
   public:
     void note(const Served& served) {
@@ -65,8 +66,8 @@ class TroubleLog {
     std::set<std::string, std::less<>> noted_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
-// Returns whether a held socket has the port of an address for which there is none: 127.0.0.1:80 is
-// in the way of 0.0.0.0:80.
+// Returns true if a held socket has the port of a wanted address that has no socket: 127.0.0.1:80
+// blocks 0.0.0.0:80.
 bool holds_a_port_of(const std::vector<ListenAddress>& wanted, const ListenSockets& held) {
     return std::ranges::any_of(held, [&](const ListenSocket& socket) {
         return std::ranges::any_of(wanted, [&](const ListenAddress& where) {
@@ -103,8 +104,8 @@ ServerOptions server_options_of(const WebConfig& config) {
     options.limits.least_bytes_per_s = limits.least_bytes_per_second;
     options.limits.answer_bytes = limits.answer_bytes;
     options.limits.workers = workers_of(limits);
-    // A connection has one request at a time, so its limit bounds the queue too. What takes long
-    // has limits of its own.
+    // A connection has one request at a time, so the limit of connections is large enough for the
+    // queue. Slow answers have limits of their own.
     options.limits.most_waiting = static_cast<std::size_t>(limits.connections);
     return options;
 }
@@ -133,7 +134,7 @@ Status WebService::serve() try {
     if (!server) return pass_on(server);
     measures->set_server(server->get());
     sockets_ = std::move(*sockets);
-    // A server that was there ends now: this one listens already, so nobody waits for its end.
+    // An earlier server ends now. This one listens already, so no client has to wait.
     server_ = std::move(*server);
     return {};
 } catch (const std::exception& error) {
@@ -190,7 +191,7 @@ Status WebService::reload(WebSetup fresh) {
     fresh.cache = before.cache;
     fresh.numbers = before.numbers;
     fresh.added_stations = before.added_stations;
-    // All that can fail while the server goes on fails first.
+    // Do first whatever can fail, while the old server goes on.
     auto sources = open_sources(std::move(fresh));
     if (!sources) return pass_on(sources);
     sources->numbers = sources_.numbers;

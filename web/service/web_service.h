@@ -25,19 +25,20 @@ class WebService {
     // "http://127.0.0.1:8090/", one for each address.
     [[nodiscard]] std::vector<std::string> addresses() const;
     [[nodiscard]] const WebSetup& setup() const { return sources_.setup; }
-    // Returns false as long as there is no catalog; look_again() then opens it once it is there.
+    // Returns false while there is no catalog; look_again() opens it once it exists.
     [[nodiscard]] bool has_catalog() const { return sources_.catalog != nullptr; }
-    // Returns false if the server could not be opened again after a reload. look_again() tries to.
+    // Returns false if the server could not be opened again after a reload. look_again() tries
+    // again.
     [[nodiscard]] bool is_listening() const { return server_ != nullptr; }
-    // Returns true if it listens and its server answers what its facts are, which a server that is
-    // stuck never does.
+    // Returns true if the server is open and answers with its facts, which a stuck server never
+    // does.
     [[nodiscard]] bool is_at_work() const;
     // Call once a second.
     void look_again();
 
-    // Takes over a configuration, but for what needs_restart() names: another server begins on the
-    // same sockets, which stay open, and then the old one ends with its connections. If it cannot,
-    // it goes on as before. Errors: those of open().
+    // Applies a configuration, except the parts that needs_restart() names. A new server begins on
+    // the same sockets, which stay open; then the old server ends with its connections. If the new
+    // one cannot begin, the old one goes on unchanged. Errors: those of open().
     Status reload(WebSetup fresh);
     [[nodiscard]] ServerFacts facts() const;
 
@@ -50,11 +51,11 @@ class WebService {
 
     Sources sources_;
     ListenSockets sockets_;
-    std::string problem_;             // that was logged last, of the numbers of times
+    std::string problem_;             // last logged problem with the numbers of times
     std::unique_ptr<Server> server_;  // null only if it could not be opened again
 };
 
-// Returns what the server is told of a configuration. Public for tests.
+// Returns the server's options for a configuration. Public for tests.
 [[nodiscard]] ServerOptions server_options_of(const WebConfig& config);
 
 }  // namespace stormcellar::web

@@ -1,10 +1,11 @@
-// web/data/events/catalog_changes.h -- which stations' databases were written.
+// web/data/events/catalog_changes.h -- finds the stations whose databases were written.
 //
-// It compares sizes and times of the files of the catalog's directory (STATION.sqlite and its
-// write-ahead log), two system calls a station, and opens nothing. It needs no watch of the kernel.
+// It compares sizes and times of the files in the catalog's directory (STATION.sqlite and its
+// write-ahead log). This takes two system calls a station, opens no file, and needs no inotify
+// watch.
 //
 // Threads   One thread at a time.
-// Errors    None: a directory that is not there, or cannot be read, has no stations.
+// Errors    None. A directory that does not exist or cannot be read has no stations.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@ class CatalogChanges {
   public:
     explicit CatalogChanges(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-    // Returns the stations whose databases are new or were written since the last call, sorted; at
-    // the first call, all of them.
+    // Returns, sorted, the stations whose databases are new or were written since the last call.
+    // The first call returns all stations.
     [[nodiscard]] std::vector<std::string> take();
 
   private:

@@ -21,7 +21,7 @@ bool has_value(const Values& values, const Value& value) {
     return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-// A run is 1 to 32 letters and digits of hexadecimal.
+// Returns true for 1 to 32 hexadecimal letters and digits.
 bool is_run(std::string_view text) {
     return !text.empty() && text.size() <= 32 &&
            text.find_first_not_of("0123456789abcdef") == std::string_view::npos;

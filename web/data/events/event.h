@@ -18,9 +18,9 @@
 namespace stormcellar::web {
 
 enum class EventType : std::uint8_t {
-    volume_begun,     // the first of a volume was seen, in the catalog or in the cache
-    sweep_gridded,    // a site's grid was made again with one or more sweeps of a growing volume
-    volume_complete,  // a site's grid was made of a volume that has ended
+    volume_begun,     // the first part of a volume appeared in the catalog or in the cache
+    sweep_gridded,    // a site's grid was made again with new sweeps of a growing volume
+    volume_complete,  // a site's grid was made from a volume that has ended
     mosaic,           // a grid of a configured domain was made, or made again
     grid_evicted,     // grids of a domain and moment are gone
     station_silent,   // nothing came from a station for some time
@@ -49,16 +49,16 @@ inline constexpr auto event_types = std::to_array<EventTypeFacts>({
 
 struct Event {
     EventType type = EventType::reset;
-    std::string station;  // ICAO; empty: of no one station
-    std::string domain;   // of a grid; of an event of a station, its own domain
+    std::string station;  // ICAO; empty: the event is not about a single station
+    std::string domain;   // of a grid; for an event of a station, the station's own domain
     std::optional<level2::Moment> moment;
     std::string json;  // one object on one line
 };
 
 // Selects the events that a client wants to hear. Stations and domains are places: an event fits if
-// it is of one of these stations or of one of these domains, or if neither is given. Moments and
-// types must fit, too, if they are given. An event without a moment fits any list of moments, so
-// that a client that asks for REF hears of silent stations. A reset fits every filter.
+// it is about one of these stations or domains, or if the filter names neither. Moments and types,
+// where given, must fit too. An event without a moment fits any list of moments, so that a client
+// that asks for REF hears of silent stations. A reset fits every filter.
 struct EventFilter {
     std::vector<std::string> stations = {}, domains = {};
     std::vector<level2::Moment> moments = {};
@@ -71,14 +71,14 @@ struct EventId {
     std::string run;
     std::uint64_t number = 0;
 };
-// "5f3a09c1-1024", as in the `id` line; none for every other text.
+// Reads "5f3a09c1-1024", the form of the `id` line. Returns none for any other text.
 [[nodiscard]] std::optional<EventId> parse_event_id(std::string_view text);
 [[nodiscard]] std::string event_id_text(std::string_view run, std::uint64_t number);
 
-// The lines of an event in the stream, with the empty line that ends it.
+// Returns the lines of an event in the stream, with the empty line that ends it.
 [[nodiscard]] std::string event_frame(const Event& event, std::string_view run,
                                       std::uint64_t number);
-// An event that says why some were lost.
+// Returns an event that says why events were lost.
 [[nodiscard]] Event reset_event(std::string_view reason);
 
 }  // namespace stormcellar::web

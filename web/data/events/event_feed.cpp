@@ -19,19 +19,20 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::seconds tick_every{1};
-// A station whose grids come needs no look into its database.
+// If a grid of a station came this recently, its database is not asked.
 constexpr std::chrono::seconds grids_speak_for{30};
-// The database of a station is asked at most so often.
+// Shortest time between two queries of one station's database.
 constexpr std::chrono::seconds ask_every{5};
-// A file shows a commit before readers see it: SQLite writes the log, waits for the disk, and then
-// tells. So what changed is asked about twice.
+// A file shows a commit before readers see it, because SQLite writes the log, waits for the disk,
+// and then publishes the commit. So each change is queried twice.
 constexpr int asks_for_a_change = 2;
-// More changes than these at once, and clients ask for everything anew.
+// If more changes than these wait, drop them and have clients ask for everything anew.
 constexpr std::size_t most_changes_waiting = 20'000;
 
 }  // namespace
 
-// Changes that the cache watch has told and the feed has not read. The watch may outlive the feed.
+// Changes that the cache watch has reported and the feed has not read. The watch may outlive the
+// feed.
 struct WaitingChanges {
     void add(const CacheChange& change) {
         {
@@ -105,10 +106,10 @@ struct EventFeed::Impl {
     CatalogChanges catalog_changes;
     std::shared_ptr<const catalog::CatalogReader> reader;
     struct Asked {
-        SteadyTime spoke{};  // a grid of the station came
+        SteadyTime spoke{};  // last grid of the station
         SteadyTime asked{};
         int asks_due = 0;
-        std::optional<UtcTime> ended;  // the volume whose end was told from the catalog
+        std::optional<UtcTime> ended;  // the volume whose end was published from the catalog
     };
     std::map<std::string, Asked> asked;
     std::atomic<std::uint64_t> unreadable{0};
@@ -126,7 +127,7 @@ const catalog::CatalogReader* EventFeed::Impl::catalog() {
     return reader.get();
 }
 
-// The newest grids and volumes that are there are known, and no news.
+// Notes the newest grids and volumes that exist, without publishing them.
 void EventFeed::Impl::begin() {
     const UtcTime now = now_utc();
     if (options.grids) {
@@ -212,7 +213,8 @@ void EventFeed::Impl::run() {
         try {
             take_turn(next_tick, next_look);
         } catch (const std::exception&) {
-            // For want of memory. What was taken may be lost, so clients ask for everything anew.
+            // Memory is short. Changes taken so far may be lost, so clients ask for everything
+            // anew.
             waiting->lose();
         }
     }

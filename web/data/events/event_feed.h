@@ -1,12 +1,13 @@
 // web/data/events/event_feed.h -- watches cache and catalog, and publishes what happens there.
 //
-// The daemon tells nobody what it does. The feed sees the grids that it renames into the cache
-// (web/data/grids/cache_watch.h), the moment it does so, and looks every two seconds which
-// stations' databases were written. Of a station that has grids of its own, these tell when a
-// volume begins and ends; of any other, the catalog.
+// The daemon sends no messages. The feed sees each grid when the daemon renames it into the cache
+// (web/data/grids/cache_watch.h), and checks every two seconds which stations' databases were
+// written. If a station has grids of its own, they show when a volume begins and ends; otherwise
+// the catalog does.
 //
 // Threads   Many threads may use it. One thread of its own reads and publishes.
-// Errors    A catalog that is not there (yet) has no stations. What cannot be read is counted.
+// Errors    A catalog that does not exist (yet) has no stations. Grids that cannot be read are
+// counted.
 #pragma once
 
 #include <chrono>
@@ -25,7 +26,7 @@ namespace stormcellar::web {
 struct EventFeedOptions {
     std::shared_ptr<Grids> grids;   // null: no cache
     std::filesystem::path catalog;  // empty: none
-    // The same, if it is open already.
+    // The same catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<EventHub> hub;
     std::chrono::seconds silent_after{1200};
@@ -34,14 +35,14 @@ struct EventFeedOptions {
 
 class EventFeed {
   public:
-    // Begins. What is in cache and catalog at that moment is not told. It reads one row of each
-    // station.
+    // Starts the feed. It publishes nothing about the grids and volumes that exist at that moment.
+    // It reads one row of each station.
     static std::unique_ptr<EventFeed> open(EventFeedOptions options);
     EventFeed(const EventFeed&) = delete;
     EventFeed& operator=(const EventFeed&) = delete;
     ~EventFeed();
 
-    // Returns what is known of the stations, sorted.
+    // Returns the known facts about the stations, sorted.
     [[nodiscard]] std::vector<StationNews::Page> stations() const;
     // Counts its looks at the catalog that have ended, with what they found told.
     [[nodiscard]] std::uint64_t looks() const;

@@ -36,7 +36,7 @@ std::vector<std::string> EventHub::keys_of(const EventFilter& filter) {
     return keys;
 }
 
-// A listener that is pending reads on by itself; only who has read everything is woken.
+// Wakes the listeners of a group that have read everything. A pending listener reads on by itself.
 void EventHub::mark_group(const std::string& key, const Event& event, std::uint64_t number,
                           std::vector<std::shared_ptr<Listener>>& woken) {
     const auto group = groups_.find(key);
@@ -185,8 +185,8 @@ void EventHub::Listener::gather(std::size_t most) {
         if (filter_.fits(numbered.event)) unsent_ += *numbered.frame;
     }
     if (next_ < hub_->next_) return;
-    // The heartbeat carries the newest id: a client whose station was quiet for long must not be
-    // told, when it comes back, that events were lost.
+    // The heartbeat carries the newest id. Otherwise a client whose station was quiet for long
+    // would be told on reconnecting that events were lost.
     if (unsent_.empty() && beat_due_) {
         unsent_ =
             fmt::format(": heartbeat\nid: {}\n\n", event_id_text(hub_->run_, hub_->next_ - 1));
@@ -200,9 +200,11 @@ std::string EventHub::Listener::read(std::size_t most) {
     beat_due_ = false;
     std::string bytes = unsent_.substr(0, most);
     unsent_.erase(0, bytes.size());
-    // There is more to come only if a frame was cut or events are left; else the next call ends it.
+    // More is pending only if a frame was cut or events are left; otherwise the next call clears
+    // the flag.
     if (bytes.empty()) is_pending_ = false;
-    // A thousand idle listeners must not each keep room for the longest event that they read.
+    // Release the buffer, so that a thousand idle listeners do not each keep room for the longest
+    // event that they read.
     if (unsent_.empty()) unsent_.shrink_to_fit();
     return bytes;
 }

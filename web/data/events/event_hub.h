@@ -1,13 +1,13 @@
-// web/data/events/event_hub.h -- numbers events, keeps the newest, and passes them to who listens.
+// web/data/events/event_hub.h -- numbers events, keeps the newest, and passes them to listeners.
 //
-// Each event is written as text once; all listeners share it. A listener keeps nothing but the
-// number of the next event that it has not read, so that a slow one takes no memory: when that
-// event has left the ring, it hears of a reset. Listeners are found by the stations or domains
-// that they ask for, and those of other stations are not touched.
+// Each event is formatted once; all listeners share the text. A listener keeps only the number of
+// the next event that it has not read, so a slow one takes no memory. Once that event has left the
+// ring, the listener gets a reset. The hub finds listeners by the stations or domains that they ask
+// for and touches no others.
 //
 // Threads   Many threads may use hub and listeners; each listener is read by one thread at a time.
-//           A listener's `wake` is called without a lock of the hub, and not again before the
-//           listener was read until nothing was left.
+//           The hub calls a listener's `wake` without holding a lock, and not again until the
+//           listener has been read to the end.
 #pragma once
 
 #include <atomic>
@@ -29,8 +29,8 @@ namespace stormcellar::web {
 
 struct EventHubOptions {
     std::size_t kept = 4096;         // events in the ring
-    unsigned heartbeat_ticks = 15;   // a listener hears something at least so often
-    std::optional<std::string> run;  // for tests; none: drawn at random
+    unsigned heartbeat_ticks = 15;   // each listener hears something at least this often
+    std::optional<std::string> run;  // for tests; none: random
 };
 
 class EventHub : public std::enable_shared_from_this<EventHub> {
@@ -39,20 +39,20 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
 
     static std::shared_ptr<EventHub> make(EventHubOptions options = {});
 
-    // Numbers the event and wakes those whose filter it fits.
+    // Numbers the event and wakes the listeners whose filter it fits.
     void publish(Event event);
     // Call once a second. Each call sends a heartbeat to a fifteenth of the listeners.
     void tick();
 
-    // Begins to listen after the event of this id; none: after the newest. If events were lost
-    // since, or the id is of another run, the first that is heard is a reset. `id` that is not
-    // empty and no id of ours counts as one of another run.
+    // Starts listening after the event of this id; none: after the newest. If events were lost
+    // since then, or the id is of another run, the first event heard is a reset. An `id` that is
+    // not empty and not one of ours counts as an id of another run.
     [[nodiscard]] std::shared_ptr<Listener> listen(EventFilter filter,
                                                    std::optional<std::string> id = {});
 
     [[nodiscard]] std::size_t listeners() const;
     [[nodiscard]] std::uint64_t published() const;
-    [[nodiscard]] std::uint64_t resets() const { return resets_; }  // told to single listeners
+    [[nodiscard]] std::uint64_t resets() const { return resets_; }  // sent to single listeners
     [[nodiscard]] std::string newest_id() const;
 
   private:
@@ -63,7 +63,8 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
     using Group = std::vector<Listener*>;
     explicit EventHub(EventHubOptions options);
     void leave(Listener& listener);
-    // Where the listener is indexed: by its stations and domains; under "" if it has none.
+    // Returns the keys under which a listener is indexed: its stations and domains, or "" if it has
+    // none.
     static std::vector<std::string> keys_of(const EventFilter& filter);
     void mark_group(const std::string& key, const Event& event, std::uint64_t number,
                     std::vector<std::shared_ptr<Listener>>& woken) STORMCELLAR_REQUIRES(mutex_);
@@ -92,10 +93,10 @@ class EventHub::Listener : public std::enable_shared_from_this<EventHub::Listene
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
 
-    // Returns up to `most` bytes of frames; empty: nothing is there now. The first bytes are the
-    // opening: how soon to reconnect, and the id after which the listener hears.
+    // Returns up to `most` bytes of frames; empty if nothing is pending. The first bytes are the
+    // opening: the reconnection delay, and the id after which the listener starts.
     [[nodiscard]] std::string read(std::size_t most);
-    // Called when there is something to read; null: nobody is to be woken.
+    // Sets the function to call when there is something to read; null: none.
     void on_more(std::function<void()> wake);
 
   private:

@@ -114,7 +114,7 @@ void GridEvents::add_grid(const CacheChange& change, UtcTime now, std::vector<Ev
     const cache::GridName& name = change.grid;
     const std::filesystem::path& root = grids_->cache();
     const Result<int> opened = open_beneath(root, root / cache::relative_path(name));
-    // If the grid is gone again, the change by which it went tells so.
+    // If the grid is already gone, the change that removed it will report so.
     if (!opened) return;
     const Descriptor file(*opened);
     struct stat facts {};
@@ -161,7 +161,7 @@ void GridEvents::add_evicted(const Place& place, std::vector<UtcTime> times, Utc
                  {"count", times.size()},
                  {"from", format_utc(times.front())},
                  {"to", format_utc(times.back())}});
-    // If there are more, `from` and `to` say where to look.
+    // If the list is cut, `from` and `to` say where to look.
     if (times.size() <= most_times_listed) {
         json["grids"] = EventJson::array();
         for (const UtcTime time : times)

@@ -1,15 +1,15 @@
-// web/data/events/grid_events.h -- what changes in the cache mean, as events.
+// web/data/events/grid_events.h -- turns changes in the cache into events.
 //
-// A grid says itself what it is: the living grid of a volume that grows, the grid of a volume that
-// has ended, or a frame of a mosaic. What single sites gave to a mosaic (parts) is nobody's
-// business.
+// A grid itself says what it is: the living grid of a growing volume, the grid of a volume that has
+// ended, or a mosaic. Partials, the single sites' contributions to a mosaic, give no events.
 //
-// The watch may tell that a grid changed that lay there all the time, after a look at directories
-// whose times are too coarse. So a grid that was written before the server began is no news, nor
-// is a file that was told already.
+// After a look at directories whose times are too coarse, the watch may report a change of a grid
+// that did not change. So grids written before the server began give no events, nor do files that
+// were reported already.
 //
 // Threads   One thread at a time.
-// Errors    None are returned: a grid that cannot be read is counted, and told of when it can be.
+// Errors    None are returned. A grid that cannot be read is counted, and reported once it can be
+// read.
 #pragma once
 
 #include <cstdint>
@@ -29,19 +29,19 @@ namespace stormcellar::web {
 
 class GridEvents {
   public:
-    // `began_ns`: what was written before that is no news; by the clock of files, since the epoch.
+    // `began_ns`: grids written before it give no events; by the clock of files, since the epoch.
     GridEvents(std::shared_ptr<Grids> grids, StationNews& book, std::int64_t began_ns)
         : grids_(std::move(grids)), book_(book), began_ns_(began_ns) {}
 
-    // Returns the events of these changes, in their order. Of a grid that changed several times,
-    // the last counts. Grids that went become one event for each domain and moment.
+    // Returns the events of these changes, in their order. If a grid changed several times, the
+    // last change counts. Grids that went become one event for each domain and moment.
     [[nodiscard]] std::vector<Event> of(std::span<const CacheChange> changes, UtcTime now);
 
-    // Counts grids that could not be read.
+    // Returns the number of grids that could not be read.
     [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
 
   private:
-    // Tells a file from the next one of the same name.
+    // Distinguishes a file from the next one of the same name.
     struct Told {
         UtcTime time;
         std::uint64_t inode = 0;
@@ -59,7 +59,7 @@ class GridEvents {
     StationNews& book_;
     const std::int64_t began_ns_;
     std::uint64_t unreadable_ = 0;
-    // Old files came under their names, as when a disk is mounted: too much to tell one by one.
+    // True if old files appeared, as when a disk is mounted: too many to report one by one.
     bool came_back_ = false;
     std::map<Place, std::vector<Told>> told_;  // the last few of each domain and moment
 };

@@ -8,8 +8,8 @@
 namespace stormcellar::web {
 namespace {
 
-// The start in a volume's header and the time of its first radial, by which a volume is named until
-// its header comes, differ by up to ten seconds.
+// A volume is named by the time of its first radial until its header comes; the start in the header
+// differs from it by up to ten seconds.
 constexpr std::chrono::seconds same_volume_within{15};
 
 Event station_event(EventType type, const std::string& station, UtcTime now,

@@ -1,4 +1,4 @@
-// web/data/events/station_news.h -- when something came from each station, and its newest volume.
+// web/data/events/station_news.h -- when each station was last heard, and its newest volume.
 //
 // Times of arrival are this machine's, times of volumes are the radar's. A volume from the future
 // (by is_believed()) is never the newest, since no volume would come after it.
@@ -18,13 +18,13 @@
 
 namespace stormcellar::web {
 
-// Facts that are known of a volume when it is first seen.
+// Facts about a volume that are known when it is first seen.
 struct SeenVolume {
     UtcTime start;
     int vcp = 0;  // 0: not known
 };
 
-// The end of a volume of which there is no grid.
+// The end of a volume that has no grid.
 struct EndedVolume {
     UtcTime start;
     int sweeps = 0;
@@ -40,17 +40,17 @@ class StationNews {
     struct Page {
         std::string station;
         std::optional<UtcTime> newest_volume;  // its start
-        std::optional<UtcTime> heard;          // when something came
+        std::optional<UtcTime> heard;          // when something last came
         bool is_silent = false;
-        // When it spoke last: of one of which nothing came yet, the start of its newest volume.
+        // Returns when it last spoke. If nothing came yet, that is the start of its newest volume.
         [[nodiscard]] std::optional<UtcTime> spoke() const { return heard ? heard : newest_volume; }
     };
 
-    // Notes what is there when the server begins. It tells nothing.
+    // Notes what exists when the server begins. Gives no events.
     void note(const std::string& station, std::optional<UtcTime> newest_volume,
               std::optional<UtcTime> heard, UtcTime now);
-    // Something came, of this volume if it is known. Returns what that means: station_spoke if the
-    // station was silent, volume_begun if no volume was known that starts so late.
+    // Notes that something came, with its volume if known. Returns station_spoke if the station was
+    // silent, and volume_begun if the volume starts later than all known ones.
     [[nodiscard]] std::vector<Event> hear(const std::string& station,
                                           std::optional<SeenVolume> volume, UtcTime heard,
                                           UtcTime now);

@@ -1,10 +1,10 @@
-// web/data/events/station_place.h -- where a station is.
+// web/data/events/station_place.h -- finds where a station is.
 //
-// The station table and the configuration know most stations. A test bed or a new radar is placed
-// by its files alone: its newest grid says where they have it.
+// The station table and the configuration know most stations. The place of a test bed or a new
+// radar is known only from its files, so it is read from the newest grid.
 //
 // Threads   Pure functions of the table and the cache.
-// Errors    A station whose place nobody knows has none.
+// Errors    None. The result is empty for a station whose place is unknown.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,13 @@
 namespace stormcellar::web {
 
 struct StationPlace {
-    std::string name, state;        // empty: not known
-    std::optional<RadarKind> kind;  // none: not known
+    std::string name, state;        // empty: unknown
+    std::optional<RadarKind> kind;  // none: unknown
     double latitude_deg = 0, longitude_deg = 0, antenna_altitude_m = 0;
 };
 
-// `grids` may be null. A station that is not in the table may open its newest grid.
+// Returns the place of a station. `grids` may be null. For a station that is not in the table, it
+// may open the newest grid.
 [[nodiscard]] std::optional<StationPlace> place_of_station(Grids* grids, std::string_view icao);
 
 }  // namespace stormcellar::web

@@ -36,8 +36,9 @@ struct CloseListing {
     void operator()(DIR* listing) const { ::closedir(listing); }
 };
 
-// Returns the names of directories, or of what is not one, sorted; none if they cannot be read. A
-// file system that does not tell the type leaves it to the caller, who looks at each.
+// Returns the sorted names of the directories, or of the other entries; none if they cannot be
+// read. If the file system does not tell the type of an entry, its name is returned and the caller
+// checks it.
 std::optional<std::vector<std::string>> entry_names(const std::filesystem::path& directory,
                                                     bool directories) {
     const int number = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -63,7 +64,7 @@ CacheTree::CacheTree(std::filesystem::path cache, int notify, CacheWatch::Listen
     : cache_(std::move(cache)), notify_(notify), listener_(std::move(listener)) {}
 
 std::filesystem::path CacheTree::path_of(const Place& place) const {
-    // The cache itself may be reached through a link, "DIR/." is then the directory behind it.
+    // The cache itself may be a link; "DIR/." is the directory that it points to.
     if (place.domain.empty()) return cache_ / ".";
     std::filesystem::path path = cache_ / place.domain;
     if (place.moment) path /= std::string(level2::moment_name(*place.moment));
@@ -79,12 +80,12 @@ void CacheTree::tell_everything() {
     listener_({CacheEvent::everything, {}});
 }
 
-// The watch is set before the time is noted and the names are read, so that whatever happens in
-// between is either read or reported.
+// Sets the watch before noting the time and reading the names, so that a change in between is
+// either read or reported.
 std::optional<bool> CacheTree::look(const Place& place, Seen& seen) {
     const std::filesystem::path path = path_of(place);
     struct stat facts {};
-    // A directory that cannot be looked at is not gone: it stays as it was known.
+    // A directory that cannot be read is not gone: keep what was known of it.
     enum class Found { directory, nothing, unreadable };
     const auto find = [&] {
         if (::lstat(path.c_str(), &facts) != 0)
@@ -207,8 +208,8 @@ void CacheTree::scan_day(const Place& place) {
     compare_day(place, day, *names, read_before_ns);
 }
 
-// Names that are new came, names that are missing went. Of the others those changed whose file was
-// renamed to its name since the day was read before.
+// Reports new names as come and missing names as gone. Of the other names, those whose file was
+// renamed to its name since the last read have changed.
 void CacheTree::compare_day(const Place& place, Day& day, const std::vector<std::string>& names,
                             std::int64_t read_before_ns) {
     std::vector<std::pair<UtcTime, const std::string*>> found;
@@ -300,14 +301,14 @@ bool CacheTree::take(const char* events, std::size_t size) {
             lost = true;
             continue;
         }
-        // The name is padded with zeros.
+        // The kernel pads the name with zeros.
         handle(event.wd, event.mask, {name, ::strnlen(name, event.len)});
     }
     if (lost) forget_times();
     return !lost && !root_gone_;
 }
 
-// The times of directories tell what came and went; what was read must be read again.
+// Forgets the times of the directories, so that the next scan reads all of them.
 void CacheTree::forget_times() {
     tell_everything();
     for (auto& [name, domain] : domains_) {
@@ -327,7 +328,7 @@ void CacheTree::handle(int watch, std::uint32_t mask, std::string_view name) {
     const Place place = found->second;
     const bool is_root = place.domain.empty();
     if ((mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_UNMOUNT | IN_IGNORED)) != 0) {
-        // The directory above tells that another directory went.
+        // If another directory went, the directory above reports it.
         if (is_root) root_gone_ = true;
         return;
     }
@@ -376,9 +377,9 @@ void CacheTree::handle_file(const Place& place, std::uint32_t mask, std::string_
         note_time(place, day->seen);
         return tell(CacheEvent::went, place, *time);
     }
-    // A file that is created under its name comes when it is closed, but a link is never written.
+    // A new file is reported when it is closed. A new hard link is never written, so report it now.
     if ((mask & IN_CREATE) != 0 && facts.st_nlink < 2) return;
-    if ((mask & (IN_DELETE | IN_MOVED_FROM)) != 0) return;  // and was made again: that is told next
+    if ((mask & (IN_DELETE | IN_MOVED_FROM)) != 0) return;  // the event of its new file follows
     if (!is_known) day->times.insert(at, *time);
     note_time(place, day->seen);
     tell(is_known ? CacheEvent::changed : CacheEvent::came, place, *time);

@@ -1,10 +1,10 @@
-// web/data/grids/cache_tree.h -- what a cache watch knows of the directories of a cache.
+// web/data/grids/cache_tree.h -- the directories of a cache, as a cache watch knows them.
 //
-// It reads directories, sets watches on them, and tells which grids it found, missed, or found
-// changed. Symbolic links below the cache's directory are not followed, as in the store.
+// It reads directories, sets watches on them, and reports grids that came, went or changed. It
+// follows no symbolic links below the cache's directory, as the store does.
 //
 // Threads   One thread at a time.
-// Errors    A directory that cannot be read keeps what was known of it; see is_blind().
+// Errors    A directory that cannot be read keeps its known contents; see is_blind().
 #pragma once
 
 #include <cstdint>
@@ -23,22 +23,22 @@ namespace stormcellar::web {
 
 class CacheTree {
   public:
-    // `notify` is an inotify descriptor, or -1: then nothing is watched.
+    // `notify` is an inotify descriptor, or -1 to watch nothing.
     CacheTree(std::filesystem::path cache, int notify, CacheWatch::Listener listener);
 
     // Reads every directory that is new or whose time changed since it was read.
     void scan();
     void scan(const std::string& domain);
-    // Takes the bytes that were read from the inotify descriptor. Returns false if events were lost
-    // or the cache itself was moved or removed: then scan() must follow.
+    // Handles bytes read from the inotify descriptor. Returns false if events were lost or the
+    // cache itself was moved or removed; the caller must then call scan().
     [[nodiscard]] bool take(const char* events, std::size_t size);
 
     [[nodiscard]] bool is_there() const { return is_there_; }
     // Returns true if some directory could not be watched or read.
     [[nodiscard]] bool is_blind() const { return blind_; }
-    // After events were lost: tells so, and lets the next scan() read every directory.
+    // Call after events were lost. Reports so, and lets the next scan() read every directory.
     void forget_times();
-    // Tells that everything may have changed.
+    // Reports that everything may have changed.
     void tell_everything();
 
   private:
@@ -61,8 +61,8 @@ class CacheTree {
         Seen seen;
         std::map<level2::Moment, OfMoment> moments;
     };
-    // Where a watched directory is: the cache (no domain), a domain (no moment), a moment (no day)
-    // or a day.
+    // Identifies a watched directory: the cache (no domain), a domain (no moment), a moment (no
+    // day) or a day.
     struct Place {
         std::string domain;
         std::optional<level2::Moment> moment;
@@ -71,7 +71,7 @@ class CacheTree {
 
     [[nodiscard]] std::filesystem::path path_of(const Place& place) const;
     // Watches the directory and notes its time. Returns whether its names must be read; none if it
-    // is not there.
+    // does not exist.
     std::optional<bool> look(const Place& place, Seen& seen);
     void scan_domain(const std::string& domain);
     void scan_moment(const std::string& domain, level2::Moment moment);

@@ -26,7 +26,7 @@ using WatchClock = std::chrono::steady_clock;
 constexpr std::chrono::seconds look_for_missing_every{1};
 constexpr std::chrono::seconds look_when_blind_every{2};
 constexpr std::chrono::seconds look_at_times_every{60};
-// Without a descriptor left nothing wakes the thread, so it looks itself whether it must end.
+// If no descriptor is left to wake the thread, it checks this often whether it must end.
 constexpr int look_for_the_end_every_ms = 100;
 constexpr int try_again_after_ms = 1000;
 
@@ -110,7 +110,7 @@ std::unique_ptr<CacheWatch> CacheWatch::open(std::filesystem::path cache, Listen
 CacheWatch::~CacheWatch() {
     impl_->is_stopping = true;
     const std::uint64_t one = 1;
-    // Writing to a counter that nobody has filled cannot fail.
+    // Adding to an eventfd counter fails only when it is full, which this one never is.
     [[maybe_unused]] const ssize_t written = ::write(impl_->stop.number(), &one, sizeof one);
     impl_->thread.join();
 }

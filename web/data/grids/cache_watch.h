@@ -1,16 +1,16 @@
-// web/data/grids/cache_watch.h -- which grids a cache has, and what happens to them.
+// web/data/grids/cache_watch.h -- watches the grids of a cache.
 //
-// The directories of the cache are read once and then watched (inotify). Each grid that is there
-// when the watch begins is told as having come. What happened is told in its order, by the thread
-// that notices it: one of the watch's own, or whoever calls catch_up(). A cache that is not there
-// (yet), or that vanishes, is looked for once a second. Where the kernel reports nothing (no watch
-// is left, or another machine writes), the directories' times are compared once a minute, and every
-// 2 seconds if not all of them could be watched; a grid may then be told as changed though it was
-// not.
+// The watch reads the directories of the cache once and then follows them by inotify. It reports
+// each grid that exists at the start as having come. Changes are reported in their order, by the
+// thread that notices them: the watch's own, or a caller of catch_up(). If the cache does not exist
+// (yet) or vanishes, the watch looks for it once a second. Where the kernel reports nothing (no
+// inotify watch is left, or another machine writes), the watch compares the directories' times once
+// a minute, and every 2 seconds if it could not watch all of them; it may then report an unchanged
+// grid as changed.
 //
-// Threads   Many threads may use it. The listener is called by one thread at a time, under a lock:
-//           it must be quick and must not call the watch.
-// Errors    None are returned: see problem().
+// Threads   Many threads may use it. One thread at a time calls the listener, under a lock: it must
+//           be quick and must not call the watch.
+// Errors    None are returned; see problem().
 #pragma once
 
 #include <cstdint>
@@ -30,12 +30,13 @@ enum class CacheEvent {
     came,
     changed,  // the grid was made again
     went,
-    everything,  // the kernel lost events: any grid may have changed; what came and went is told
+    everything,  // the kernel lost events: any grid may have changed; came and went are still
+                 // reported
 };
 
 struct CacheChange {
     CacheEvent event = CacheEvent::came;
-    cache::GridName grid;  // without meaning for `everything`
+    cache::GridName grid;  // meaningless for `everything`
 };
 
 class CacheWatch {
@@ -48,13 +49,13 @@ class CacheWatch {
     CacheWatch& operator=(const CacheWatch&) = delete;
     ~CacheWatch();
 
-    // Tells what happened until now. It costs one system call if nothing did. Whatever was renamed
-    // into the cache, or removed, before the call is told before it returns.
+    // Reports everything that happened until now. It costs one system call if nothing did. Each
+    // rename into the cache and each removal before the call is reported before it returns.
     void catch_up();
     // Reads the directories whose times changed, events or not.
     void rescan();
     void rescan(const std::string& domain);
-    // Why not all changes are told at once, in a sentence; none if they are.
+    // Returns a sentence that says why some changes are reported late; none if none are.
     [[nodiscard]] std::optional<std::string> problem() const;
 
   private:

@@ -22,11 +22,11 @@ enum class Coding { identity, gzip, zstd };
 [[nodiscard]] Result<std::string> compressed(std::string_view bytes, Coding coding);
 inline constexpr int gzip_level = 4;
 inline constexpr int zstd_level = 5;
-// The same for what is compressed once and sent often: it takes longer, and is smaller.
+// Does the same for bytes that are compressed once and sent often: slower, but smaller.
 [[nodiscard]] Result<std::string> compressed_once(std::string_view bytes, Coding coding);
 inline constexpr int gzip_once_level = 9;
 inline constexpr int zstd_once_level = 19;
-// For measurements: with another level.
+// Compresses at the given level, for measurements.
 [[nodiscard]] Result<std::string> gzipped(std::string_view bytes, int level);
 [[nodiscard]] Result<std::string> zstd_packed(std::string_view bytes, int level);
 

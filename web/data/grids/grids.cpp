@@ -20,7 +20,7 @@
 
 namespace stormcellar::web {
 
-// Tells a file from the one that replaces it.
+// Distinguishes a file from the one that replaces it.
 struct GridFileStamp {
     std::uint64_t device = 0, inode = 0, size = 0;
     std::int64_t modified_ns = 0;
@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::size_t most_evicted_remembered = 65536;
 constexpr std::size_t opening_locks = 32;
-// The watch tells of every change but that of a directory above the cache.
+// Catches what the watch misses: a change of a directory above the cache.
 constexpr std::chrono::milliseconds look_again_after{100};
 
 GridFileStamp stamp_of_grid(const struct stat& facts) {
@@ -70,11 +70,12 @@ struct Grids::Impl {
     struct Open {
         GridFileStamp stamp;
         std::shared_ptr<const OpenGrid> grid;
-        // When the file was last seen to be the one that is open, and which changes were known.
+        // When the open file was last compared with the file of its name, and the count of changes
+        // then.
         std::chrono::steady_clock::time_point seen_at{};
         std::uint64_t seen_changes = 0;
     };
-    // The grid that was seen a moment ago, while nothing changed since.
+    // Returns the grid that was checked a moment ago if nothing changed since.
     std::shared_ptr<const OpenGrid> find_seen(const cache::GridName& name);
 
     const GridsOptions options;
@@ -245,7 +246,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
         return fail(ErrorCode::not_found, "there is no such domain or time");
     }
     const std::filesystem::path path = impl_->options.cache / cache::relative_path(name);
-    // A link on the way leads nowhere.
+    // A link on the way is not followed, so the file is not found.
     const Result<struct stat> facts = look_beneath(impl_->options.cache, path);
     if (!facts && facts.error().code != ErrorCode::not_found) return pass_on(facts);
     if (!facts || !S_ISREG(facts->st_mode)) {
@@ -254,7 +255,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     }
     if (auto kept = impl_->find_open(name, stamp_of_grid(*facts))) return kept;
 
-    // If several requests want the same grid at the same time, one opens it and the others wait.
+    // If several requests want the same grid at once, one opens it and the others wait.
     const std::size_t hash = std::hash<std::string>{}(path.native());
     const MutexLock lock(impl_->opening[hash % opening_locks]);
     if (auto kept = impl_->find_open(name, stamp_of_grid(*facts))) return kept;
@@ -263,8 +264,8 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     std::string id = fmt::format("{:016x}", file->checksum());
     auto grid = std::make_shared<const OpenGrid>(
         OpenGrid{std::move(*file), name.domain, moment, time, std::move(id)});
-    // If it was replaced after the look, the stamp does not fit, and the next request opens it
-    // again.
+    // If the file was replaced after the look, the stamp does not match, and the next request opens
+    // the new file.
     impl_->keep_open(name, stamp_of_grid(*facts), grid);
     return grid;
 }

@@ -1,12 +1,12 @@
 // web/data/grids/grids.h -- the grids of the cache, listed and opened.
 //
-// The names in the cache are listed once, and again when the cache changes
-// (web/data/grids/cache_watch.h), so that a request reads no directory. Opened grids are kept, at
-// most `most_open`, the least recently used give way. A grid that its owner evicted while it is
-// open stays readable to the one who holds it.
+// The names in the cache are listed once and updated when the cache changes
+// (web/data/grids/cache_watch.h), so a request reads no directory. Opened grids are kept, at most
+// `most_open`; the least recently used is closed first. A grid that is evicted while it is open
+// stays readable to its holder.
 //
 // Threads   Many threads may use it.
-// Errors    not_found if there is and was no such grid; see each function.
+// Errors    not_found if there is no such grid and there was none; see each function.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ namespace stormcellar::web {
 struct GridsOptions {
     std::filesystem::path cache;
     std::size_t most_open = 64;
-    // Limit of the memory that open grids hold: tables, states, and codes if these are packed. The
+    // Limit of the memory that open grids hold: tables, states, and codes if they are packed. The
     // grid used last is kept even if it is larger.
     std::uint64_t most_open_bytes = std::uint64_t{256} << 20;
 };
@@ -42,29 +42,29 @@ struct OpenGrid {
     std::string domain;
     level2::Moment moment;
     UtcTime time;
-    std::string id;  // of its bytes: letters and digits, for ETags and keys
+    std::string id;  // hash of its bytes, letters and digits, for ETags and keys
 
-    // Returns true if this grid will be made again: its volume is growing or not whole, or its
-    // frame waits for later volumes.
+    // Returns true if this grid will be made again: its volume is growing or incomplete, or its
+    // mosaic waits for later volumes.
     [[nodiscard]] bool may_change() const {
         const grid::Provenance& from = file.description().provenance;
         return from.partial || from.provisional;
     }
 };
 
-// Returns the newest of some times, ascending and at least one. One in the future comes from a
-// clock that is wrong: it counts only if all are in the future (is_believed()).
+// Returns the newest of these times, which ascend and are not empty. A time in the future comes
+// from a wrong clock; it counts only if all times are in the future (is_believed()).
 [[nodiscard]] UtcTime newest_believed(std::span<const UtcTime> times);
 
 class Grids {
   public:
-    // A cache that does not exist (yet) has no grids; that is no error.
+    // A cache that does not exist (yet) has no grids and is no error.
     static Result<std::shared_ptr<Grids>> open(GridsOptions options);
     ~Grids();
 
     [[nodiscard]] std::vector<std::string> domains() const;  // sorted
     [[nodiscard]] std::vector<level2::Moment> moments(std::string_view domain) const;
-    // Ascending; `from` and `to` are inclusive.
+    // Returns the times in ascending order; `from` and `to` are inclusive.
     [[nodiscard]] std::vector<UtcTime> times(std::string_view domain, level2::Moment moment,
                                              std::optional<UtcTime> from = {},
                                              std::optional<UtcTime> to = {}) const;
@@ -74,24 +74,25 @@ class Grids {
     // Returns the grid. Errors: not_found; those of GridFile::open().
     [[nodiscard]] Result<std::shared_ptr<const OpenGrid>> find(std::string_view domain,
                                                                level2::Moment moment, UtcTime time);
-    // Returns the grid if it is open and still that of its name; else null. It takes microseconds.
+    // Returns the grid if it is open and its file is still current; else null. Takes microseconds.
     [[nodiscard]] std::shared_ptr<const OpenGrid> find_if_open(std::string_view domain,
                                                                level2::Moment moment, UtcTime time);
-    // Returns true if a grid of this name was listed earlier and is gone: the answer is then 410,
-    // not 404. The newest 65,536 of them are remembered.
+    // Returns true if a grid of this name was listed earlier and is gone, which the doors answer
+    // with 410 instead of 404. The newest 65,536 names are remembered.
     [[nodiscard]] bool was_evicted(std::string_view domain, level2::Moment moment,
                                    UtcTime time) const;
-    // Counts changes: grids that came, changed or went.
+    // Returns the number of changes: grids that came, changed or went.
     [[nodiscard]] std::uint64_t changes() const;
-    // Counts those of a group: a domain and its parts (stormcellar/cache/grid_name.h).
+    // Returns the number of changes in a group: a domain and its parts
+    // (stormcellar/cache/grid_name.h).
     [[nodiscard]] std::uint64_t changes_of(std::string_view group) const;
-    // Reads the cache, or a domain of it, again.
+    // Reads the cache, or one domain of it, again.
     void refresh();
     void refresh(std::string_view domain);
-    // Calls the function for each change from now on, after the lists have it. It is called by one
-    // thread at a time; it must be quick and must not ask for grids.
+    // Calls the function for each change from now on, after the lists are updated. One thread at a
+    // time calls it; it must be quick and must not ask for grids.
     void listen(std::function<void(const CacheChange&)> listener);
-    // Why changes are not noticed at once, in a sentence; none if they are.
+    // Returns a sentence that says why changes are noticed late; none if they are not.
     [[nodiscard]] std::optional<std::string> problem() const;
     [[nodiscard]] const std::filesystem::path& cache() const;
 

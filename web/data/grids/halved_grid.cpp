@@ -13,7 +13,7 @@ using grid::BrickEntry;
 using grid::BrickKind;
 using grid::CellStatus;
 
-// The codes of one brick with the states of its cells as codes below 3, whatever its kind.
+// The codes of one brick of any kind, with the states of its cells as codes below 3.
 template <class Code>
 class BrickCodes {
   public:
@@ -35,7 +35,7 @@ class BrickCodes {
         }
     }
     [[nodiscard]] Code at(int x, int y, int z) const { return column(x, y)[z]; }
-    // The 16 cells above a place.
+    // Returns the 16 cells of the column at x, y.
     [[nodiscard]] const Code* column(int x, int y) const {
         return codes_.data() + (x * grid::brick_edge + y) * grid::brick_edge;
     }
@@ -52,7 +52,7 @@ class BrickCodes {
     std::array<Code, grid::brick_cells> codes_{};
 };
 
-// Makes one cell of up to four. Codes below 3 are states.
+// Makes one cell from up to four. Codes below 3 are states.
 class CellHalver {
   public:
     CellHalver(const grid::Quantization& quantization, HalvedBy by, bool by_magnitude)
@@ -120,7 +120,8 @@ class GridHalver {
     }
 
   private:
-    // Above most bricks nothing differs: they are made without looking at their cells.
+    // Returns the common state of the source bricks of a halved brick, if they have one. Most
+    // bricks are uniform, and this avoids a look at their cells.
     [[nodiscard]] std::optional<CellStatus> uniform_above(int bx, int by, int bz) const {
         std::optional<CellStatus> status;
         for (int x = 2 * bx; x < std::min(2 * bx + 2, from_.bricks_x); ++x) {
@@ -158,7 +159,8 @@ class GridHalver {
         writer.put_codes(brick, codes_.data(), extent);
     }
 
-    // The cells of the halved grid above the columns 2 x and 2 x + 1, 2 y and 2 y + 1 of a quarter.
+    // Returns the cells of the halved grid over the columns 2 x, 2 x + 1 and 2 y, 2 y + 1 of a
+    // quarter.
     Code* halved_column(int half_x, int half_y, int x, int y) {
         constexpr int half_edge = grid::brick_edge / 2;
         return codes_.data() +
@@ -166,8 +168,9 @@ class GridHalver {
                    grid::brick_edge;
     }
 
-    // The greatest code: the states are in the order in which the maximum takes them. Beside the
-    // grid's edge a uniform brick goes on, and others are not seen.
+    // Takes the greatest code, because the order of states is the order in which the maximum
+    // prefers them. Beyond the grid's edge, a uniform brick continues and cells of others are not
+    // seen.
     void take_greatest(const grid::BrickExtent& extent, int half_x, int half_y) {
         for (int x = 0; 2 * x < extent.x; ++x) {
             for (int y = 0; 2 * y < extent.y; ++y) {
@@ -231,7 +234,7 @@ std::string_view halved_by_name(HalvedBy by) {
     return by == HalvedBy::maximum ? "maximum" : "mean";
 }
 
-// Column i of the halved grid lies in the middle of the columns 2 i and 2 i + 1.
+// Column i of the halved grid is in the middle of the columns 2 i and 2 i + 1.
 grid::GridSpec halved_spec(const grid::GridSpec& spec) {
     grid::GridSpec half = spec;
     half.nx = (spec.nx + 1) / 2;

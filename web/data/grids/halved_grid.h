@@ -1,13 +1,14 @@
-// web/data/grids/halved_grid.h -- a grid with half the columns and rows, for looking at much of it.
+// web/data/grids/halved_grid.h -- grids with half the columns and rows, for viewing large areas.
 //
-// A cell of the halved grid stands for the four cells below it, on the same level (fewer at the
+// A cell of the halved grid represents the four cells that it covers on its level (fewer at the
 // edge of a grid with an odd number of columns or rows). Levels are never halved, so heights stay
-// exact. Cells that are not seen do not count. Of the others, by
-//   maximum  the largest value if there is one (of VEL, which has a sign, the value farthest from
-//            0); else range folded if one is, so that such air never looks clear; else no echo
-//   mean     range folded if most cells are; else no echo if there are more of those than values;
-//            else the mean of the values, as they are stored (of REF in dBZ)
-// A grid that is halved more than once is made of the one before, so `mean` is a mean of means.
+// exact. Cells that are not seen do not count. The other cells are joined by
+//   maximum  the largest value if there is one (for VEL, which has a sign, the value farthest
+//            from 0); else range folded if one cell is, so that such air never looks clear;
+//            else no echo
+//   mean     range folded if most cells are; else no echo if those cells outnumber the values;
+//            else the mean of the values as they are stored (dBZ for REF)
+// A grid that is halved again is made from the halved one, so `mean` is then a mean of means.
 //
 // Threads   Pure functions.
 // Errors    See halved().
@@ -30,12 +31,12 @@ enum class HalvedBy : std::uint32_t { maximum = 1, mean = 2 };  // numbers of th
 
 inline constexpr int most_halvings = 6;
 
-// Returns the spec of a halved grid: the new cells lie over the old ones, so the offset may be
+// Returns the spec of a halved grid. The new cells cover the old ones exactly, so the offset may be
 // other than a half.
 [[nodiscard]] grid::GridSpec halved_spec(const grid::GridSpec& spec);
 
-// Errors: bad_argument for `times` outside 1 to most_halvings, and for the mean of a moment whose
-// values lie on a circle.
+// Returns the grid halved `times` times. Errors: bad_argument for `times` outside 1 to
+// most_halvings, and for the mean of a moment whose values are on a circle.
 [[nodiscard]] Result<std::shared_ptr<const grid::BrickGrid>> halved(const grid::BrickView& view,
                                                                     level2::Moment moment,
                                                                     int times, HalvedBy by);

@@ -16,7 +16,7 @@ std::uint64_t size_in_budget(const std::string& key, const Kept& value) {
            overhead_bytes;
 }
 
-// Others wait for what is made, so an exception becomes an error.
+// Turns an exception into an error, because other threads wait for the result.
 Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
     try {
         Result<Kept> made = make();
@@ -36,7 +36,7 @@ Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
 struct KeptAnswers::Making {
     ConditionVariable done;
     std::optional<Result<Kept>> result;
-    bool is_over = false;  // without a result there was no memory for it
+    bool is_over = false;  // over without a result: memory was short
 };
 
 std::optional<Kept> KeptAnswers::find(const std::string& key) {
@@ -75,7 +75,7 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
         ours->result = made;
         if (made) keep(key, *made);
     } catch (const std::bad_alloc&) {
-        // It is sent, and not kept.
+        // The answer is sent but not kept.
     }
     ours->is_over = true;
     ours->done.notify_all();

@@ -1,9 +1,8 @@
-// web/data/grids/kept_answers.h -- answers that were made once and are kept in memory within a
-// budget.
+// web/data/grids/kept_answers.h -- keeps answers in memory within a budget.
 //
-// Units     The budget is in bytes; each value counts with its own and 256 more.
-// Threads   Many threads may use it. If several want the same value at the same time, one makes it
-//           and the others wait for it.
+// Units     The budget is in bytes; each value counts as its own size plus 256.
+// Threads   Many threads may use it. If several want the same value at once, one makes it and the
+//           others wait for it.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +23,7 @@ namespace stormcellar::web {
 struct Kept {
     Piece bytes;
     std::string etag;   // with quotes
-    std::string notes;  // what else the door wants to know, for example the content type
+    std::string notes;  // further text for the door, for example the content type
 };
 
 class KeptAnswers {
@@ -34,9 +33,9 @@ class KeptAnswers {
 
     // Returns the kept value; none if there is none. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const std::string& key);
-    // Returns the kept value, or makes it and keeps it, from 256 KiB on in a memory file. Errors
-    // are not kept; an exception is one. A value larger than a quarter of the budget is returned,
-    // but not kept.
+    // Returns the kept value, or makes and keeps it; values from 256 KiB on go to a memory file.
+    // Errors are not kept; an exception becomes an error. A value larger than a quarter of the
+    // budget is returned but not kept.
     [[nodiscard]] Result<Kept> find_or_make(const std::string& key,
                                             const std::function<Result<Kept>()>& make);
     // Drops every value whose key begins with this text.

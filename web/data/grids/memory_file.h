@@ -1,7 +1,7 @@
-// web/data/grids/memory_file.h -- bytes of an answer in a file without a name, in memory (memfd).
+// web/data/grids/memory_file.h -- holds bytes of an answer in a nameless file in memory (memfd).
 //
-// The kernel sends the pages of a file as they are (sendfile). It copies the bytes of a string for
-// each client, which was a quarter of what a kept packed grid cost.
+// The kernel sends pages of a file without a copy (sendfile). It copies the bytes of a string for
+// each client, which was a quarter of the cost of sending a kept packed grid.
 //
 // Threads   Functions without state.
 #pragma once
@@ -15,14 +15,14 @@
 
 namespace stormcellar::web {
 
-// Each takes a descriptor while it is kept, so that small ones are not worth it.
+// Each file holds a descriptor while it is kept, so small answers stay strings.
 inline constexpr std::size_t least_in_memory_file = std::size_t{256} << 10;
 
-// Writes at the file's position. Returns false where there is no room.
+// Writes at the file's position. Returns false if there is no room.
 [[nodiscard]] bool write_all(const Descriptor& file, std::span<const std::byte> bytes);
 
-// Returns the bytes as they are sent best: in a file if they are many and a file can be had. Ranges
-// of a file share it, those of a text are copies.
+// Returns the bytes in the form that is sent best: a file if they are many and a file can be made,
+// else the text. Ranges of a file share it; ranges of a text are copies.
 [[nodiscard]] Piece in_file(const Text& text);
 
 }  // namespace stormcellar::web

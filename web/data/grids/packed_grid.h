@@ -1,8 +1,8 @@
 // web/data/grids/packed_grid.h -- the packed form of a grid, for browsers.
 //
-// docs/web/packed-grid.md specifies the bytes; the struct below asserts the offsets. A grid comes
-// whole, or its table first and then its bricks by ranges of the table. Both are the same form:
-// the header says which sections follow.
+// docs/web/packed-grid.md specifies the bytes; the struct below asserts the offsets. A client gets
+// the grid whole, or first its table and then its bricks by ranges of the table. The form is the
+// same in both cases: the header says which sections follow.
 //
 // Units     As in the cache's files (docs/cache-format.md): meters, degrees, milliseconds.
 // Threads   Pure functions.
@@ -34,13 +34,13 @@ enum class PackedPart : std::uint32_t {
     bricks = 2,  // the states and codes of a range of bricks
 };
 
-// At offset 0, little-endian, as docs/web/packed-grid.md has it.
+// The header, at offset 0, little-endian, as docs/web/packed-grid.md specifies it.
 struct PackedHeader {
     std::array<unsigned char, 8> magic = packed_magic;
     std::uint32_t version = packed_version;
     std::uint32_t header_size = 256;
-    std::uint64_t size = 0;  // of everything
-    std::uint64_t id = 0;    // of the grid's bytes in the cache
+    std::uint64_t size = 0;  // of all bytes
+    std::uint64_t id = 0;    // hash of the grid's bytes in the cache
     std::uint32_t projection = 0;
     std::uint32_t nx = 0, ny = 0, nz = 0;
     double center_latitude_deg = 0, center_longitude_deg = 0;
@@ -54,7 +54,7 @@ struct PackedHeader {
     std::uint32_t bricks_x = 0, bricks_y = 0, bricks_z = 0;
     std::int64_t time_ms = 0, start_time_ms = 0, end_time_ms = 0;
     std::uint32_t part = 0;       // PackedPart
-    std::uint32_t halved = 0;     // how often columns and rows were halved
+    std::uint32_t halved = 0;     // number of halvings of columns and rows
     std::uint32_t halved_by = 0;  // 0 not halved, 1 maximum, 2 mean
     // Bit 0: the volume is partial; bit 1: the grid is provisional; bit 2: the codes are those of
     // values alone.
@@ -63,7 +63,7 @@ struct PackedHeader {
     std::uint32_t first_states = 0, states_count = 0;  // numbers as in the table
     std::uint32_t first_codes = 0, codes_count = 0;
     std::uint32_t site_count = 0, table_count = 0;
-    std::uint64_t levels_offset = 0;  // nz doubles; 0: not there, as with the others
+    std::uint64_t levels_offset = 0;  // nz doubles; 0: absent, as for the other offsets
     std::uint64_t sites_offset = 0;
     std::uint64_t table_offset = 0;
     std::uint64_t states_offset = 0;
@@ -117,12 +117,12 @@ static_assert(offsetof(PackedHeader, codes_offset) == 240);
 
 struct PackedSite {
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
-    std::array<char, 8> icao{};  // filled with zeros
+    std::array<char, 8> icao{};  // padded with zeros
 };
 static_assert(sizeof(PackedSite) == 32);
 
-// One brick. `at` is the number of its block among all blocks of states (kind 1), or of its codes
-// among all stored bricks (kind 2).
+// One brick. `at` is its index among the blocks of states (kind 1) or among the codes of stored
+// bricks (kind 2).
 struct PackedBrick {
     std::uint8_t kind = 0;   // grid::BrickKind
     std::uint8_t state = 0;  // kind 0: the state of all its cells
@@ -142,7 +142,8 @@ struct PackedSource {
     grid::BrickView view;
     std::uint64_t id = 0;
     std::uint32_t halved = 0, halved_by = 0;
-    // The whole grid then has states of all bricks that are not uniform, and codes of values alone.
+    // If true, the whole grid has states of all bricks that are not uniform, and codes of values
+    // only.
     bool values_alone = false;
 };
 
@@ -150,12 +151,12 @@ struct PackedSource {
 inline constexpr std::uint64_t most_packed_bytes = std::uint64_t{64} << 20;
 inline constexpr std::size_t most_bricks_of_a_range = 16384;
 
-// Returns the bytes of a grid, of its table, or of the bricks [first, end). The caller checks that
-// the file is whole afterward. Errors: bad_argument for a range that is empty or beyond the table,
-// or more than the limits above; the message says what to ask instead.
+// Returns the bytes of a whole grid, of its table, or of the bricks [first, end). The caller checks
+// afterward that the file is whole. Errors: bad_argument for a range that is empty or beyond the
+// table, and for more than the limits above; the message says what to ask instead.
 [[nodiscard]] Result<std::string> pack_whole(const PackedSource& source);
 [[nodiscard]] Result<std::string> pack_table(const PackedSource& source);
-// Returns the whole grid if that is at most so many bytes, else its table.
+// Returns the whole grid if it has at most `most` bytes, else its table.
 [[nodiscard]] Result<std::string> pack_whole_or_table(const PackedSource& source,
                                                       std::uint64_t most_bytes);
 [[nodiscard]] Result<std::string> pack_bricks(const PackedSource& source, std::size_t first,

@@ -24,14 +24,14 @@ struct PackedSweepHeader {
     std::uint32_t version = 1;
     std::uint32_t header_size = 128;
     std::uint64_t size = 0;
-    double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;  // NaN: not known
+    double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;  // NaN: unknown
     std::uint32_t moment = 0;
     std::uint32_t sweep = 0;             // its number in the volume, from 0
     std::uint32_t elevation_number = 0;  // the cut of the VCP, from 1
-    float elevation_deg = 0;             // the mean of the radials
+    float elevation_deg = 0;             // mean of the radials
     std::uint32_t kind = 0, kind_count = 0;
     std::uint32_t radial_count = 0;
-    std::uint32_t gate_stride = 0;  // codes a row
+    std::uint32_t gate_stride = 0;  // codes in a row
     std::int32_t first_gate_m = 0;  // to the center of gate 0, slant range
     std::int32_t gate_spacing_m = 0;
     std::uint32_t code_bytes = 1;
@@ -68,7 +68,7 @@ static_assert(offsetof(PackedSweepHeader, codes_offset) == 112);
 struct PackedRadial {
     std::int64_t time_ms = 0;
     float azimuth_deg = 0, elevation_deg = 0;
-    float nyquist_mps = 0;  // 0: not known
+    float nyquist_mps = 0;  // 0: unknown
     float unambiguous_range_m = 0;
     std::uint32_t gate_count = 0;  // 0: the radial lacks the moment
     std::uint32_t reserved = 0;
@@ -80,8 +80,8 @@ static_assert(offsetof(PackedRadial, nyquist_mps) == 16);
 static_assert(offsetof(PackedRadial, unambiguous_range_m) == 20);
 static_assert(offsetof(PackedRadial, gate_count) == 24);
 
-// Returns the bytes. `kind` counts the arrays of this moment in the sweep, which differ in their
-// gates. Errors: not_found if the volume has no such sweep, moment or kind.
+// Returns the bytes. `kind` is the index among the arrays of this moment in the sweep, which differ
+// in their gates. Errors: not_found if the volume has no such sweep, moment or kind.
 [[nodiscard]] Result<std::string> pack_sweep(const level2::Volume& volume, std::size_t sweep,
                                              level2::Moment moment, std::size_t kind);
 

@@ -21,7 +21,7 @@ namespace {
 constexpr double least_side_deg = 0.05;
 constexpr double most_side_deg = 40;
 constexpr double farthest_latitude_deg = 80;
-constexpr double farthest_site_deg = 12;  // beyond the box; none reaches so far
+constexpr double farthest_site_deg = 12;  // beyond the box; no site reaches farther
 constexpr int threads_of_a_region = 1;
 
 Status check_region_box(const RegionBox& box) {
@@ -45,7 +45,7 @@ Status check_region_box(const RegionBox& box) {
     return {};
 }
 
-// The plane about the middle of the box, with as many columns as cover its corners.
+// Returns the plane about the middle of the box, with enough columns to cover its corners.
 grid::GridSpec region_spec(const RegionBox& box, double spacing_m, std::vector<double> levels_m) {
     grid::GridSpec spec;
     spec.center_latitude_deg = 0.5 * (box.south_deg + box.north_deg);
@@ -84,7 +84,8 @@ bool is_about(const StationPlace& place, const RegionBox& box, double margin_deg
            place.latitude_deg < box.north_deg + margin_deg;
 }
 
-// A site near the box, with its newest grid of the moment. If that is null, the site is in the box.
+// A site near the box, with its newest grid of the moment. A null grid means that a site in the box
+// has none.
 struct NearbySite {
     std::string name;
     std::shared_ptr<const OpenGrid> newest;
@@ -101,7 +102,7 @@ Result<std::vector<NearbySite>> sites_about(Grids& grids, const RegionBox& box,
         if (!newest && is_about(*place, box, 0)) found.push_back({domain, nullptr});
         if (!newest) continue;
         auto grid = grids.find(domain, moment, *newest);
-        // It may have been evicted meanwhile.
+        // The grid may have been evicted since it was listed.
         if (!grid && grid.error().code == ErrorCode::not_found) continue;
         if (!grid) return pass_on(grid);
         if ((*grid)->file.description().sites.size() == 1) found.push_back({domain, *grid});
@@ -109,7 +110,8 @@ Result<std::vector<NearbySite>> sites_about(Grids& grids, const RegionBox& box,
     return found;
 }
 
-// Sites are laid over each other level by level and code by code.
+// Returns true if the grid has the plan's levels and codes. Sites are merged level by level and
+// code by code, so other grids do not fit.
 bool fits(const OpenGrid& grid, const RegionPlan& plan) {
     const grid::BrickView view = grid.file.view();
     return view.spec->levels_m == plan.spec.levels_m && view.quantization == plan.quantization;
@@ -122,12 +124,13 @@ struct LaidGrid {
     std::optional<grid::BrickGrid> bricks;
 };
 
-// Lays the volumes of a site; two with the same cells by the same columns.
+// Resamples the volumes of one site onto the region. Volumes with the same spec share the lookup of
+// nearest columns.
 class SiteLayer {
   public:
     explicit SiteLayer(const RegionPlan& plan) : plan_(&plan) {}
 
-    // None if the site's grid does not reach the region.
+    // Returns none if the site's grid does not reach the region.
     Result<std::optional<LaidGrid>> lay(std::shared_ptr<const OpenGrid> source) {
         LaidGrid laid{std::move(source), {}, {}};
         laid.description = laid.source->file.description();
@@ -166,23 +169,24 @@ UtcTime middle_of(const OpenGrid& grid) {
     return description.start_time + (description.end_time - description.start_time) / 2;
 }
 
-// The volumes of a site about an instant: the last whose middle is not after it, and the next one.
-// Grids have the times of their beginnings, so that a few before the instant are looked at.
+// Returns a site's volumes about an instant: the last one whose middle is not after it, and the
+// next one. A grid's time is the start of its volume, so the search begins some time before the
+// instant.
 Result<RegionSite> volumes_about(Grids& grids, const std::string& site, const RegionPlan& plan,
                                  UtcTime instant) {
     const auto gap = pipeline::FrameOptions{}.greatest_gap;
     RegionSite found{site, nullptr, nullptr, {}};
-    bool has_others = false;  // that do not fit
+    bool has_others = false;  // some grids do not fit
     const auto times = grids.times(site, plan.moment, instant - 2 * gap, instant + gap);
     for (auto time = times.rbegin(); time != times.rend() && !found.before; ++time) {
         auto grid = grids.find(site, plan.moment, *time);
-        // It may have been evicted meanwhile.
+        // The grid may have been evicted since it was listed.
         if (!grid && grid.error().code == ErrorCode::not_found) continue;
         if (!grid) return pass_on(grid);
         const UtcTime middle = middle_of(**grid);
         if (std::abs(seconds_between(middle, instant)) > std::chrono::duration<double>(gap).count())
             continue;
-        // An older one may have been made by another configuration.
+        // An older grid may have been made with another configuration.
         if (!fits(**grid, plan)) {
             has_others = true;
             continue;
@@ -288,7 +292,7 @@ std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan) {
             const auto since = time.time_since_epoch() + interval / 2;
             const UtcTime instant{since - since % interval};
             instants.insert(instant);
-            // Between volumes the site is moved to any instant.
+            // Between two volumes the site is moved to any instant.
             if (before && instant - *before <= bridge) {
                 for (UtcTime between = *before + interval; between < instant; between += interval)
                     instants.insert(between);

@@ -1,11 +1,11 @@
-// web/data/grids/region.h -- a grid of several sites over a box that somebody draws, made on
-// request.
+// web/data/grids/region.h -- makes a grid from several sites, on request, over a box that a user
+// draws.
 //
-// The grids of the sites that reach the box are laid on one plane about its middle, by their
-// nearest columns (web/data/grids/nearest_columns.h). The mosaic's own code
-// (pipeline/mosaic/mosaic_frame.h) then brings the sites to one instant, each from its volumes
-// before and after with the motion of its echo, and merges them by the default rule of the moment.
-// A box with too many columns is made of halved grids (web/data/grids/halved_grid.h, by maximum).
+// The grids of the sites that reach the box are resampled by nearest columns onto one plane about
+// its middle (web/data/grids/nearest_columns.h). The mosaic's code (pipeline/mosaic/mosaic_frame.h)
+// then moves each site's volumes before and after the instant to it, with the motion of the echo,
+// and merges the sites by the moment's default rule. A box with too many columns is made from
+// halved grids (web/data/grids/halved_grid.h, by maximum).
 //
 // Units     Degrees, meters.
 // Threads   Pure functions of what the cache holds.
@@ -28,8 +28,8 @@ namespace stormcellar::web {
 struct RegionBox {
     double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
 };
-// Returns the box with its longitudes so: 170 to -170 and 170 to 190 are the same box, and so are
-// 530 to 550. Longitudes that are equal stay so.
+// Returns the box with its longitudes in these ranges: 170 to -170 and 170 to 190 are the same box,
+// and so are 530 to 550. Equal longitudes stay equal.
 [[nodiscard]] RegionBox turned(RegionBox box);
 
 // Limits of one request.
@@ -49,30 +49,30 @@ struct RegionPlan {
     level2::Moment moment = level2::Moment::ref;
     grid::GridSpec spec;
     grid::Quantization quantization;
-    std::vector<std::string> sites;     // that reach the box, by name
-    std::vector<LeftOutSite> left_out;  // that stand in the box or reach it
-    int halvings = 0;                   // of the sites' grids
+    std::vector<std::string> sites;     // sites that reach the box, by name
+    std::vector<LeftOutSite> left_out;  // sites that are in the box or reach it
+    int halvings = 0;                   // of each site's grid
 };
 
-// Returns the box of a text "west,south,east,north". Errors: bad_argument.
+// Reads the box from a text "west,south,east,north". Errors: bad_argument.
 [[nodiscard]] Result<RegionBox> region_box_of(std::string_view text);
 
-// Errors: bad_argument for a box that is none, that more than most_region_sites sites reach, or
-// that is too large even for halved grids; not_found if no site with grids of the moment reaches
-// it; those of Grids::find().
+// Plans the grid. Errors: bad_argument for an empty box, for a box that more than most_region_sites
+// sites reach, and for a box too large even for halved grids; not_found if no site with grids of
+// the moment reaches it; those of Grids::find().
 [[nodiscard]] Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box,
                                              level2::Moment moment);
 
-// Returns the instants for which one of the sites has a volume, and those between its volumes,
-// rising.
+// Returns, in ascending order, the instants at which a site has a volume or can be moved to from
+// its volumes.
 [[nodiscard]] std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan);
 
-// The volumes of a site before and after an instant. If one of them is null, the other is taken as
-// it is.
+// The volumes of a site before and after an instant. If one of them is null, the other is used
+// unmoved.
 struct RegionSite {
     std::string site;
     std::shared_ptr<const OpenGrid> before, after;
-    std::string left_out_because;  // where there is neither
+    std::string left_out_because;  // set if there is neither
     // Returns the seconds from the instant to the middle of a volume; negative if it was before.
     [[nodiscard]] static double seconds_to(const OpenGrid& volume, UtcTime instant);
 };
@@ -82,7 +82,7 @@ struct RegionSite {
                                                            UtcTime instant);
 
 // Makes the grid for an instant. A site whose grid of that time has other levels or codes than the
-// plan is left out. Errors: not_found if no site has a volume near it that fits; those of
+// plan is left out. Errors: not_found if no site has a fitting volume near the instant; those of
 // Grids::find(), halved() and make_frame().
 [[nodiscard]] Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan,
                                                         UtcTime instant);

@@ -41,7 +41,7 @@ Mixing mixing_of(const render::Scene& scene) {
     return Mixing::largest;
 }
 
-// Up to four cells that become one.
+// Up to four cells that are merged into one.
 struct CellsTogether {
     std::array<float, 4> values{};
     std::size_t count = 0;  // of the values

@@ -1,17 +1,17 @@
-// web/data/pictures/flat_map.h -- a 2D product of a grid, made once, with smaller forms of it for
-// looking from afar.
+// web/data/pictures/flat_map.h -- a 2D product of a grid, made once, with smaller levels for small
+// scales.
 //
 // Level 0 has a cell for each column of the grid; each further level has half as many columns and
-// rows, until neither is above 32. A cell of a level stands for the four below it (fewer at an edge
-// of odd length):
+// rows, until neither exceeds 32. A cell of a level represents the four cells that it covers (fewer
+// at an edge of odd length):
 //   state   a value if any of the four has one; else range folded if any is; else no echo if any
-//           was seen; else not seen. So no echo is lost from afar.
-//   value   VEL: the one farthest from 0. ZDR, RHO, CFP: the mean. PHI, whose values lie on a
-//           circle: that of the first cell with one, from the southwest. All others, and all
-//           products in other units than the moment's: the largest.
+//           was seen; else not seen. So small scales hide no echo.
+//   value   VEL: the value farthest from 0. ZDR, RHO, CFP: the mean. PHI, whose values are on a
+//           circle: the value of the first cell with one, from the southwest. Other moments, and
+//           products in other units than their moment's: the largest value.
 //
-// Units     Those of render/products/flat_field.h. A cell takes 5 bytes, all levels together 4/3 of
-//           the first.
+// Units     Those of render/products/flat_field.h. A cell takes 5 bytes; all levels together take
+//           4/3 of the first.
 // Threads   A FlatMap is constant. Many threads may use FlatMaps; if several want the same map, one
 //           makes it and the others wait.
 // Errors    See each function.
@@ -48,7 +48,7 @@ class FlatMaps {
     explicit FlatMaps(std::uint64_t budget_bytes) : maps_({.weight = budget_bytes}) {}
 
     // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that
-    // was cut while it was read.
+    // was truncated while it was read.
     [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const OpenGrid& grid,
                                                                       const render::Scene& scene,
                                                                       int threads);

@@ -49,7 +49,8 @@ Result<Kept> FramePictures::draw(const FramePicture& picture) const {
     auto drawn =
         draw_frame(picture.domain, picture.style, panels, picture.etag(), options_.threads);
     if (!drawn) return drawn;
-    // Codes that were cut meanwhile read as zeros, which are not seen.
+    // If a file was truncated while we read it, missing codes read as 0 (not seen), so check that
+    // the files are still whole.
     if (Status whole = check_whole(picture); !whole) return pass_on(whole);
     return drawn;
 }

@@ -1,12 +1,11 @@
-// web/data/pictures/frame_pictures.h -- pictures as `stormcellar frame` draws them, of grids of the
-// cache.
+// web/data/pictures/frame_pictures.h -- draws grids of the cache as `stormcellar frame` does.
 //
-// A picture follows from the grids' bytes and the options alone: its times are in UTC unless a time
-// zone is asked for, and it does not tell how old the data are. The same options of `stormcellar
-// frame` give the same bytes.
+// A picture depends only on the grids' bytes and the options: its times are in UTC unless a time
+// zone is asked for, and it does not show the age of the data. `stormcellar frame` with the same
+// options gives the same bytes.
 //
-// Threads   Many threads may use it. If several want the same picture at the same time, one draws
-//           it. Who calls it bounds how many are drawn at once (web/http/work_queue.h).
+// Threads   Many threads may use it. If several want the same picture at once, one draws it. The
+//           caller limits how many are drawn at once (web/http/work_queue.h).
 // Errors    See each function.
 #pragma once
 
@@ -24,10 +23,10 @@ namespace stormcellar::web {
 
 struct FramePicturesOptions {
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
-    int threads = 1;  // of one picture
+    int threads = 1;  // for one picture
 };
 
-// A picture of grids of one domain and time, one for each panel.
+// A picture of grids of one domain and time, with one grid for each panel.
 struct FramePicture {
     std::string domain;
     std::vector<std::shared_ptr<const OpenGrid>> grids;
@@ -37,7 +36,7 @@ struct FramePicture {
     [[nodiscard]] std::string etag() const;  // with its quotes
 };
 
-// Returns an ETag, with its quotes, for a picture of this key drawn by this version.
+// Returns the ETag, with its quotes, of the picture with this key as this version draws it.
 [[nodiscard]] std::string etag_of_frame(const std::string& key);
 
 class FramePictures {
@@ -46,7 +45,7 @@ class FramePictures {
 
     // Returns the picture if it is kept. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const FramePicture& picture);
-    // Errors: those of drawing.
+    // Returns the picture, and draws it if it is not kept. Errors: those of drawing.
     [[nodiscard]] Result<Kept> find_or_draw(const FramePicture& picture);
 
   private:

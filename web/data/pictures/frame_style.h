@@ -1,5 +1,4 @@
-// web/data/pictures/frame_style.h -- what the query of a picture asks for, and the picture drawn
-// so.
+// web/data/pictures/frame_style.h -- reads the query of a picture, and draws the picture.
 //
 // Threads   Functions without state; drawing uses `threads` threads of its own.
 // Errors    See each function.
@@ -22,7 +21,7 @@
 
 namespace stormcellar::web {
 
-// Larger pictures would hold up all others.
+// Limits; larger pictures would delay all others.
 inline constexpr std::int64_t most_frame_pixels = 3840 * 2160;
 inline constexpr std::int64_t most_frame_samples = most_frame_pixels * 256;  // pixels times slices
 
@@ -30,15 +29,15 @@ inline constexpr std::int64_t most_frame_samples = most_frame_pixels * 256;  // 
 struct FrameStyle {
     render::SceneOptions options;
     std::vector<render::PanelScene> panels;  // one, or several in one picture
-    bool has_panels = false;                 // asked for, though it may be of one moment
+    bool has_panels = false;                 // the query has "panels", even if only one
     const render::StillFormat* format = nullptr;
     render::TiffContent tiff = render::TiffContent::values;
     std::string key;  // all of it in one text
 };
 
-// Reads the query of a picture in the format of this name's ending. Its parameters are the options
-// of `stormcellar frame` (web/data/pictures/picture_query.h), "panels" and "geotiff"; `others` are
-// read by the door. Errors: not_found for an ending that no format has; bad_argument.
+// Reads the query of a picture. The ending of the file's name gives the format. The parameters are
+// the options of `stormcellar frame` (web/data/pictures/picture_query.h), "panels" and "geotiff";
+// the door itself reads `others`. Errors: not_found for an ending without a format; bad_argument.
 [[nodiscard]] Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,
                                              std::span<const std::string_view> others);
 
@@ -48,8 +47,8 @@ struct DrawnPanel {
     const cache::GridDescription* description;
 };
 
-// Draws the panels, one for each of the style, as `stormcellar frame` does. The notes of the result
-// are its media type. Errors: those of drawing.
+// Draws the panels of the style as `stormcellar frame` does. The notes of the result are its media
+// type. Errors: those of drawing.
 [[nodiscard]] Result<Kept> draw_frame(const std::string& domain, const FrameStyle& style,
                                       std::span<const DrawnPanel> panels, std::string etag,
                                       int threads);

@@ -1,11 +1,11 @@
-// web/data/pictures/map_pictures.h -- 2D products drawn on rectangles of a map's plane, for tiles
-// and WMS: as PNG or JPEG, kept in memory.
+// web/data/pictures/map_pictures.h -- draws 2D products on rectangles of a map's plane, for tiles
+// and WMS, as PNG or JPEG, and keeps them in memory.
 //
-// A picture follows from the grid's bytes, the options and the rectangle alone, so its ETag is made
-// of these and is known before the picture is.
+// A picture depends only on the grid's bytes, the options and the rectangle. Its ETag is made from
+// these, so it is known before the picture is drawn.
 //
-// Threads   Many threads may use it. If several want the same picture at the same time, one draws
-//           it. Who calls it bounds how many are drawn at once (web/http/work_queue.h).
+// Threads   Many threads may use it. If several want the same picture at once, one draws it. The
+//           caller limits how many are drawn at once (web/http/work_queue.h).
 // Errors    See each function.
 #pragma once
 
@@ -31,13 +31,13 @@ namespace stormcellar::web {
 
 struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
-    // Other doors may keep their pictures in it, too.
+    // Other doors may share it.
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
-    std::uint64_t map_bytes = 32'000'000;  // for the products that pictures are drawn of
-    int threads = 1;                       // that make one product of a grid
+    std::uint64_t map_bytes = 32'000'000;  // for the 2D products from which pictures are drawn
+    int threads = 1;                       // for making one product of a grid
 };
 
-// A layer of a grid. Several of them in one picture lie one over another, the first at the bottom.
+// A layer of a grid. A picture draws its layers one over another, the first at the bottom.
 struct PictureLayer {
     std::shared_ptr<const OpenGrid> grid;
     MapStyle style;
@@ -46,15 +46,15 @@ struct PictureLayer {
 struct MapPicture {
     std::vector<PictureLayer> layers;  // at least one
     render::PlaneWindow window;
-    // The color under the layers; none: clear.
+    // The color under the layers; none: transparent.
     std::optional<render::Rgba8> ground;
-    bool is_jpeg = false;  // which needs a ground; else PNG
+    bool is_jpeg = false;  // needs a ground; else PNG
 
     [[nodiscard]] std::string key() const;
     [[nodiscard]] std::string etag() const;  // with its quotes
 };
 
-// The value that a layer shows at a place. It is 0 unless the status says that there is one.
+// The value that a layer shows at a place. It is 0 unless the status says that there is a value.
 struct MapValue {
     grid::CellStatus status = grid::CellStatus::not_seen;
     float value = 0;
@@ -66,18 +66,19 @@ class MapPictures {
 
     // Returns the picture if it is kept. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const MapPicture& picture);
-    // Errors: those of FlatMaps::find_or_make() and of the encoder.
+    // Returns the picture, and draws it if it is not kept. Errors: those of
+    // FlatMaps::find_or_make() and of the encoder.
     [[nodiscard]] Result<Kept> find_or_draw(const MapPicture& picture);
 
-    // Returns what the column that holds the place has, from the product at its finest; none
-    // outside of the grid. Errors: those of FlatMaps::find_or_make().
+    // Returns the value of the column at the place, from the product at full resolution; none
+    // outside the grid. Errors: those of FlatMaps::find_or_make().
     [[nodiscard]] Result<std::optional<MapValue>> value_at(const PictureLayer& layer,
                                                            const grid::GeoPoint& place);
-    // Draws what the layer's colors mean, as PNG. Errors: those of draw_legend_panel() and of the
-    // encoder.
+    // Draws the legend of the layer's colors as PNG. Errors: those of draw_legend_panel() and of
+    // the encoder.
     [[nodiscard]] static Result<Kept> legend(const PictureLayer& layer);
 
-    // Where a grid is, from its spec; it is worked out once for each of the newest specs.
+    // Returns the extent of a grid from its spec. The results for the newest specs are kept.
     [[nodiscard]] render::EarthBox box_of(const std::string& domain, const grid::GridSpec& spec);
     [[nodiscard]] Grids& grids() { return *options_.grids; }
 
@@ -93,14 +94,14 @@ class MapPictures {
     RecentlyUsed<DomainSpec, render::EarthBox> boxes_ STORMCELLAR_GUARDED_BY(boxes_mutex_);
 };
 
-// Returns how often to halve a field for pixels of this window: until a cell has at least 0.87 of
-// the side of a pixel, so that next to no cell falls between pixels, or there is no smaller form.
-// The result does not depend on where the window is, so that tiles fit together.
+// Returns how often to halve a field for the pixels of this window: until a cell has at least 0.87
+// of the side of a pixel, so that almost no cell falls between pixels, or until no smaller level
+// exists. The result does not depend on the position of the window, so tiles fit together.
 [[nodiscard]] int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,
                                std::size_t levels);
 
-// "latest" or an instant as time of a grid of this layer. Errors: not_found if there is none;
-// bad_argument for a text that is no time.
+// Reads "latest" or an instant as the time of a grid of this layer. Errors: not_found if there is
+// none; bad_argument for a text that is not a time.
 [[nodiscard]] Result<UtcTime> time_of_grid(const Grids& grids, std::string_view domain,
                                            level2::Moment moment, std::string_view text);
 

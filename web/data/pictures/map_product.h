@@ -1,7 +1,7 @@
 // web/data/pictures/map_product.h -- the 2D products of a domain as layers of a map, by name.
 //
-// A layer is a product and a moment: "composite.VEL". Products that need reflectivity are named
-// alone ("vil"), and a name without a moment means REF.
+// A layer is a product and a moment: "composite.VEL". The name of a product that needs reflectivity
+// has no moment ("vil"); any other name without a moment means REF.
 //
 // Threads   Plain values and pure functions.
 // Errors    See each function.
@@ -27,25 +27,26 @@ struct MapProduct {
     bool operator==(const MapProduct&) const = default;
 };
 
-// Errors: not_found, listing the products, for a name of another form, for a product that is no map
-// of a grid, and for a moment that the product does not have.
+// Finds the product. Errors: not_found, listing the products, for a name of another form, for a
+// product that is not a map of a grid, and for a moment that the product does not have.
 [[nodiscard]] Result<MapProduct> map_product_named(std::string_view name);
 
-// The layers that grids of these moments give, in the order of products.
+// Returns the layers that grids of these moments give, in the order of products.
 [[nodiscard]] std::vector<MapProduct> map_products_of(const std::vector<level2::Moment>& moments);
 
 // A layer with the options of a query.
 struct MapStyle {
     MapProduct layer;
     render::Scene scene;
-    std::string key;  // all of it in one text, for keys of what is kept
+    std::string key;  // the whole style as one text, for keys of kept answers
 };
 
-// The options that a layer takes as parameters: colors, smooth, height-km, echo-top-dbz.
+// Returns true for options that a layer takes as parameters: colors, smooth, height-km,
+// echo-top-dbz.
 [[nodiscard]] bool is_of_layers(const render::PictureOption& option);
 
-// Reads the options of a layer; `others` are parameters that the door itself reads. Without any,
-// the cells are shown as they are, in colors without classes. Errors: bad_argument.
+// Reads the options of a layer; the door itself reads `others`. Without options, cells are drawn
+// unsmoothed, in colors without classes. Errors: bad_argument.
 [[nodiscard]] Result<MapStyle> map_style(const MapProduct& layer, const Fields& query,
                                          std::span<const std::string_view> others);
 

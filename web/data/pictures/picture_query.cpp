@@ -84,7 +84,7 @@ Result<PictureQuery> picture_query(const Fields& query, TakesOption takes,
         asked.push_back(fmt::format("{}={}", name, text));
     }
     std::ranges::sort(asked);
-    // No parameter has a line feed: the server refuses control characters.
+    // No parameter contains a line feed, because the server refuses control characters.
     read.key = fmt::format("{}", fmt::join(asked, "\n"));
     return read;
 }

@@ -1,12 +1,12 @@
-// web/data/pictures/picture_query.h -- the options of a picture in the query of an address.
+// web/data/pictures/picture_query.h -- reads the options of a picture from the query of an address.
 //
-// A parameter is an option of `stormcellar frame` without its dashes ("tilt", "camera-km"), out of
-// the same table (render/options/picture_options.h). Options that are not about the picture
-// (threads) are no parameters, and colors are taken by name only: a query never names a file.
+// A parameter is an option of `stormcellar frame` without its dashes ("tilt", "camera-km"), from
+// the same table (render/options/picture_options.h). Options that do not affect the picture
+// (threads) are not parameters, and colors are given by name only, so a query never names a file.
 //
 // Threads   Pure functions.
-// Errors    bad_argument, naming the parameter, for one that is not known, is given twice, has more
-//           than 256 bytes or a value that makes no sense.
+// Errors    bad_argument, naming the parameter, for one that is unknown, is given twice, has more
+//           than 256 bytes or has a value that makes no sense.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ namespace stormcellar::web {
 
 struct PictureQuery {
     render::SceneOptions options;
-    std::string key;  // what was asked, in one order: for kept answers
+    std::string key;  // the query in a fixed order, for keys of kept answers
 };
 
 using TakesOption = bool (*)(const render::PictureOption&);
@@ -30,11 +30,11 @@ using TakesOption = bool (*)(const render::PictureOption&);
 // Returns true for options that apply to a bare map: not its product, size, theme and labels.
 [[nodiscard]] bool is_of_bare_maps(const render::PictureOption& option);
 
-// Reads the options that `takes` allows. `others` are parameters that the door itself reads.
+// Reads the options that `takes` allows. The door itself reads `others`.
 [[nodiscard]] Result<PictureQuery> picture_query(const Fields& query, TakesOption takes,
                                                  std::span<const std::string_view> others);
 
-// Returns the parameters of these options, for lists and messages.
+// Returns the names of the parameters for these options, for lists and messages.
 [[nodiscard]] std::string parameters_for_help(TakesOption takes);
 
 }  // namespace stormcellar::web

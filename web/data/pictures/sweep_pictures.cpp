@@ -15,15 +15,15 @@
 namespace stormcellar::web {
 namespace {
 
-// A sweep that was found in a decoded volume, on its plane.
+// A sweep of a decoded volume, on its plane.
 struct PlacedSweep {
     std::shared_ptr<const grid::SourceVolume> source;
     grid::SweepLookup sweep;
     cache::GridDescription description;
 };
 
-// Decodes the sweep that a panel shows; the picture names the volume, not the file, whose name may
-// be another one on another machine. All panels are drawn on the plane of the first.
+// Decodes the sweep that a panel shows. The picture names the volume instead of the file, whose
+// name may differ between machines. All panels are drawn on the plane of the first.
 Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::string& file,
                                  std::optional<UtcTime> start, const render::PanelScene& panel,
                                  const grid::GridSpec* plane, int threads) {
@@ -48,7 +48,7 @@ Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::st
 
 }  // namespace
 
-// A file that still grows is told by its state on this machine.
+// The state of a growing file on this machine is part of the key.
 std::string SweepPicture::key() const {
     const std::string state = catalog::has_final_hash(volume)
                                   ? std::string{}

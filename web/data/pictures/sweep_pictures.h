@@ -1,11 +1,9 @@
-// web/data/pictures/sweep_pictures.h -- pictures of sweeps (ppi), drawn of the raw volume of a
-// grid.
+// web/data/pictures/sweep_pictures.h -- draws sweeps (ppi) from the raw volume of a grid.
 //
-// The gates are those of the raw file, which the catalog finds; the cache holds grids only. The
-// same options of `stormcellar frame` give the same bytes, with times in UTC.
+// The cache holds grids only, so the gates come from the raw file, which the catalog finds.
+// `stormcellar frame` with the same options gives the same bytes, with times in UTC.
 //
-// Threads   Many threads may use it. If several want the same picture at the same time, one draws
-//           it.
+// Threads   Many threads may use it. If several want the same picture at once, one draws it.
 // Errors    See each function. No message names a directory.
 #pragma once
 
@@ -24,9 +22,9 @@ namespace stormcellar::web {
 
 struct SweepPicture {
     std::string domain;
-    std::string grid_id;  // so that a volume that grows is drawn again
+    std::string grid_id;  // so that a growing volume is drawn again
     catalog::CatalogEntry volume;
-    std::uint64_t chunks = 0;  // changes when more of them come
+    std::uint64_t chunks = 0;  // changes when more chunks come
     FrameStyle style;
 
     [[nodiscard]] std::string key() const;
@@ -41,8 +39,8 @@ class SweepPictures {
     // Finds the raw volume of a grid; none if the catalog does not have it. Errors: bad_argument
     // for a grid of several sites; those of the catalog.
     [[nodiscard]] Result<std::optional<SweepPicture>> find(const OpenGrid& grid, FrameStyle style);
-    // Errors: not_found if the raw file is gone or has no such sweep; those of decoding and
-    // drawing.
+    // Returns the picture, and draws it if it is not kept. Errors: not_found if the raw file is
+    // gone or has no such sweep; those of decoding and drawing.
     [[nodiscard]] Result<Kept> find_or_draw(const SweepPicture& picture);
 
   private:

@@ -1,4 +1,4 @@
-// The raw files of a catalog.
+// Serves the raw files of a catalog.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -26,13 +26,14 @@ using catalog::FileState;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kept_open_for{2}, floor_holds_for{30};
-// A dropped file's name and its volume's start differ by seconds; some names have no seconds.
+// The times in a dropped file's name and of its volume's start differ by seconds; some names have
+// no seconds.
 constexpr std::chrono::minutes own_name_differs{2};
-// Rows read beside those wanted: files that came several times.
+// Rows read in addition to those wanted, because a file may have come several times.
 constexpr std::size_t more_rows = 200;
 constexpr std::size_t most_rows_of_a_name = 500;
 
-// Members of archives are not served, and there may be thousands between two files that are.
+// Members of archives are not served, and thousands may be between two files that are.
 const catalog::Stretch of_served{.with_members = false};
 
 // Returns true if `a` is the better file of the same name.
@@ -117,7 +118,8 @@ Result<std::vector<RawStation>> CatalogRawFiles::stations() {
     return stations;
 }
 
-// Rows of deleted files may stay for ever. A list from the oldest volume on begins where files are.
+// Returns the start of the oldest volume whose file exists. Rows of deleted files may stay forever,
+// so a list from the beginning starts here.
 Result<std::optional<UtcTime>> CatalogRawFiles::floor_of(const CatalogReader& catalog,
                                                          std::string_view station) {
     const auto now = steady_clock::now();
@@ -152,8 +154,8 @@ Result<std::vector<CatalogEntry>> CatalogRawFiles::rows_of(const CatalogReader& 
     }
     auto rows = catalog.list_stretch(station, stretch);
     if (rows && rows->size() == stretch.most) {
-        // Other files of the last name may come behind the limit; the name comes with the next
-        // list.
+        // The limit may have cut off further files of the last name; the next list returns that
+        // name.
         const std::string last = format_compact(*rows->back().volume.start_time);
         const auto first_of_last = std::ranges::find_if(*rows, [&](const CatalogEntry& row) {
             return format_compact(*row.volume.start_time) == last;
@@ -202,7 +204,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find_by_own_name(const Cata
             if (!row) return row;
             if (!*row || (*row)->state == FileState::rejected) continue;
             if ((*row)->state != FileState::gone) return row;
-            gone = std::move(*row);  // it may lie elsewhere now
+            gone = std::move(*row);  // the file may be elsewhere now
         }
     }
     const auto time = time_in_file_name(name);
@@ -243,8 +245,8 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
     if (found) return found;
     auto own = find_by_own_name(catalog, station, name);
     if (!own || !*own || (*own)->volume.start_time) return own;
-    // The row of a path has no volume. Its file is one that was not cataloged as a volume's, or it
-    // is.
+    // The row found by path has no volume: its file was not cataloged as a volume. Members of
+    // archives are not served.
     if (!member_names_in((*own)->path).empty()) return std::optional<CatalogEntry>{};
     return own;
 }

@@ -22,7 +22,7 @@ std::string_view packed_ending_of(std::string_view name) {
     return {};
 }
 
-// "_V06", "_V06.gz", ".gz" or nothing.
+// Returns true for "_V06", "_V06.gz", ".gz" or nothing.
 bool is_bucket_ending(std::string_view ending) {
     ending.remove_suffix(packed_ending_of(ending).size());
     return ending.empty() ||

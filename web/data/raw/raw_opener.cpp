@@ -32,7 +32,7 @@ tl::unexpected<RawFailure> missing(RawMissing why, std::string reason) {
     return tl::unexpected(RawFailure{why, std::move(reason)});
 }
 
-// The catalog knew the file, so a file that is not found is gone.
+// Makes the failure from an error. The catalog knew the file, so "not found" means that it is gone.
 tl::unexpected<RawFailure> missing(const Error& error) {
     switch (error.code) {
         case ErrorCode::not_found:
@@ -77,7 +77,7 @@ Result<std::uint64_t> hash_of(const Descriptor& file, std::uint64_t size_bytes,
     return stream.value();
 }
 
-// The rows of a volume's chunks in the order of their numbers, one for each number.
+// Returns the rows of a volume's chunks in the order of their numbers, one for each number.
 Result<std::vector<CatalogEntry>> chunk_rows(const CatalogReader& catalog,
                                              const CatalogEntry& entry) {
     const auto first = pipeline::ChunkPath::of(entry.path);
@@ -103,7 +103,7 @@ Result<std::vector<CatalogEntry>> chunk_rows(const CatalogReader& catalog,
     return chunks;
 }
 
-// Describes the chunks by their rows; the same contents give the same tag.
+// Describes the chunks from their rows; the same contents give the same tag.
 RawFacts facts_of_rows(const std::vector<CatalogEntry>& chunks, bool grows) {
     RawFacts facts;
     Xxh3Stream hashes;
@@ -133,7 +133,7 @@ RawOpener::State RawOpener::state_of(const struct stat& facts) {
     return {facts.st_dev, facts.st_ino, facts.st_size, modified_ns_of(facts), changed_ns};
 }
 
-// Compares the contents with the row, but reads each state of a file only once.
+// Compares the contents with the row, and reads each state of a file only once.
 Status RawOpener::check_hash(const CatalogEntry& entry, const Descriptor& file,
                              const struct stat& facts) {
     const auto size_bytes = static_cast<std::uint64_t>(facts.st_size);
@@ -174,15 +174,15 @@ OpenedRawOrMissing RawOpener::open(const CatalogReader& catalog, const CatalogEn
     }
     const UtcTime modified = time_of_ns(modified_ns_of(facts));
     if (!is_growing(entry)) {
-        // The size first, because the present file may be far larger.
+        // Compare the size first, because the present file may be far larger.
         if (size_bytes != entry.size_bytes) {
             return missing(RawMissing::changed, entry.path.native() + ": has another size");
         }
         if (Status same = check_hash(entry, *file, facts); !same) return missing(same.error());
         return OpenedRaw{file, size_bytes, modified, settled_tag(entry.content_hash, size_bytes)};
     }
-    // A hard link to a file that only the server may read is not refused as a link, and there is no
-    // hash yet that could tell it apart.
+    // The check for links misses a hard link to a file that only the server may read, and a growing
+    // file has no hash yet that could tell it apart.
     if (facts.st_nlink > 1 || size_bytes < entry.size_bytes) {
         return missing(RawMissing::changed,
                        entry.path.native() + ": was cut, or has a second name, while it grows");
@@ -204,9 +204,9 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
     std::uint64_t size_bytes = 0;
     for (const CatalogEntry& chunk : chunks) {
         const auto read = catalog::read_cataloged(catalog, chunk);
-        if (!read && grows && size_bytes > 0) break;  // what stands before it is there
+        if (!read && grows && size_bytes > 0) break;  // serve what came before this chunk
         if (!read) return missing(read.error());
-        // The row does not know what was written to the chunk since.
+        // The row does not cover what was written to the chunk since.
         if (grows && read->bytes.size() != chunk.size_bytes && size_bytes > 0) break;
         const auto once = level2::chunk_once(read->bytes);
         size_bytes += once.size();
@@ -242,7 +242,8 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
     auto joined = join(catalog, *chunks, grows);
     const bool is_as_listed = joined && joined->size_bytes == facts.size_bytes;
     if (joined && (is_as_listed || !grows)) keep_joined(key, *joined);
-    // A chunk that its file holds twice is given once, so lists say the smaller size from now on.
+    // The file held a chunk twice, but the joined volume has it once. Remember the smaller size for
+    // lists.
     if (joined && !is_as_listed && !grows) {
         remember_facts(entry, {joined->size_bytes, joined->modified, joined->tag});
     }

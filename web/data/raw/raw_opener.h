@@ -1,5 +1,5 @@
-// web/data/raw/raw_opener.h -- opens raw files of the catalog as they may be given away. Used only
-// by raw_files.h.
+// web/data/raw/raw_opener.h -- opens raw files of the catalog for serving. Only the raw files of
+// the catalog use it (raw_files.h).
 //
 // Threads   Many threads may use one object.
 #pragma once
@@ -28,11 +28,11 @@ struct OpenedRaw {
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
     std::string tag;
-    bool is_joined = false;  // in a file without a name, which takes room while it is open
+    bool is_joined = false;  // a nameless file, which takes room while it is open
 };
 using OpenedRawOrMissing = tl::expected<OpenedRaw, RawFailure>;
 
-// A volume's size, age and tag as its rows say, without opening anything.
+// A volume's size, age and tag from its rows, without opening a file.
 struct RawFacts {
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
@@ -53,7 +53,7 @@ class RawOpener {
                                             const catalog::CatalogEntry& entry);
 
   private:
-    // A state of a file's contents: the kernel changes ctime with every change of them.
+    // Identifies a state of a file's contents: the kernel changes ctime with every change of them.
     using State = std::tuple<dev_t, ino_t, off_t, std::int64_t, std::int64_t>;
     static State state_of(const struct stat& facts);
     [[nodiscard]] Status check_hash(const catalog::CatalogEntry& entry, const Descriptor& file,

@@ -1,5 +1,5 @@
-// web/data/raw/served_catalog.h -- the catalog that is served, which may come later than the
-// server.
+// web/data/raw/served_catalog.h -- the served catalog, which may appear after the server has
+// started.
 //
 // Threads   Many threads may use one object.
 // Errors    See get().
@@ -19,12 +19,12 @@ class ServedCatalog {
   public:
     using Reader = std::shared_ptr<const catalog::CatalogReader>;
 
-    // `reader` is the same catalog, if it is open already.
+    // `reader` is the same catalog, if it is already open.
     explicit ServedCatalog(std::filesystem::path directory, Reader reader = nullptr)
         : directory_(std::move(directory)), reader_(std::move(reader)) {}
 
-    // Returns the catalog, which is opened when it is first asked for. Errors: not_found if none is
-    // served; those of CatalogReader::open().
+    // Returns the catalog, and opens it at the first call. Errors: not_found if none is served;
+    // those of CatalogReader::open().
     [[nodiscard]] Result<Reader> get();
 
   private:

@@ -30,7 +30,7 @@ std::vector<std::byte> bytes_of(const std::vector<UtcTime>& times) {
     return bytes;
 }
 
-// None: these are not the bytes of such a file.
+// Returns the times in the bytes of such a file; none if the bytes are damaged.
 std::optional<std::vector<UtcTime>> times_in(std::span<const std::byte> bytes) {
     if (bytes.size() < magic.size() + number_bytes || bytes.size() % number_bytes != 0 ||
         std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
@@ -123,7 +123,7 @@ std::optional<std::string> TimeNumbers::problem() const {
     return problem_;
 }
 
-// A file that cannot be removed is in nobody's way, and the next start tries again.
+// Ignores a file that cannot be removed: it does no harm, and the next start tries again.
 void TimeNumbers::remove_leftovers() const {
     std::error_code failed;
     for (std::filesystem::directory_iterator at(directory_, failed), end; !failed && at != end;

@@ -1,10 +1,10 @@
-// web/data/zarr/time_numbers.h -- the numbers that the times of a domain's grids have in the Zarr
-// arrays.
+// web/data/zarr/time_numbers.h -- assigns numbers to the times of a domain's grids, which are their
+// indexes in the Zarr arrays.
 //
-// Each time gets a number when it is first seen, those that are seen together in rising order. It
-// keeps it for good, also when its grid is evicted and after a restart, so that an index that a
-// client holds never names another time. A grid that comes late therefore has a higher number than
-// a newer one.
+// Each time gets a number when it is first seen; times that are seen together get them in ascending
+// order. A time keeps its number after its grid is evicted and after a restart, so that an index
+// that a client holds never means another time. A grid that comes late therefore has a higher
+// number than a newer one.
 //
 // With a directory, DIRECTORY/DOMAIN/MOMENT.times holds the numbers: the 16 bytes "stormcellar
 // time", then the times in the order of their numbers (int64, little-endian, milliseconds since
@@ -13,9 +13,8 @@
 //
 // Threads   Many threads may use it.
 // Errors    io and permission if the numbers cannot be read; busy if they cannot be kept and none
-//           was given before; corrupt for a file
-//           that is damaged, which must be removed by hand, because clients may hold its numbers;
-//           exhausted beyond `most_times`.
+//           was given before; corrupt for a damaged file, which must be removed by hand, because
+//           clients may hold its numbers; exhausted beyond `most_times`.
 #pragma once
 
 #include <cstddef>
@@ -40,23 +39,23 @@ namespace stormcellar::web {
 
 class TimeNumbers {
   public:
-    static constexpr std::size_t most_times = std::size_t{1} << 20;  // ten years of a radar
+    static constexpr std::size_t most_times = std::size_t{1} << 20;  // ten years of one radar
 
-    // Empty: the numbers are not kept on disk.
+    // An empty directory means that the numbers are not kept on disk.
     explicit TimeNumbers(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-    // Gives numbers to those of `present` (sorted) that have none, and returns the times of all
-    // numbers, in their order. While numbers cannot be kept, none are given, and the times that
-    // have numbers already are returned. `domain` must be the name of a domain of the cache.
+    // Gives numbers to the times of `present` (sorted) that have none, and returns the times of all
+    // numbers, in their order. While numbers cannot be kept, it gives no new ones and returns the
+    // times that have numbers. `domain` must be the name of a domain of the cache.
     [[nodiscard]] Result<std::shared_ptr<const std::vector<UtcTime>>> update(
         std::string_view domain, level2::Moment moment, std::span<const UtcTime> present);
-    // Returns the time of a number. None: it was not given, or nobody called update() yet. Takes
-    // microseconds.
+    // Returns the time of a number; none if the number was not given, or before the first update().
+    // Takes microseconds.
     [[nodiscard]] std::optional<UtcTime> time_of(std::string_view domain, level2::Moment moment,
                                                  std::size_t number) const;
-    // Why numbers could not be kept last; none if they could.
+    // Returns why the last numbers could not be kept; none if they were kept.
     [[nodiscard]] std::optional<std::string> problem() const;
-    // Removes what a killed server left in the directory. Nothing else may write there.
+    // Removes files that a killed server left in the directory. Nothing else may write there.
     void remove_leftovers() const;
 
   private:

@@ -1,12 +1,12 @@
 // web/data/zarr/zarr_cells.h -- the cells of a grid as chunks of Zarr arrays.
 //
 // A chunk has `chunk_side` columns and rows and all levels, but at most `chunk_side` of them. Its
-// dimensions are time (one), z, y and x, the last of which runs fastest. Places of a chunk that lie
-// beyond the grid have the fill value. The bytes are not compressed, and little-endian.
+// dimensions are time (one), z, y and x, of which x varies fastest. Cells of a chunk beyond the
+// grid have the fill value. The bytes are uncompressed and little-endian.
 //
 // Units     Those of the moment.
 // Threads   Pure functions.
-// Errors    None: the chunk must be one of the grid's.
+// Errors    None. The chunk must be one of the grid's.
 // Accuracy  The values are those of grid::to_dense(), to the bit.
 #pragma once
 
@@ -19,8 +19,8 @@ namespace stormcellar::web {
 
 inline constexpr int chunk_side = 128;
 static_assert(chunk_side % grid::brick_edge == 0);
-// The fill value of the states: the grid is not there any more, or cannot be read. It is none of
-// the states of a cell, so a reader that takes an error for a hole does not show "not seen".
+// The fill value of the states: the grid is gone or cannot be read. No cell has this state, so a
+// reader that treats an error as a missing chunk does not show "not seen".
 inline constexpr std::int8_t status_unavailable = 4;
 
 struct ChunkPlace {
@@ -31,13 +31,14 @@ struct ChunkPlace {
 }
 [[nodiscard]] int chunk_levels(const grid::GridSpec& spec);
 
-// float32; NaN where the cell has no value.
+// Returns float32 values; NaN where the cell has no value.
 [[nodiscard]] std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place);
-// int8; the number of the cell's state.
+// Returns int8 numbers of the cells' states.
 [[nodiscard]] std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place);
 
-// float64, `chunk_side` rows and columns: degrees of the middle of each column of cells, as in
-// grid files (export/grid_coordinates.h). NaN beyond the grid.
+// The coordinate that position_chunk() returns, as `chunk_side` rows and columns of float64:
+// degrees of the middle of each column of cells, as in grid files (export/grid_coordinates.h). NaN
+// beyond the grid.
 enum class Position { latitude, longitude };
 [[nodiscard]] std::string position_chunk(const grid::GridSpec& spec, Position which,
                                          const ChunkPlace& place);

@@ -1,5 +1,5 @@
-// web/data/zarr/zarr_layout.h -- which arrays a domain and a moment have as a Zarr group, and the
-// documents that say so, in both versions of the format.
+// web/data/zarr/zarr_layout.h -- the arrays of a domain and moment as a Zarr group, and the
+// metadata documents for both versions of the format.
 //
 // The group has the arrays MOMENT and status (time, z, y, x), the coordinates time, z, y and x, the
 // positions lat and lon (y, x), and the variable of the CF grid mapping, with the attributes that
@@ -36,7 +36,7 @@ struct ZarrArray {
     std::vector<std::size_t> shape, chunk;  // as many as dimensions
     ZarrJson fill;
     ZarrJson attributes = ZarrJson::object();
-    // More of them in version 2 alone: xarray writes no netCDF file with such a one.
+    // Further attributes in version 2; xarray cannot write netCDF files with such an attribute.
     ZarrJson version2_attributes = ZarrJson::object();
 
     // Returns the number of chunks along a dimension.
@@ -55,11 +55,11 @@ struct ZarrGroup {
 
 inline constexpr std::size_t times_of_a_chunk = 4096;
 
-// The group for `times` times of grids with the cells of `newest`.
+// Returns the group for `times` times of grids with the cells of `newest`.
 [[nodiscard]] ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newest,
                                    std::size_t times);
 
-// Version 2: .zarray, .zattrs and .zmetadata. ".zgroup" is {"zarr_format": 2}.
+// Version 2: .zarray, .zattrs and .zmetadata; ".zgroup" is {"zarr_format": 2}.
 [[nodiscard]] ZarrJson zarray_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zattrs_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zmetadata_of(const ZarrGroup& group);

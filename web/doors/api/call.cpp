@@ -209,7 +209,7 @@ Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call) {
 }
 
 Answer json_answer(const Request& request, const ApiJson& document) {
-    // Names in files may be any bytes.
+    // Names in files may hold any bytes.
     return text_answer_to(request, "application/json",
                           document.dump(-1, ' ', false, ApiJson::error_handler_t::replace) + "\n");
 }

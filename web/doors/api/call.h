@@ -1,4 +1,4 @@
-// web/doors/api/call.h -- one request to the JSON API, and what its operations share.
+// web/doors/api/call.h -- one request to the JSON API, and the code that its operations share.
 //
 // Threads   Many threads may use one ApiState; a call belongs to one.
 // Errors    The functions that read a parameter return bad_argument with its name.
@@ -34,15 +34,15 @@ class EventFeed;
 
 using ApiJson = nlohmann::ordered_json;
 
-// Where the API finds what it serves.
+// The data that the API serves.
 struct ApiSources {
     std::shared_ptr<Grids> grids;   // null: no cache is served
     std::filesystem::path catalog;  // empty: no catalog is served
-    // The same, if it is open already.
+    // The same catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
-    std::shared_ptr<const EventFeed> feed = nullptr;  // null: nobody watches who is silent
-    bool gives_volumes = true;                        // raw files are served, too
+    std::shared_ptr<const EventFeed> feed = nullptr;  // null: nobody watches for silent stations
+    bool gives_volumes = true;                        // whether raw files are served, too
 };
 
 class ApiState {
@@ -50,16 +50,16 @@ class ApiState {
     explicit ApiState(ApiSources sources);
     [[nodiscard]] const ApiSources& sources() const { return sources_; }
 
-    // Returns the catalog. It is opened when it is first asked for, since it may come later.
-    // Errors: not_found if none is served; those of CatalogReader::open().
+    // Returns the catalog, and opens it at the first call, since it may appear later. Errors:
+    // not_found if none is served; those of CatalogReader::open().
     [[nodiscard]] Result<ServedCatalog::Reader> catalog() { return catalog_.get(); }
 
-    // Halved grids are kept while they are looked at, the least recently used give way.
+    // A few halved grids are kept, the most recently used ones.
     using Halved = std::shared_ptr<const grid::BrickGrid>;
     [[nodiscard]] Halved find_halved(const std::string& key);
     void keep_halved(const std::string& key, const Halved& halved);
 
-    // The volume that was decoded last is kept, since its sweeps are asked for one after another.
+    // The last decoded volume is kept, since its sweeps are requested one after another.
     using DecodedVolume = std::shared_ptr<const level2::Volume>;
     [[nodiscard]] DecodedVolume find_volume(const std::string& key);
     void keep_volume(const std::string& key, DecodedVolume volume);
@@ -77,8 +77,8 @@ struct ApiCall {
     const Request& request;
     ApiState& state;
     std::vector<std::pair<std::string, std::string>> path_values;
-    // If set, an operation that would compute for long returns takes_long(). It is called again,
-    // without this, when its turn has come.
+    // If set, an operation that would compute for long returns takes_long(). It is called again
+    // without this flag when its turn has come.
     bool must_be_quick = false;
 
     [[nodiscard]] Grids& grids() const { return *state.sources().grids; }
@@ -100,7 +100,7 @@ using Answered = tl::expected<T, Answer>;
     return tl::unexpected<Answer>(json_error(error));
 }
 
-// Read parameters. A number is finite and within its limits.
+// These read parameters. A number must be finite and within its limits.
 [[nodiscard]] Result<std::optional<double>> number_parameter(const ApiCall& call,
                                                              std::string_view name, double least,
                                                              double most);
@@ -110,14 +110,14 @@ using Answered = tl::expected<T, Answer>;
 [[nodiscard]] Result<std::optional<UtcTime>> time_parameter(const ApiCall& call,
                                                             std::string_view name);
 [[nodiscard]] Result<std::optional<level2::Moment>> moment_parameter(const ApiCall& call);
-// "35.3,-97.3": latitude and longitude in degrees. The parameter must be there.
+// Reads "35.3,-97.3": latitude and longitude in degrees. The parameter is required.
 [[nodiscard]] Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view name);
-// "3-17": both are inclusive.
+// Reads "3-17"; both ends are inclusive.
 [[nodiscard]] Result<std::pair<std::size_t, std::size_t>> range_of_text(std::string_view name,
                                                                         std::string_view text);
 
-// Find the grid that {domain}, {moment} and {time} of the path name; {time} may be "latest". The
-// error is 404, 410 if the grid was evicted, or why it cannot be read.
+// Finds the grid that {domain}, {moment} and {time} of the path name; {time} may be "latest". The
+// error answer is 404, 410 if the grid was evicted, or says why it cannot be read.
 struct NamedGrid {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
@@ -125,20 +125,20 @@ struct NamedGrid {
 };
 [[nodiscard]] Answered<NamedGrid> named_grid(const ApiCall& call);
 [[nodiscard]] Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call);
-// Find the region that {region} and {moment} of the path name. The error is 400 or 404.
+// Finds the region that {region} and {moment} of the path name. The error answer is 400 or 404.
 struct AskedRegion {
-    std::string name;  // its box as it was asked
+    std::string name;  // the text of its box in the request
     RegionPlan plan;
 };
 [[nodiscard]] Answered<AskedRegion> asked_region(const ApiCall& call);
 // Answers a request for a grid that is not there.
 [[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
 
-// Answers with JSON, which clients ask for again each time unless it has not changed.
+// Answers with JSON. Clients ask again each time and get 304 if it has not changed.
 [[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
-// An operation that must be quick and cannot returns this, which is never sent.
+// Returned by an operation that must be quick and cannot be; it is never sent.
 [[nodiscard]] Answer takes_long();
-// A path below the API's own, for links.
+// Returns a path below the API's own, for links.
 [[nodiscard]] std::string grid_path(const NamedGrid& grid);
 
 }  // namespace stormcellar::web

@@ -1,4 +1,4 @@
-// The exact contents of cells: the column at a place, and the columns along a line.
+// Operations on the exact contents of cells: the column at a place, and the columns along a line.
 #include <algorithm>
 #include <cmath>
 
@@ -48,7 +48,7 @@ ApiJson head_of(const OpenGrid& grid) {
             {"step", grid.file.view().quantization.step}};
 }
 
-// The points of the shortest way, the first and the last among them.
+// Returns points of the shortest way, with its first and its last point.
 std::vector<grid::GeoPoint> points_along(grid::GeoPoint from, grid::GeoPoint to, std::size_t count,
                                          double& length_m) {
     const grid::SiteFrame frame(from.latitude_deg, from.longitude_deg);

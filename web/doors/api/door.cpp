@@ -10,7 +10,7 @@ namespace {
 
 using PathValues = std::vector<std::pair<std::string, std::string>>;
 
-// Returns what stands for the names in braces; none if the path is another one.
+// Returns the values of the names in braces; none if the path does not match.
 std::optional<PathValues> match(std::string_view path_template, std::string_view path) {
     const auto expected = segments_of(path_template);
     const auto segments = segments_of(path);
@@ -39,7 +39,7 @@ std::optional<Routed> route(const Request& request) {
     return std::nullopt;
 }
 
-// A misspelled parameter must not be taken for one that was left out.
+// Refuses unknown parameters, so that a misspelled one is not treated as left out.
 Status check_parameters(const ApiOperation& operation, const Request& request) {
     std::set<std::string_view> seen;
     for (const auto& [name, value] : request.query) {

@@ -1,7 +1,7 @@
 // web/doors/api/door.h -- the JSON API below /api/v1.
 //
 // Threads   As Door.
-// Errors    404 for a path that is no operation, 400 for a parameter that the operation does not
+// Errors    404 for a path without an operation, 400 for a parameter that the operation does not
 //           have, else as the operation says.
 #pragma once
 
@@ -15,7 +15,7 @@ struct ApiOperation;
 class ApiDoor final : public Door {
   public:
     explicit ApiDoor(ApiSources sources) : state_(std::move(sources)) {}
-    // Answers what the operation keeps in memory.
+    // Answers if the operation has its answer in memory.
     std::optional<Answer> answer_at_once(const Request& request) override;
     // Answers unless that takes a long computation.
     std::optional<Answer> answer_soon(const Request& request) override;

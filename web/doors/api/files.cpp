@@ -1,4 +1,4 @@
-// A grid as a file: CF netCDF, and its own .scg.
+// Operations that give a grid as a file: CF netCDF, or its own .scg.
 #include "stormcellar/export/grid_netcdf.h"
 #include "web/doors/api/operations.h"
 #include "web/doors/pictures/picture_answers.h"
@@ -6,7 +6,7 @@
 namespace stormcellar::web {
 namespace {
 
-// A grid takes 5 bytes a cell in memory while its netCDF is made, and that takes as much again.
+// A grid takes 5 bytes a cell in memory while its netCDF is made, and the netCDF as much again.
 constexpr std::size_t most_netcdf_cells = std::size_t{1} << 24;
 
 std::string file_name_of(const OpenGrid& grid, std::string_view extension) {

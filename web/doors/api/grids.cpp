@@ -61,7 +61,7 @@ ApiJson frame_parts_json(const grid::Provenance& from) {
     for (const grid::FramePart& part : from.parts) {
         list.push_back({{"station", part.icao},
                         {"time", format_utc(part.time)},
-                        // A number of 64 bits does not survive JavaScript.
+                        // JavaScript cannot hold a number of 64 bits, so write it as text.
                         {"fingerprint", fmt::format("{:016x}", part.fingerprint)},
                         {"first_x", part.window.first_x},
                         {"first_y", part.window.first_y},
@@ -87,14 +87,14 @@ ApiJson provenance_json(const grid::Provenance& from) {
                  {"left_out", from.left_out},
                  {"provisional", from.provisional},
                  {"revision", from.revision}};
-    json["source_modified"] = nullptr;  // which grids no longer say
+    json["source_modified"] = nullptr;  // an old key; grids no longer record this
     json["recipe"] = from.recipe == 0 ? ApiJson() : ApiJson(fmt::format("{:016x}", from.recipe));
     json["sweeps"] = sweep_times_json(from);
     json["parts"] = frame_parts_json(from);
     return json;
 }
 
-// Null if the grid was not audited.
+// Returns null if the grid was not audited.
 ApiJson audit_json_of(const OpenGrid& grid) {
     const auto& rows = grid.file.description().provenance.audit;
     if (rows.empty()) return nullptr;
@@ -115,7 +115,7 @@ ApiJson audit_json_of(const OpenGrid& grid) {
         {"unit", unit}, {"summary", grid::errors_text(grid::pooled(rows), unit)}, {"rows", list}};
 }
 
-// A grid that is listed, and the order of lists: by time, then name.
+// A grid in a list. Lists are sorted by time, then name.
 struct ListedGrid {
     UtcTime time;
     std::string domain;

@@ -1,4 +1,4 @@
-// The base map that is built in: lines and cities of an area.
+// The built-in base map: lines and cities of an area.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -102,8 +102,8 @@ double five_places(double degrees) {
     return std::round(degrees * 1e5) / 1e5;
 }
 
-// The map's own longitudes are from -180 to 180. A box across the antimeridian shows what lies east
-// of it a whole turn further east.
+// The map's longitudes are from -180 to 180. A box across the antimeridian shows the part east of
+// it one turn further east.
 constexpr std::array<double, 2> turns_deg{0, 360};
 
 bool is_seen(const render::MapLine& line, const RegionBox& box, double turn_deg) {

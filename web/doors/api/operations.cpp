@@ -204,7 +204,7 @@ std::string_view schema_type(ApiKind kind) {
     return kind == ApiKind::number ? "number" : kind == ApiKind::whole ? "integer" : "string";
 }
 
-// Returns the names in braces, in order.
+// Returns the names in braces, in order of appearance.
 std::vector<std::string_view> names_in_braces(std::string_view path) {
     std::vector<std::string_view> names;
     for (const std::string_view segment : segments_of(path)) {
@@ -311,7 +311,8 @@ Answer api_index(const ApiCall& call) {
     return json_answer(call.request, {{"operations", list}});
 }
 
-// Where events are served, a door of their own answers this path (web/doors/events/events.h).
+// Answers where no events are served; otherwise their own door answers this path
+// (web/doors/events/events.h).
 Answer api_no_events(const ApiCall& /*call*/) {
     return json_error(404, "this server serves no events");
 }

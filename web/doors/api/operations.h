@@ -1,5 +1,5 @@
-// web/doors/api/operations.h -- the one table of what the API does. Requests find their operation
-// in it, and the OpenAPI document and the table in docs/web/grids.md are made of it.
+// web/doors/api/operations.h -- the one table of the API's operations. Requests find their
+// operation in it; the OpenAPI document and the table in docs/web/grids.md are generated from it.
 //
 // Threads   Constants.
 #pragma once
@@ -24,22 +24,22 @@ struct ApiParameter {
 
 struct ApiOperation {
     std::string_view name;
-    std::string_view path;                     // "{domain}" stands for any segment
+    std::string_view path;                     // "{domain}" matches any segment
     std::string_view what;                     // a sentence
     std::span<const ApiParameter> parameters;  // of the query
     std::string_view content_type;
     std::span<const unsigned> errors;
     Answer (*answer)(const ApiCall& call);
-    // Returns the answer if it is kept in memory, in microseconds; null: it never is.
+    // Returns the answer if it is in memory, in microseconds; null for operations that keep none.
     std::optional<Answer> (*answer_at_once)(const ApiCall& call) = nullptr;
 };
 
 [[nodiscard]] std::span<const ApiOperation> api_operations();
-// Describes the segment that stands for a name in braces; empty if the name is unknown.
+// Describes the segment for a name in braces; empty if the name is unknown.
 [[nodiscard]] std::string_view api_path_parameter(std::string_view name);
-// OpenAPI 3.1.
+// Returns the OpenAPI 3.1 document.
 [[nodiscard]] ApiJson openapi_document(std::string_view base);
-// The table of paths in Markdown.
+// Returns the table of paths in Markdown.
 [[nodiscard]] std::string api_table_markdown();
 
 // The operations.

@@ -1,5 +1,5 @@
-// The packed form over HTTP: whole grids, parts of large ones, halved ones, and grids between
-// volumes.
+// Operations that give the packed form: whole grids, parts of large ones, halved ones, and grids
+// between volumes.
 #include "base/checksum.h"
 #include "grid/cells/cut_bricks.h"
 #include "pipeline/mosaic/between_grids.h"
@@ -16,7 +16,7 @@ namespace {
 constexpr std::chrono::seconds a_year{31'536'000};
 constexpr int threads_of_a_computation = 1;
 
-// Columns of bricks, both ends included.
+// A range of columns of bricks, both ends inclusive.
 struct BrickWindow {
     std::size_t first_x = 0, last_x = 0, first_y = 0, last_y = 0;
 };
@@ -25,15 +25,16 @@ struct BrickWindow {
 struct PackedRequest {
     PackedPart part = PackedPart::whole;
     std::size_t first = 0, end = 0;     // of `bricks`
-    std::optional<std::uint64_t> most;  // bytes of a whole one; its table if it has more
-    bool values_alone = false;          // codes of values alone, of a whole one
-    std::optional<BrickWindow> window;  // of the grid, halved or not
+    std::optional<std::uint64_t> most;  // largest size of a whole grid, in bytes; a larger one is
+                                        // sent as its table
+    bool values_alone = false;          // codes of values only, for a whole grid
+    std::optional<BrickWindow> window;  // in bricks of the grid after halving
     int half = 0;
     std::optional<HalvedBy> by;
     std::optional<std::string> id;
     Coding coding = Coding::identity;
 
-    // Names the answer among those of the same grid.
+    // Returns a key for this answer among all answers of the same grid.
     [[nodiscard]] std::string text() const {
         const std::string cut = window
                                     ? fmt::format("-w{}-{}-{}-{}", window->first_x, window->last_x,
@@ -75,7 +76,7 @@ Status read_part(const ApiCall& call, PackedRequest& wanted) {
     return {};
 }
 
-// "FIRST-LAST,FIRST-LAST" to the east and to the north.
+// Reads "FIRST-LAST,FIRST-LAST": bricks from west to east, then from south to north.
 Status read_window(const ApiCall& call, PackedRequest& wanted) {
     const auto text = call.request.parameter("window");
     if (!text) return {};
@@ -163,8 +164,8 @@ Result<ApiState::Halved> find_or_halve(ApiState& state, const OpenGrid& grid,
     return made;
 }
 
-// Errors: bad_argument for a window that is not of the grid, or of more bricks than are sent at
-// once.
+// Cuts out the window. Errors: bad_argument for a window outside the grid, or one of more bricks
+// than one answer may have.
 Result<grid::BrickGrid> cut(const grid::BrickView& view, const BrickWindow& window) {
     const auto columns_x = static_cast<std::size_t>(view.bricks_x);
     const auto columns_y = static_cast<std::size_t>(view.bricks_y);
@@ -221,7 +222,7 @@ Answer packed_answer(const Request& request, const Kept& kept,
     return answer_with(request, std::move(entity));
 }
 
-// The bytes of an id never change; those of a time are as those of a picture.
+// Bytes named by an id never change; bytes named by a time have the age of a picture.
 std::optional<std::chrono::seconds> max_age_of_packed(const ApiCall& call,
                                                       const PackedRequest& wanted,
                                                       const OpenGrid& grid) {
@@ -232,13 +233,13 @@ Answer other_id(const OpenGrid& grid) {
     return json_error(410, "the grid was made again; its id is now " + grid.id);
 }
 
-// Packs a frame that was made on request and has no file.
+// Packs a mosaic that was made on request and has no file.
 Result<Kept> pack_frame(const pipeline::MosaicFrame& frame, Coding coding, PackedSource source) {
     source.description = &frame.description;
     source.view = frame.mosaic.cells.view();
     auto bytes = pack_whole(source);
     if (!bytes) return pass_on(bytes);
-    // Make the id of the bytes, since there is no file.
+    // There is no file, so compute the id from the bytes.
     const std::uint64_t id = xxh3_64(std::as_bytes(std::span(*bytes)));
     std::memcpy(bytes->data() + offsetof(PackedHeader, id), &id, sizeof id);
     return compress_packed(bytes, coding, fmt::format("\"{:016x}-{}\"", id, coding_name(coding)));
@@ -308,7 +309,8 @@ Answer api_between(const ApiCall& call) {
         return json_error(404, "there is no such domain");
     }
     const Coding coding = coding_for(call.request);
-    // It may become another one as soon as anything in the domain changes.
+    // The answer may change as soon as anything in the domain changes, so the key has the count of
+    // changes.
     const std::string key =
         fmt::format("between/{}/{}/{}/{}/{}", named->domain, level2::moment_name(named->moment),
                     format_utc(named->time), call.grids().changes_of(group), coding_name(coding));
@@ -332,7 +334,8 @@ Answer api_region_packed(const ApiCall& call) {
     std::string key =
         fmt::format("region/{}/{}/{}/{}", asked->name, level2::moment_name(asked->plan.moment),
                     format_utc(*time), coding_name(coding));
-    // It may become another one as soon as anything of its sites changes.
+    // The answer may change as soon as one of its sites changes, so the key has their counts of
+    // changes.
     for (const std::string& site : asked->plan.sites)
         key += fmt::format("/{}", call.grids().changes_of(site));
     KeptAnswers& answers = *call.state.sources().kept;

@@ -1,4 +1,4 @@
-// A box over several sites, as a domain of its own.
+// Operations on a box over several sites, which is treated as a domain of its own.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,7 +9,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Three places are some 100 m, and the name of a region is short.
+// Returns the name of a region. Three decimal places are some 100 m and keep it short.
 std::string region_text(const RegionBox& box) {
     const auto side = [](double degrees) { return std::round(degrees * 1e3) / 1e3; };
     return fmt::format("{},{},{},{}", side(box.west_deg), side(box.south_deg), side(box.east_deg),
@@ -23,7 +23,8 @@ Result<RegionBox> region_parameters_of(const ApiCall& call) {
         double* to;
         double most;
     };
-    // A box across the antimeridian has west greater than east, or one of them beyond 180.
+    // If a box crosses the antimeridian, its west is greater than its east, or one of them is
+    // beyond 180.
     for (const Side& side : {Side{"west", &box.west_deg, 540}, Side{"south", &box.south_deg, 90},
                              Side{"east", &box.east_deg, 540}, Side{"north", &box.north_deg, 90}}) {
         const auto number = number_parameter(call, side.name, -side.most, side.most);

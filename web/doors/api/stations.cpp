@@ -1,4 +1,4 @@
-// Stations, and their raw volumes.
+// Operations on stations and their raw volumes.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -42,7 +42,7 @@ ApiJson station_place_json(const ApiCall& call, const std::string& icao) {
 
 using Catalog = decltype(std::declval<ApiState>().catalog());
 
-// Stations that have volumes or grids of their own, or all that are known.
+// Returns the stations that have volumes or grids of their own, or all known stations.
 std::set<std::string> station_names(const ApiCall& call, const Catalog& catalog, bool known) {
     std::set<std::string> names;
     if (catalog) {
@@ -63,7 +63,7 @@ std::set<std::string> station_names(const ApiCall& call, const Catalog& catalog,
     return names;
 }
 
-// For how many seconds nothing has come from each station that is silent.
+// Returns, for each silent station, for how many seconds nothing has come.
 std::map<std::string, double> silences_s(const ApiCall& call, UtcTime now) {
     std::map<std::string, double> silences;
     const auto& feed = call.state.sources().feed;
@@ -144,7 +144,7 @@ Answer api_volumes(const ApiCall& call) {
     const auto catalog = call.state.catalog();
     if (!catalog) return json_error(catalog.error());
     const auto count = static_cast<std::size_t>(*limit);
-    // One more than wanted tells whether there are more.
+    // Ask for one more than wanted, to see whether there are more.
     const auto entries = (*catalog)->list(*icao, {*from, *to, false, count + 1});
     if (!entries) return json_error(entries.error());
     const std::size_t skipped = entries->size() > count ? entries->size() - count : 0;

@@ -1,4 +1,4 @@
-// The sweeps of a raw volume, and their gates.
+// Operations on the sweeps of a raw volume and their gates.
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -23,11 +23,11 @@ constexpr std::uint64_t most_volume_bytes = std::uint64_t{256} << 20;
 struct FoundVolume {
     std::shared_ptr<const catalog::CatalogReader> catalog;
     catalog::CatalogEntry entry;
-    std::string key;  // of this volume; changes when its file does
+    std::string key;  // key of this volume; changes when its file does
 };
 
-// The last of those that start at the time: a volume that was sent again replaces the others. One
-// whose file is gone counts only if all are.
+// Finds the last volume that starts at the time: a volume that was sent again replaces the others.
+// A volume whose file is gone is used only if all are gone.
 Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     const auto icao = icao_of(call.path_value("station"));
     if (!icao) return refuse(json_error(404, "there is no such station"));
@@ -58,7 +58,7 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     if (found->state == catalog::FileState::gone) {
         return refuse(json_error(410, "the file of the volume was removed by its owner"));
     }
-    // The row of a volume of chunks has the first one's path and hash.
+    // For a volume of chunks, the row has the first chunk's path and hash.
     const auto rows = pipeline::hash_of_growing_rows(**catalog, *found);
     if (!rows) return refuse(rows.error());
     std::string key = fmt::format(
@@ -67,7 +67,7 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     return FoundVolume{std::move(*catalog), std::move(*found), std::move(key)};
 }
 
-// A file may hold several volumes; the one that starts when the row says is meant.
+// Decodes the volume that starts when the row says; a file may hold several volumes.
 Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
     auto raw = pipeline::read_cataloged_volume(*found.catalog, found.entry);
     if (!raw) return pass_on(raw);
@@ -84,7 +84,7 @@ Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
     return fail(ErrorCode::not_found, "the file no longer holds the volume");
 }
 
-// Decoding takes long, unless the volume is the one that was decoded last.
+// Returns the last decoded volume if it is this one; else decodes it, which takes long.
 Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolume& found) {
     if (auto kept = call.state.find_volume(found.key)) return kept;
     if (call.must_be_quick) return refuse(takes_long());
@@ -94,8 +94,8 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
-// Chooses the sweeps that `stormcellar frame --product ppi` draws of each moment: one of each
-// elevation.
+// Returns the sweeps that `stormcellar frame --product ppi` would draw: for each moment one sweep
+// of each elevation.
 std::set<std::pair<level2::Moment, std::size_t>> chosen_sweeps(const level2::Volume& volume,
                                                                std::string_view station) {
     std::set<std::pair<level2::Moment, std::size_t>> chosen;

@@ -1,4 +1,4 @@
-// The color tables of the pictures.
+// The operation that gives the color tables of the pictures.
 #include <span>
 
 #include "base/checksum.h"

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t most_filter_values = 64;  // of each list
 
-// Adds the values of a parameter that may come several times and may have commas. `parse` returns
-// none for a value that makes no sense.
+// Adds the values of a parameter, which may be repeated and may be lists with commas. `parse`
+// returns none for a value that makes no sense.
 template <class Values, class Parse>
 Status add_values(const Request& request, std::string_view name, std::string_view what, Parse parse,
                   Values& values) {
@@ -80,7 +80,7 @@ Result<EventFilter> filter_of(const Request& request) {
     return filter;
 }
 
-// Stands for the stream in the answer to a HEAD request. The server reads nothing of it.
+// Body of the answer to a HEAD request for the stream. The server reads nothing from it.
 class NoEvents final : public Stream {
   public:
     std::optional<std::string> read(std::size_t /*most*/) override { return std::nullopt; }
@@ -89,10 +89,10 @@ class NoEvents final : public Stream {
 
 }  // namespace
 
-// Counts the streams that are open, by client.
+// Counts the open streams of each client.
 class EventsDoor::Places {
   public:
-    // Returns false if there are as many as may be.
+    // Returns false if the limit of streams is reached.
     bool take(const std::string& client, const EventsOptions& options) {
         const MutexLock lock(mutex_);
         if (all_ >= options.most_streams) return false;
@@ -108,7 +108,7 @@ class EventsDoor::Places {
         if (--theirs->second == 0) by_client_.erase(theirs);
         --all_;
     }
-    // A listener as the server reads it; its place is free again when it ends.
+    // A listener as the server reads it. Its destructor releases the client's place.
     class Taken;
 
   private:
@@ -162,8 +162,8 @@ Answer EventsDoor::answer(const Request& request) {
         return come_back(std::chrono::seconds{10},
                          "There are as many streams of events as this server has; ask again.");
     }
-    // Programs that cannot set headers give the id as a parameter. The header, which a browser
-    // sends when it connects again, is newer.
+    // Programs that cannot set headers give the id as a parameter. A browser that reconnects sends
+    // the header; it is newer, so it wins.
     std::optional<std::string> id = request.header("Last-Event-ID");
     if (!id) {
         if (const auto given = request.parameter("last_event_id")) id = std::string(*given);

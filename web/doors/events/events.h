@@ -1,16 +1,16 @@
-// web/doors/events/events.h -- server-sent events: what happens in cache and catalog, as it happens
+// web/doors/events/events.h -- server-sent events from cache and catalog, as changes happen
 // (docs/web/events.md).
 //
 //   /api/v1/events?station=&domain=&moment=&kind=&last_event_id=
 //
-// A client hears of the places that it names, all if it names none, and of these the moments and
-// kinds that it names. A slow one keeps no more than one block of the
-// server's and what the kernel holds for its socket: what it did not read while it was in the ring
-// of the newest events is lost to it, and it is told so (reset).
+// A client hears of the stations and domains that it names, or of all if it names none, limited to
+// the moments and kinds that it names. A slow client holds at most one block of the server's and
+// the kernel's buffer of its socket. If an event leaves the ring of the newest events before the
+// client has read it, the event is lost and the client gets a reset.
 //
 // Threads   As Door.
-// Errors    400 for a parameter that makes no sense, 404 below the path, 503 beyond the number of
-//           streams, in all or of one client.
+// Errors    400 for a parameter that makes no sense, 404 below the path, 503 if too many streams
+//           are open, in all or for one client.
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ namespace stormcellar::web {
 struct EventsOptions {
     std::shared_ptr<EventHub> hub = {};
     std::shared_ptr<const EventFeed> feed =
-        {};  // what publishes; the door keeps it alive; may be null
+        {};  // publishes the events; the door keeps it alive; may be null
     std::size_t most_streams = 2048;
     std::size_t most_of_client = 64;
 };
@@ -38,7 +38,7 @@ class EventsDoor final : public Door {
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
-    // Counts requests that were refused for the number of streams.
+    // Returns the number of requests that were refused because too many streams were open.
     [[nodiscard]] std::uint64_t refused() const { return refused_; }
 
   private:

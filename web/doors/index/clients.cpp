@@ -7,7 +7,7 @@
 namespace stormcellar::web {
 namespace {
 
-// In `code`, {base}, {bucket}, {station}, {domain}, {moment}, {day} and {when} are filled in.
+// {base}, {bucket}, {station}, {domain}, {moment}, {day} and {when} in `code` are filled in.
 struct ClientRow {
     std::string_view program, door;
     std::string_view unless;  // another door whose row is better; empty: none

@@ -18,7 +18,7 @@ std::string place_of(const std::string& icao) {
     return place;
 }
 
-// The moments of a domain, and its newest grid of any.
+// Returns the moments of a domain, and its newest grid of any moment.
 IndexDomain domain_facts(const Grids& grids, const std::string& name) {
     IndexDomain domain{name, {}, std::nullopt};
     for (const level2::Moment moment : grids.moments(name)) {

@@ -1,5 +1,5 @@
-// web/doors/index/index.h -- the index page at "/", its style at "/index.css", and what answers an
-// address that no other door knows.
+// web/doors/index/index.h -- the index page at "/", its style at "/index.css", and the answer to an
+// address that no other door serves.
 //
 // Threads   As Door.
 // Errors    404 for every other path.

@@ -24,7 +24,7 @@ std::string whole_seconds(UtcTime time) {
     return format_utc(std::chrono::time_point_cast<seconds>(time));
 }
 
-// "2026-05-01 12:00:31", for people.
+// Returns "2026-05-01 12:00:31", for people.
 std::string readable(UtcTime time) {
     std::string text = whole_seconds(time);
     std::replace(text.begin(), text.end(), 'T', ' ');
@@ -32,7 +32,7 @@ std::string readable(UtcTime time) {
     return text;
 }
 
-// "2026, 5, 1, 12, 0", for Python.
+// Returns "2026, 5, 1, 12, 0", for Python.
 std::string arguments_of_datetime(UtcTime time) {
     const auto day = std::chrono::floor<days>(time);
     const std::chrono::year_month_day date{day};
@@ -49,7 +49,7 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-// Data that come late, as in a replay of an archive, do not make a station live.
+// Returns the state. Data that come late, as in a replay of an archive, do not make a station live.
 std::string_view state_of(const IndexStation& station, UtcTime now) {
     if (station.is_silent) return "silent";
     const auto is_live = [&](std::optional<UtcTime> newest) {
@@ -81,14 +81,14 @@ class IndexPage {
     [[nodiscard]] bool has(std::string_view door) const {
         return std::find(facts_.doors.begin(), facts_.doors.end(), door) != facts_.doors.end();
     }
-    // A link to a path of this server, if the door is there.
+    // Writes a link to a path of this server, if the door exists.
     void link(std::string_view door, std::string_view path, std::string_view words,
               std::string_view kind = "") {
         if (!has(door)) return;
         add("<a{} href=\"{}\">{}</a>\n", kind.empty() ? "" : fmt::format(" class=\"{}\"", kind),
             xml_escaped(std::string(path_) + std::string(path)), words);
     }
-    // An age, and below it the time.
+    // Writes an age, and below it the time.
     void age(std::string_view label, std::optional<UtcTime> time, std::string_view none = "none") {
         if (!time) {
             add("<td class=\"age\" data-label=\"{}\"><span class=\"none\">{}</span></td>\n", label,
@@ -167,7 +167,7 @@ void IndexPage::station(const IndexStation& station) {
         station.is_silent && station.heard
             ? fmt::format(" for {}", age_text(*station.heard, facts_.now))
             : "");
-    // Volumes from the future are not counted.
+    // Volumes from the future do not count.
     const bool is_ahead = station.newest_grid && !is_believed(*station.newest_grid, facts_.now);
     age("Newest volume", station.newest_volume, is_ahead ? "not known" : "none");
     age("Newest grid", station.newest_grid);
@@ -215,7 +215,7 @@ void IndexPage::domains() {
     text_ += "</tbody>\n</table>\n</section>\n";
 }
 
-// A station that is live shows more in the examples than one that is not.
+// Chooses the places for the examples, preferably a live station, which has more to show.
 ClientPlaces IndexPage::places() const {
     ClientPlaces places{facts_.base,
                         facts_.bucket,

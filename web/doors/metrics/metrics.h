@@ -1,4 +1,4 @@
-// web/doors/metrics/metrics.h -- /metrics: what the server did and holds, for Prometheus
+// web/doors/metrics/metrics.h -- /metrics: the server's counters and gauges for Prometheus
 // (docs/web/metrics.md).
 //
 // Threads   As Door.

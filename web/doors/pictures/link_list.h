@@ -1,5 +1,5 @@
-// web/doors/pictures/link_list.h -- lists as JSON, and as pages of links for browsers and for
-// programs that follow links, such as wget -r and rclone.
+// web/doors/pictures/link_list.h -- answers with lists as JSON, or as pages of links for browsers
+// and for programs that follow links, such as wget -r and rclone.
 //
 // Threads   Pure functions.
 #pragma once
@@ -16,7 +16,7 @@
 namespace stormcellar::web {
 
 struct Link {
-    std::string address;  // relative to the page or whole; a folder ends with a slash
+    std::string address;  // relative to the page, or absolute; a folder's address ends with a slash
     std::string text;
     std::optional<std::uint64_t> size_bytes;
     std::optional<UtcTime> modified;

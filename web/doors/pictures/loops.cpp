@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-// The types of the formats of loops (stormcellar/render/animation.h), by the ending of a name.
+// Media types of the formats of loops (stormcellar/render/animation.h), by ending.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> types_of_loops = {
     {{".webp", "image/webp"},
      {".gif", "image/gif"},
@@ -42,7 +42,7 @@ UtcTime time_of_change(const struct stat& facts) {
                                              facts.st_mtim.tv_nsec / 1'000'000}};
 }
 
-// Another file has another number, time or size.
+// Returns an ETag from the file's inode, time and size.
 std::string tag_of_loop(const struct stat& facts) {
     return fmt::format("\"{:x}-{:x}-{:x}.{:x}\"", facts.st_ino, facts.st_size, facts.st_mtim.tv_sec,
                        facts.st_mtim.tv_nsec);

@@ -1,11 +1,10 @@
 // web/doors/pictures/loops.h -- the animations that stormcellard keeps up to date
 // (docs/web/pictures.md).
 //
-//   /loops               what there is, as JSON
+//   /loops               the loops, as JSON
 //   /loops/NAME.webp     the newest animation of the loop NAME, in each format that it has
 //
-// stormcellard replaces a file as a whole, so an answer is one animation from its beginning to its
-// end.
+// stormcellard replaces each file as a whole, so an answer never mixes two animations.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -27,7 +26,7 @@ class LoopsDoor final : public Door {
 
   private:
     [[nodiscard]] Answer index(const Request& request) const;
-    // "NAME.webp".
+    // Returns the file for "NAME.webp".
     [[nodiscard]] std::optional<std::filesystem::path> file_named(std::string_view name) const;
 
     std::vector<ServedLoop> loops_;

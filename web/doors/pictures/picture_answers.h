@@ -1,5 +1,5 @@
-// web/doors/pictures/picture_answers.h -- what the doors of pictures and grids share: a grid by its
-// name, and answers with a picture.
+// web/doors/pictures/picture_answers.h -- code that the doors of pictures and grids share: finding
+// a grid by name, and answering with a picture.
 //
 // Threads   Functions without state.
 #pragma once
@@ -16,32 +16,32 @@
 
 namespace stormcellar::web {
 
-// The status that fits the error, and its sentence; 503 with Retry-After.
+// Answers with the status that fits the error, and its sentence; 503 has Retry-After.
 [[nodiscard]] Answer picture_error(const Error& error);
 
 // The value that a request asks for, or the answer that refuses it.
 template <class Value>
 using Found = tl::expected<Value, Answer>;
 
-// "latest" or the instant of a grid. Refusals: 404, 410 for a grid that was evicted, 400 for a text
-// that is no time.
+// Finds the grid for "latest" or for an instant. Refusals: 404, 410 for an evicted grid, 400 for a
+// text that is not a time.
 [[nodiscard]] Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids,
                                                                 std::string_view domain,
                                                                 level2::Moment moment,
                                                                 std::string_view time);
 
-// A picture that follows from its address and the grid's bytes; its notes are its media type. A
-// client may use it for `max_age` without asking again; none: it must ask.
+// Answers with a picture that depends only on its address and the grid's bytes; its notes are its
+// media type. A client may use it for `max_age` without asking again; none: it must ask each time.
 [[nodiscard]] Answer picture_answer(const Request& request, const Kept& picture,
                                     std::optional<std::chrono::seconds> max_age);
-// 304 if the client has the picture of this tag; none otherwise.
+// Returns 304 if the client has the picture with this tag; none otherwise.
 [[nodiscard]] std::optional<Answer> unchanged_answer(const Request& request,
                                                      const std::string& etag,
                                                      std::optional<std::chrono::seconds> max_age);
 
-// Clients may use an answer that follows from a grid for this long without asking again.
+// How long clients may use an answer that depends only on a grid without asking again.
 inline constexpr std::chrono::seconds answer_holds_for{300};
-// Returns none (ask each time) for a grid that was asked for as "latest" or that may change.
+// Returns none (ask each time) for a grid that was requested as "latest" or that may change.
 [[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time,
                                                              const OpenGrid& grid);
 

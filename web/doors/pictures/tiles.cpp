@@ -17,7 +17,7 @@ namespace {
 
 using TileJson = nlohmann::ordered_json;
 
-constexpr double most_latitude_deg = 85.0511;  // of Web Mercator's square
+constexpr double most_latitude_deg = 85.0511;  // edge of Web Mercator's square
 constexpr std::size_t segments_of_a_tile = 7;  // tiles, domain, layer, time, z, x, y.png
 
 std::optional<int> whole_below(std::string_view text, int end) {
@@ -34,7 +34,7 @@ Answer json_of_pictures(const Request& request, const TileJson& document) {
                           document.dump(-1, ' ', false, TileJson::error_handler_t::replace) + "\n");
 }
 
-// The options of a query again, for links.
+// Returns the options of a query as text again, for links.
 std::string query_text(const Fields& query) {
     std::string text;
     for (const auto& [name, value] : query) {
@@ -44,7 +44,7 @@ std::string query_text(const Fields& query) {
     return text;
 }
 
-// The deepest zoom that shows more: there, a cell has about eight pixels.
+// Returns the deepest zoom that shows more detail; there a cell has about eight pixels.
 int useful_zoom(const grid::GridSpec& spec) {
     const double cell_m = spec.cell_height_m() / 8;
     const double at_equator_m = 2 * render::mercator_edge_m / 256;
@@ -53,7 +53,8 @@ int useful_zoom(const grid::GridSpec& spec) {
 }
 
 TileJson bounds_of(const render::EarthBox& box) {
-    // TileJSON knows longitudes from -180 to 180 only, so across the antimeridian it is all.
+    // TileJSON knows longitudes from -180 to 180 only, so a box across the antimeridian spans all
+    // of them.
     const bool crosses = box.west_deg < -180 || box.east_deg > 180;
     const auto held = [](double latitude) {
         return std::clamp(latitude, -most_latitude_deg, most_latitude_deg);
@@ -72,7 +73,7 @@ TileJson layer_json(const Request& request, std::string_view domain, const MapPr
                                      layer.name())}};
 }
 
-// A tile that was asked for, and what it shows.
+// A requested tile, with the grid and layer that it shows.
 struct AskedTile {
     MapStyle style;
     TilePlace place;

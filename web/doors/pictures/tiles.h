@@ -1,11 +1,11 @@
 // web/doors/pictures/tiles.h -- 2D products as tiles of web maps (docs/web/pictures.md).
 //
-//   /tiles                                              what there is, as JSON
+//   /tiles                                              domains and layers, as JSON
 //   /tiles/DOMAIN/LAYER/TIME/{z}/{x}/{y}.png            256 pixels, in Web Mercator; "@2x": 512
 //   /tiles/DOMAIN/LAYER/TIME/tilejson.json              TileJSON 3.0
 //
-// LAYER is that of web/data/pictures/map_product.h, TIME "latest" or the instant of a grid. Options
-// of the layer are parameters.
+// LAYER is a name of web/data/pictures/map_product.h, and TIME is "latest" or the instant of a
+// grid. The options of the layer are parameters.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -26,7 +26,7 @@ struct TilePlace {
     int side = 256;  // pixels
 };
 inline constexpr int deepest_zoom = 22;
-// Reads "5", "7", "12.png" or "12@2x.png". None: there is no such tile.
+// Reads "5", "7", "12.png" or "12@2x.png". Returns none if there is no such tile.
 [[nodiscard]] std::optional<TilePlace> tile_place_of(std::string_view zoom, std::string_view column,
                                                      std::string_view file);
 [[nodiscard]] render::PlaneWindow window_of(const TilePlace& place);
@@ -34,7 +34,7 @@ inline constexpr int deepest_zoom = 22;
 class TilesDoor final : public Door {
   public:
     explicit TilesDoor(std::shared_ptr<MapPictures> pictures) : pictures_(std::move(pictures)) {}
-    // Tiles that are kept, while their grid is open.
+    // Answers with a kept tile, if its grid is open.
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 

@@ -2,7 +2,8 @@
 //
 //   /nexrd2/config.cfg and grlevel2.cfg   the name of the lists, and a line for each station
 //   /nexrd2/STATION/dir.list              a line "SIZE NAME" for each of the newest volumes, the
-//   newest last /nexrd2/STATION/NAME                  a volume's bytes
+//                                         newest last
+//   /nexrd2/STATION/NAME                  a volume's bytes
 //
 // Threads   Many threads may use it.
 #pragma once

@@ -5,7 +5,8 @@ namespace {
 
 constexpr std::chrono::seconds settled_holds_for{60}, cataloged_again_in{5};
 
-// Asked for by the name of a volume, it is saved under one that says how it is packed.
+// Makes the entity. If the volume was requested by its own name, it is saved under a name that says
+// how it is packed.
 Entity entity_of(const OpenedVolume& volume, std::string_view asked_for) {
     Entity entity = entity_of(volume);
     const std::string& name = volume.volume.name;
@@ -59,7 +60,7 @@ std::optional<Answer> volume_answer_at_once(const Request& request, RawFiles& fi
 
 Result<UtcTime> time_of_parameter(std::string_view text, UtcTime now) {
     if (text == "present") return now;
-    // A '+' of a query that was not encoded has become a space.
+    // An unencoded '+' in a query has become a space.
     for (const std::string_view zone : {"+00:00", " 00:00", "+0000", " 0000"})
         if (text.size() > zone.size() && text.ends_with(zone)) text.remove_suffix(zone.size());
     return parse_utc(text, now);

@@ -1,4 +1,4 @@
-// web/doors/raw/raw_answers.h -- answers with a raw volume, as several doors give them.
+// web/doors/raw/raw_answers.h -- answers with a raw volume, shared by several doors.
 //
 // Threads   Functions without state.
 #pragma once
@@ -11,22 +11,22 @@
 
 namespace stormcellar::web {
 
-// A settled volume may be used for a minute without asking again, because it may be sent again; one
-// that grows must be asked for each time.
+// Clients may use a settled volume for a minute without asking again, not longer, because it may be
+// sent again. They must ask for a growing volume each time.
 [[nodiscard]] Entity entity_of(const OpenedVolume& volume);
 
-// 404, 410 for a file that was deleted, and 503 with Retry-After for one that changed since it was
-// cataloged or cannot be read now.
+// Answers 404, 410 for a deleted file, and 503 with Retry-After for a file that changed since it
+// was cataloged or that cannot be read now.
 [[nodiscard]] Answer missing_answer(const RawFailure& failure);
 
 [[nodiscard]] Answer volume_answer(const Request& request, RawFiles& files,
                                    std::string_view station, std::string_view name);
-// The same for a volume that was opened just now; none: it takes longer.
+// Answers with a volume that was opened just now; none if that takes longer.
 [[nodiscard]] std::optional<Answer> volume_answer_at_once(const Request& request, RawFiles& files,
                                                           std::string_view station,
                                                           std::string_view name);
 
-// A time of a query: as parse_utc(), and also with an offset of zero or as "present".
+// Reads a time of a query: the forms of parse_utc(), an offset of zero, or "present".
 [[nodiscard]] Result<UtcTime> time_of_parameter(std::string_view text, UtcTime now);
 
 }  // namespace stormcellar::web

@@ -1,7 +1,7 @@
 // web/doors/raw/volumes.h -- raw volumes by station and name (docs/web/raw.md).
 //
 //   /volumes/                the stations
-//   /volumes/STATION/        their volumes, the newest first; ?from= &to= &limit=
+//   /volumes/STATION/        its volumes, the newest first; ?from= &to= &limit=
 //   /volumes/STATION/NAME    a volume's bytes
 //
 // Lists are JSON, or a page of links if Accept prefers HTML.

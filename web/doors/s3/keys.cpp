@@ -24,7 +24,7 @@ std::string day_text(sys_days day) {
                        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
-// The first day whose text is not less; none if all are. Texts rise with days.
+// Returns the first day whose text is not less; none if all are less. Texts ascend with days.
 std::optional<sys_days> day_not_less(std::string_view text) {
     sys_days low = earliest_day, high = latest_day + days{1};
     while (low < high) {
@@ -69,8 +69,8 @@ Status S3Keys::find_stations() {
     return {};
 }
 
-// `from` and `end` are what stands behind the day: "KTLX/KTLX20220317_0008" or less, and empty if
-// all of the day counts.
+// Returns a day's objects. `from` and `end` bound the part of the key behind the day
+// ("KTLX/KTLX20220317_0008" or less); empty means that the whole day counts.
 Result<std::vector<S3Object>> S3Keys::of_day(sys_days day, std::string_view from,
                                              std::string_view end, std::size_t most) const {
     std::vector<S3Object> objects;
@@ -86,7 +86,7 @@ Result<std::vector<S3Object>> S3Keys::of_day(sys_days day, std::string_view from
         range.to = UtcTime{day + days{1}} - std::chrono::milliseconds{1};
         if (const auto time = time_of_raw_name(station, name_from))
             range.from = std::max(*range.from, *time);
-        // Names of one second may differ in their endings, so a few more are asked for.
+        // Names of one second may differ in their endings, so ask for a few more.
         range.most = most - objects.size() + (name_from.empty() ? 0 : 4);
         range.with_sizes = true;
         auto volumes = files_->list(station, range);
@@ -121,7 +121,7 @@ Result<std::optional<sys_days>> S3Keys::next_day(sys_days day) const {
 Result<std::vector<S3Object>> S3Keys::between(std::string_view from, std::string_view end,
                                               std::size_t most) {
     if (Status found = find_stations(); !found) return pass_on(found);
-    // Returns the rest of a bound behind the day if the bound is within the day, else empty.
+    // Returns the part of a bound behind the day if the bound is within the day, else empty.
     const auto within = [](std::string_view bound, sys_days day) {
         const bool is_within = bound.substr(0, day_size) == day_text(day);
         return is_within ? bound.substr(day_size) : std::string_view{};

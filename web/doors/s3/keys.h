@@ -1,9 +1,9 @@
 // web/doors/s3/keys.h -- raw volumes in the order of their keys in the public bucket,
 // YYYY/MM/DD/STATION/NAME.
 //
-// Keys sort by day, then by station, then by time. A walk asks the catalog for one station and one
-// day at a time, by index; only where a day is at its end it asks all stations for their next
-// volume. A walk has an end, so that a list of one station's day asks for nothing else.
+// Keys sort by day, then by station, then by time. A walk reads one station and one day at a time
+// through the catalog's index; at the end of a day it asks all stations for their next volume. A
+// walk has an end bound, so a list of one station's day reads nothing else.
 //
 // Threads   One thread at a time.
 // Errors    Those of RawFiles.
@@ -26,7 +26,7 @@ struct S3Key {
     std::chrono::sys_days day;
     std::string station, name;
 };
-// None if no volume can have the key.
+// Returns none if no volume can have the key.
 [[nodiscard]] std::optional<S3Key> parse_s3_key(std::string_view key);
 
 struct S3Object {
@@ -34,14 +34,14 @@ struct S3Object {
     RawVolume volume;
 };
 
-// The bucket as one list sees it: its stations are those of the first question.
+// The bucket as one list sees it. It reads the stations once, at its first query.
 class S3Keys {
   public:
     explicit S3Keys(std::shared_ptr<RawFiles> files) : files_(std::move(files)) {}
 
-    // Returns objects from the first key on that is not less than `from`, but only keys that are
-    // less than `end` (empty: all), at most `most` of them. With `most` > 1 they may be fewer
-    // although there are more: only none means that the end is reached.
+    // Returns objects from the first key that is not less than `from`, with keys less than `end`
+    // (empty: no bound), at most `most` of them. With `most` > 1 they may be fewer although there
+    // are more; only an empty result means that the end is reached.
     [[nodiscard]] Result<std::vector<S3Object>> between(std::string_view from, std::string_view end,
                                                         std::size_t most);
 
@@ -51,7 +51,7 @@ class S3Keys {
     [[nodiscard]] Result<std::vector<S3Object>> of_day(std::chrono::sys_days day,
                                                        std::string_view from, std::string_view end,
                                                        std::size_t most) const;
-    // The first day from this one on that has a volume.
+    // Returns the first day from this one on that has a volume.
     [[nodiscard]] Result<std::optional<std::chrono::sys_days>> next_day(
         std::chrono::sys_days day) const;
     const std::shared_ptr<RawFiles> files_;

@@ -17,7 +17,7 @@ std::string text_or_nothing(const Request& request, std::string_view name) {
     return std::string{request.parameter(name).value_or("")};
 }
 
-// The least text that is greater than all that begin with these bytes.
+// Returns the least text that is greater than all texts that begin with these bytes.
 std::string behind_all(std::string text) {
     while (!text.empty() && static_cast<unsigned char>(text.back()) == 0xFF)
         text.pop_back();
@@ -25,7 +25,7 @@ std::string behind_all(std::string text) {
     return text;
 }
 
-// The part of a key up to the first delimiter behind the prefix; empty: there is no delimiter.
+// Returns the key up to the first delimiter behind the prefix; empty if there is no delimiter.
 std::string common_prefix_of(std::string_view key, const S3ListOptions& options) {
     if (options.delimiter.empty()) return {};
     const std::size_t at = key.find(options.delimiter, options.prefix.size());
@@ -33,7 +33,7 @@ std::string common_prefix_of(std::string_view key, const S3ListOptions& options)
     return std::string{key.substr(0, at + options.delimiter.size())};
 }
 
-// Keys with encoding-type=url are encoded, but for slashes.
+// Returns a key as listings show it: with encoding-type=url it is encoded, except for slashes.
 std::string encoded_key(std::string_view key, const S3ListOptions& options) {
     if (!options.encodes_keys) return std::string{key};
     std::string out;
@@ -46,13 +46,13 @@ std::string encoded_key(std::string_view key, const S3ListOptions& options) {
     return out;
 }
 
-// A listing that grows.
+// Collects the entries of one listing.
 class S3Lister {
   public:
     S3Lister(S3Keys& keys, const S3ListOptions& options) : keys_(keys), options_(options) {
         place_ = std::max(options.prefix, options.after);
         end_ = behind_all(options.prefix);
-        // A common prefix that was the last entry of the previous answer is done with.
+        // If the last entry of the previous answer was a common prefix, skip all keys below it.
         if (!options.after.empty()) {
             const bool is_prefix = options.after.starts_with(options.prefix) &&
                                    common_prefix_of(options.after, options) == options.after;

@@ -16,9 +16,10 @@ struct S3ListOptions {
     bool is_version_2 = false;
     std::string prefix, delimiter;
     std::size_t most = 1000;
-    // Keys up to this one are left out, and all that have the common prefix of this name.
+    // Keys up to this one are left out. If this is a common prefix, all keys below it are left out,
+    // too.
     std::string after;
-    std::string token;  // of version 2, as it was sent
+    std::string token;  // of version 2, unchanged from the request
     std::string start_after;
     bool encodes_keys = false;
     bool names_owner = false;
@@ -32,7 +33,7 @@ struct S3Listing {
 };
 [[nodiscard]] Result<S3Listing> list_s3_objects(S3Keys& keys, const S3ListOptions& options);
 
-// ListBucketResult.
+// Returns the document ListBucketResult.
 [[nodiscard]] std::string s3_listing_xml(std::string_view bucket, const S3ListOptions& options,
                                          const S3Listing& listing);
 

@@ -6,9 +6,9 @@
 //                                      ListObjectsV2 (?list-type=2)
 //   /s3/BUCKET/YYYY/MM/DD/STATION/NAME GetObject, HeadObject
 //
-// Keys are those of the public bucket. Signatures are not looked at: who may ask is decided by who
-// reaches the server. Errors are XML, with the codes of S3. An ETag contains '-', so no client
-// takes it for the MD5 of the object.
+// Keys are those of the public bucket. Signatures are ignored: whoever reaches the server may ask.
+// Errors are XML, with the codes of S3. An ETag contains '-', so no client takes it for the MD5 of
+// the object.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -23,9 +23,9 @@ namespace stormcellar::web {
 
 inline constexpr std::string_view s3_namespace = "http://s3.amazonaws.com/doc/2006-03-01/";
 
-// "2022-03-17T00:12:33.000Z": in whole seconds, as Last-Modified.
+// Returns "2022-03-17T00:12:33.000Z": whole seconds, as in Last-Modified.
 [[nodiscard]] std::string s3_time(UtcTime time);
-// The tag of a listed object, with its quotes.
+// Returns the tag of a listed object, with its quotes.
 [[nodiscard]] std::string s3_tag(const RawVolume& volume);
 
 class S3Door final : public Door {

@@ -21,7 +21,7 @@ void open_catalog(XmlWriter& xml, std::string_view name) {
                          {"version", "1.0.7"}});
 }
 
-// "39.78", "1675.0": with a point, as the other servers write them.
+// Returns "39.78" or "1675.0": always with a point, as other servers write numbers.
 std::string decimal_text(double value) {
     std::string text = fmt::format("{}", value);
     if (text.find_first_of(".e") == text.npos) text += ".0";
@@ -40,8 +40,8 @@ void write_extent(XmlWriter& xml, std::string_view name, Extent extent, std::str
         .close();
 }
 
-// The longitudes that hold all stations, without the widest gap between them: about the
-// antimeridian they go on beyond 180.
+// Returns the longitudes that hold all stations but not the widest gap between them. Across the
+// antimeridian they continue beyond 180.
 Extent longitudes_of(std::vector<double> stations_deg, double margin_deg) {
     std::ranges::sort(stations_deg);
     double west = stations_deg.front(), east = stations_deg.back();

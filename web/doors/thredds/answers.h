@@ -1,7 +1,7 @@
 // web/doors/thredds/answers.h -- the catalogs of the THREDDS radar server, as XML.
 //
-// They are of InvCatalog 1.0. Bases of services are paths of this server, so that a client that
-// reached it by https stays there.
+// The format is InvCatalog 1.0. Bases of services are paths without scheme and host, so a client
+// that reached the server by https stays there.
 //
 // Threads   Pure functions.
 #pragma once
@@ -19,19 +19,19 @@ using ThreddsCollections = std::vector<std::shared_ptr<ThreddsCollection>>;
 // Returns the path of an address below this server, as clients see it: with the prefix of [web].
 [[nodiscard]] std::string path_for_clients(const Request& request, std::string_view path);
 
-// /thredds/catalog.xml: a reference to the radar server.
+// Returns /thredds/catalog.xml, a reference to the radar server.
 [[nodiscard]] std::string thredds_top_xml(const Request& request);
-// /thredds/radarServer/catalog.xml
+// Returns /thredds/radarServer/catalog.xml.
 [[nodiscard]] std::string thredds_catalog_xml(const Request& request,
                                               const ThreddsCollections& collections);
-// {ds}/dataset.xml. `oldest`: the start of the oldest file.
+// Returns {ds}/dataset.xml. `oldest` is the start of the oldest file.
 [[nodiscard]] std::string thredds_dataset_xml(const Request& request,
                                               const ThreddsCollection& collection,
                                               const std::vector<ThreddsStation>& stations,
                                               std::optional<UtcTime> oldest);
-// {ds}/stations.xml. Stations whose place is not known are left out.
+// Returns {ds}/stations.xml. Stations whose place is unknown are left out.
 [[nodiscard]] std::string thredds_stations_xml(const std::vector<ThreddsStation>& stations);
-// The answer to a query. `asked` is the query as text.
+// Returns the answer to a query. `asked` is the query as text.
 [[nodiscard]] std::string thredds_result_xml(const Request& request,
                                              const ThreddsCollection& collection,
                                              std::string_view asked,

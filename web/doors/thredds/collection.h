@@ -32,7 +32,7 @@ struct ThreddsVariable {
     std::string vocabulary_name;  // in the vocabulary DIF
 };
 
-// One file. The path is that behind the data set's, as in KTLX/20220317/KTLX20220317_000842_V06.
+// A file. Its path is relative to the data set's, as in KTLX/20220317/KTLX20220317_000842_V06.
 struct ThreddsFile {
     std::string name, path;
     UtcTime start{};
@@ -46,26 +46,26 @@ class ThreddsCollection {
 
     [[nodiscard]] const std::string& path() const { return configured_.path; }
     [[nodiscard]] const std::string& title() const { return configured_.title; }
-    // "NEXRAD2" or "NIDS".
+    // Returns "NEXRAD2" or "NIDS".
     [[nodiscard]] virtual std::string_view format() const = 0;
     [[nodiscard]] virtual std::string summary() const = 0;
     [[nodiscard]] virtual std::vector<ThreddsVariable> variables() const = 0;
-    // A query must name a variable, because each has files of its own.
+    // Returns true if a query must name a variable, because each variable has files of its own.
     [[nodiscard]] virtual bool needs_variable() const = 0;
-    // Returns the configured stations, or all that have files, in their order.
+    // Returns the configured stations in their order, or else all stations that have files.
     [[nodiscard]] Result<std::vector<ThreddsStation>> stations();
-    // The start of the oldest file; none if there is none. It may be a minute old.
+    // Returns the start of the oldest file; none if there is none. The result may be a minute old.
     [[nodiscard]] virtual Result<std::optional<UtcTime>> oldest() = 0;
 
-    // Returns the file that is nearest, if it is within that time.
+    // Returns the nearest file, if it is close enough in time.
     [[nodiscard]] virtual Result<std::optional<ThreddsFile>> nearest(
         std::string_view station, std::string_view variable, UtcTime time,
         std::chrono::milliseconds within) = 0;
-    // Returns files in the order of time.
+    // Returns files in ascending order of time.
     [[nodiscard]] virtual Result<std::vector<ThreddsFile>> list(std::string_view station,
                                                                 std::string_view variable,
                                                                 const RawRange& range) = 0;
-    // Answers for the segments of a file's path.
+    // Answers with the file that these segments of a path name.
     [[nodiscard]] virtual Answer file(const Request& request,
                                       std::span<const std::string_view> path) = 0;
     [[nodiscard]] virtual std::optional<Answer> file_at_once(
@@ -75,9 +75,9 @@ class ThreddsCollection {
 
   protected:
     [[nodiscard]] const ConfiguredCollection& configured() const { return configured_; }
-    // The identifiers of all stations that have files.
+    // Returns the identifiers of all stations that have files.
     [[nodiscard]] virtual Result<std::vector<std::string>> station_ids() = 0;
-    // The stations that the files place, sorted by ICAO.
+    // Returns the stations whose place is known from their files, sorted by ICAO.
     [[nodiscard]] virtual std::vector<RawStation> placed_by_files() { return {}; }
 
   private:
@@ -85,13 +85,13 @@ class ThreddsCollection {
     const std::vector<ConfiguredPlace> places_;
 };
 
-// A data set with `variables` is one of Level III; any other has the raw files. `places` say where
-// stations are, before the station table does.
+// Makes a data set: Level III if the configuration has `variables`, else the raw files. `places`
+// take precedence over the station table.
 [[nodiscard]] std::shared_ptr<ThreddsCollection> make_collection(
     const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
     std::shared_ptr<RawFiles> files);
 
-// The two kinds; make_collection() chooses.
+// Make the two kinds; make_collection() chooses.
 [[nodiscard]] std::shared_ptr<ThreddsCollection> make_level2_collection(
     const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
     std::shared_ptr<RawFiles> files);

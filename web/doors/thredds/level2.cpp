@@ -1,4 +1,4 @@
-// A data set of Level II: the raw files.
+// A data set of Level II, made of the raw files.
 #include <algorithm>
 
 #include "base/steady_time.h"
@@ -46,7 +46,7 @@ class Level2Collection final : public ThreddsCollection {
     std::vector<RawStation> placed_by_files() override;
 
   private:
-    // STATION/YYYYMMDD/NAME of a station that this data set has.
+    // Returns true for STATION/YYYYMMDD/NAME of a station in this data set.
     [[nodiscard]] bool is_path(std::span<const std::string_view> path) const;
     [[nodiscard]] bool has_station(std::string_view id) const;
 
@@ -57,7 +57,7 @@ class Level2Collection final : public ThreddsCollection {
         STORMCELLAR_GUARDED_BY(mutex_);
 };
 
-// The names are those of Unidata's server, which clients compare with.
+// Returns the names of Unidata's server, with which clients compare.
 std::vector<ThreddsVariable> Level2Collection::variables() const {
     const std::string radar = "EARTH SCIENCE > Spectral/Engineering > Radar >";
     return {{"CorrelationCoefficient", "dimensionless", radar},
@@ -138,7 +138,7 @@ Result<std::vector<ThreddsFile>> Level2Collection::list(std::string_view station
 bool Level2Collection::is_path(std::span<const std::string_view> path) const {
     if (path.size() != 3 || !has_station(path[0])) return false;
     const auto time = time_of_raw_name(path[0], path[2]);
-    // A file may also be asked for by the name that it was dropped with, on any day.
+    // A client may also use the name of the dropped file, with any day.
     return path[1].size() == digits_of_day && (!time || format_compact(*time).starts_with(path[1]));
 }
 

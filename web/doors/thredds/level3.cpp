@@ -1,5 +1,6 @@
-// A data set of Level III: files of products in a directory, named as the LDM configurations of
-// Unidata name them, Level3_FTG_N0Q_20150615_1201.nids. Their contents are not looked at.
+// A data set of Level III: files of products in a directory, with names as Unidata's LDM
+// configurations give them, Level3_FTG_N0Q_20150615_1201.nids. The server does not read their
+// contents.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -80,8 +81,8 @@ class Level3Collection final : public ThreddsCollection {
     using Times = std::map<UtcTime, std::string>;  // names
     using Index = std::map<std::pair<std::string, std::string>, Times>;
     [[nodiscard]] Result<std::shared_ptr<const Index>> index();
-    // The times hold as long as their index, which is shared and not copied: a query may ask 10,000
-    // times.
+    // Returns the times with their names. They keep the shared index alive instead of copying it,
+    // because a query may ask for 10,000 times.
     [[nodiscard]] Result<std::shared_ptr<const Times>> times_of(std::string_view station,
                                                                 std::string_view variable);
 
@@ -110,7 +111,7 @@ Result<std::shared_ptr<const Level3Collection::Index>> Level3Collection::index()
             if (product && std::ranges::count(configured().variables, product->variable) > 0)
                 served.emplace_back(std::move(*product), &name);
         }
-        // The newest are served if there are too many.
+        // If there are too many, serve the newest.
         if (served.size() > most_products) {
             const auto newer = [](const auto& a, const auto& b) {
                 return a.first.start > b.first.start;
@@ -171,7 +172,8 @@ Result<std::optional<ThreddsFile>> Level3Collection::nearest(std::string_view st
                                                              std::chrono::milliseconds within) {
     const auto times = times_of(station, variable);
     if (!times) return pass_on(times);
-    // One of the two beside the time is the nearest; of two that are as near, the earlier one.
+    // The nearest file is directly before or after the time; if both are as near, take the earlier
+    // one.
     const auto behind = (*times)->lower_bound(time);
     auto nearest = behind;
     if (behind != (*times)->begin()) {
@@ -198,7 +200,7 @@ Result<std::vector<ThreddsFile>> Level3Collection::list(std::string_view station
     return files;
 }
 
-// The name is one that the directory has, so it leads nowhere else.
+// The name must be one that the directory has, so it cannot lead elsewhere.
 Answer Level3Collection::file(const Request& request, std::span<const std::string_view> path) {
     const auto product = path.size() == 4 ? product_of(path[3]) : std::nullopt;
     if (!product || product->variable != path[0] || product->station != path[1]) {

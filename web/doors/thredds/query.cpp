@@ -11,8 +11,8 @@
 namespace stormcellar::web {
 namespace {
 
-// The values of a parameter that may be repeated, and of which each may be a list: each once, of a
-// value with a slash what is before it.
+// Returns the values of a parameter, each once. The parameter may be repeated and may hold lists;
+// of a value with a slash only the part before it counts.
 std::vector<std::string> values_of(const Request& request, std::string_view name) {
     std::vector<std::string> values;
     std::unordered_set<std::string> seen;
@@ -27,7 +27,8 @@ std::vector<std::string> values_of(const Request& request, std::string_view name
     return values;
 }
 
-// An empty value is none: the IDV's forms send such parameters.
+// Returns the parameter. An empty value counts as absent, since the IDV's forms send such
+// parameters.
 std::optional<std::string_view> given(const Request& request, std::string_view name) {
     const auto value = request.parameter(name);
     return value && !value->empty() ? value : std::nullopt;
@@ -43,7 +44,7 @@ Result<double> degrees_of(std::string_view name, std::string_view text, double m
                 most, most);
 }
 
-// All of the named parameters, or none of them.
+// Reads all of the named parameters, or none of them.
 Result<std::vector<double>> read_degrees(const Request& request,
                                          const std::vector<std::string_view>& names) {
     std::vector<double> values;
@@ -77,7 +78,7 @@ Status read_places(const Request& request, ThreddsQuery& query) {
         if (query.box->north_deg < query.box->south_deg)
             return fail(ErrorCode::bad_argument, "north must not be less than south.");
     }
-    // Names count before a box, and a box before a point, as in the THREDDS server.
+    // Names take precedence over a box, and a box over a point, as in the THREDDS server.
     if (!query.stations.empty() || query.all_stations) query.box.reset();
     if (!query.stations.empty() || query.all_stations || query.box) query.near.reset();
     if (!query.stations.empty() || query.all_stations || query.box || query.near) return {};

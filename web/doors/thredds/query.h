@@ -1,9 +1,9 @@
-// web/doors/thredds/query.h -- a query of the THREDDS radar server: which stations, which times.
+// web/doors/thredds/query.h -- a query of the THREDDS radar server: stations and times.
 //
 // Stations  stn=KTLX, repeated or with commas, or stn=all; or longitude and latitude, for the
 //           nearest station; or north, south, east and west.
-// Times     time, repeated: of each station the file nearest to it, within an hour; or two of
-//           time_start, time_end and time_duration; or temporal=all.
+// Times     time, repeated: for each station the nearest file within an hour; or two of time_start,
+//           time_end and time_duration; or temporal=all.
 // Variables var=N0Q, repeated or with commas.
 //
 // Threads   Pure functions.
@@ -24,7 +24,7 @@ struct ThreddsQuery {
     struct Point {
         double latitude_deg = 0, longitude_deg = 0;
     };
-    // `west` may be east of `east`: then the box lies across the 180th meridian.
+    // If `west` is east of `east`, the box crosses the 180th meridian.
     struct Box {
         double north_deg = 0, south_deg = 0, east_deg = 0, west_deg = 0;
     };
@@ -45,7 +45,7 @@ inline constexpr std::size_t most_query_stations = 400, most_query_times = 100;
 
 [[nodiscard]] Result<ThreddsQuery> read_thredds_query(const Request& request, UtcTime now);
 
-// Returns whether the box has the place.
+// Returns whether the place is in the box.
 [[nodiscard]] bool is_inside(const ThreddsQuery::Box& box, double latitude_deg,
                              double longitude_deg);
 

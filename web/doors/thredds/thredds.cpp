@@ -23,7 +23,7 @@ Answer query_error(const Error& error) {
     return sentence(status_of(error), "The catalog cannot be read now.");
 }
 
-// The cosine of the angle between two places, which falls with their distance.
+// Returns the cosine of the angle between two places, which decreases with their distance.
 double closeness(const ThreddsQuery::Point& point, const ThreddsStation& station) {
     constexpr double radians = std::numbers::pi / 180;
     const double a = point.latitude_deg * radians, b = station.latitude_deg * radians;
@@ -31,7 +31,8 @@ double closeness(const ThreddsQuery::Point& point, const ThreddsStation& station
     return std::sin(a) * std::sin(b) + std::cos(a) * std::cos(b) * std::cos(apart);
 }
 
-// The identifiers of the stations that a query means. Those that it names need not be known.
+// Returns the identifiers of the stations that a query selects. Stations that it names may be
+// unknown.
 Result<std::vector<std::string>> stations_meant(ThreddsCollection& collection,
                                                 const ThreddsQuery& query) {
     if (!query.stations.empty()) return query.stations;
@@ -55,7 +56,7 @@ Result<std::vector<std::string>> stations_meant(ThreddsCollection& collection,
     return meant;
 }
 
-// The query as the client sent it, decoded.
+// Returns the query as the client sent it, decoded.
 std::string text_of_query(const Request& request) {
     std::string text;
     for (const auto& [name, value] : request.query)
@@ -71,7 +72,7 @@ ThreddsDoor::ThreddsDoor(const std::shared_ptr<RawFiles>& files, ThreddsOptions 
         collections_.push_back(make_collection(configured, options_.config.places, files));
 }
 
-// The data set with the longest path counts, since a path may go on in another's.
+// Finds the data set with the longest path, because one data set's path may begin with another's.
 ThreddsDoor::Found ThreddsDoor::find(std::vector<std::string_view> segments) const {
     Found found;
     std::size_t longest = 0;

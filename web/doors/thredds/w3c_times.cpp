@@ -24,7 +24,7 @@ bool is_time_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// Takes parts off the front of a text.
+// Reads a text from its front, part by part.
 class TimeText {
   public:
     explicit TimeText(std::string_view text) : rest_(text) {}
@@ -35,7 +35,7 @@ class TimeText {
         rest_.remove_prefix(1);
         return true;
     }
-    // Exactly this many digits, as a number from `least` to `most`.
+    // Reads exactly this many digits as a number from `least` to `most`.
     std::optional<int> number(std::size_t digits, int least, int most) {
         if (rest_.size() < digits) return std::nullopt;
         int value = 0;
@@ -46,7 +46,7 @@ class TimeText {
         rest_.remove_prefix(digits);
         return value >= least && value <= most ? std::optional{value} : std::nullopt;
     }
-    // Any number with a fraction, not negative.
+    // Reads a non-negative number with an optional fraction.
     std::optional<double> decimal() {
         if (!is_time_digit(next())) return std::nullopt;
         double value = 0;
@@ -56,7 +56,7 @@ class TimeText {
         rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
         return value;
     }
-    // The digits behind a point, as milliseconds; more than three are dropped.
+    // Reads the digits behind a point as milliseconds; digits after the third are dropped.
     std::optional<milliseconds> fraction() {
         int value = 0, digits = 0;
         for (; is_time_digit(next()); rest_.remove_prefix(1), ++digits)
@@ -72,7 +72,7 @@ class TimeText {
     std::string_view rest_;
 };
 
-// "12", "12:30", "12:30:15", "12:30:15.250".
+// Reads "12", "12:30", "12:30:15" or "12:30:15.250".
 std::optional<milliseconds> take_clock(TimeText& text) {
     const auto hour = text.number(2, 0, 24);
     if (!hour) return std::nullopt;
@@ -95,7 +95,7 @@ std::optional<milliseconds> take_clock(TimeText& text) {
     return clock <= days{1} ? std::optional{clock} : std::nullopt;
 }
 
-// "Z", "+01:00", "-0500" or nothing. A '+' of a query that was not encoded has become a space.
+// Reads "Z", "+01:00", "-0500" or nothing. An unencoded '+' in a query has become a space.
 std::optional<minutes> take_offset(TimeText& text) {
     if (text.is_empty() || text.take('Z') || text.take('z')) return minutes{0};
     const bool is_west = text.take('-');
@@ -142,7 +142,7 @@ std::optional<UtcTime> time_of_w3c(TimeText text) {
     return std::chrono::sys_days{date} + clock - offset;
 }
 
-// The units of "14 days", and the length of one. Months and years have lengths of their own.
+// A unit of "14 days", with its length. Months and years are counted as months.
 struct TimeUnit {
     std::string_view name;
     milliseconds length;
@@ -166,7 +166,7 @@ bool is_unit(std::string_view text, std::string_view name) {
                             text.back() == 's' && name.size() > 1);
 }
 
-// Adds a number of units. A fraction of a month has no length, so it is refused.
+// Adds a number of units. A fraction of a month has no fixed length, so it is refused.
 bool add_units(W3cDuration& sum, double number, milliseconds length, int months) {
     if (months > 0) {
         if (number != std::floor(number) || number * months > most_years * 12) return false;
@@ -192,7 +192,8 @@ std::optional<W3cDuration> duration_in_words(TimeText text) {
     return std::nullopt;
 }
 
-// The part of "P1Y2M3DT4H5M6S" that a letter stands for, before and behind the T.
+// Returns the unit of a letter of "P1Y2M3DT4H5M6S", which depends on whether it is before or behind
+// the T.
 std::optional<TimeUnit> unit_of_letter(char letter, bool behind_t) {
     if (behind_t) {
         if (letter == 'H') return TimeUnit{"H", hours{1}, 0};

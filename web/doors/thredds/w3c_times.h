@@ -1,8 +1,8 @@
-// web/doors/thredds/w3c_times.h -- dates and durations as THREDDS clients write them.
+// web/doors/thredds/w3c_times.h -- reads dates and durations as THREDDS clients write them.
 //
-// Dates are those of ISO 8601 that W3C's note on date and time formats names, in any precision from
-// the year on, with "Z", an offset or nothing (UTC) behind the time, and "present". Durations are
-// those of W3C XML Schema ("P1DT12H") or a number and a unit, as in "14 days".
+// Dates have the forms of ISO 8601 in W3C's note on date and time formats, in any precision from
+// the year on, followed by "Z", an offset or nothing (UTC); "present" is a date, too. Durations are
+// those of W3C XML Schema ("P1DT12H"), or a number and a unit, as in "14 days".
 //
 // Units     Milliseconds.
 // Threads   Pure functions.
@@ -18,19 +18,19 @@
 
 namespace stormcellar::web {
 
-// Years from 1900 to 2199 are taken. A date without a time is its first instant.
+// Reads a date of the years 1900 to 2199. A date without a time means its first instant.
 [[nodiscard]] Result<UtcTime> parse_w3c_time(std::string_view text, UtcTime now);
 
-// Months are kept apart, because their length depends on where they are counted from.
+// A duration. Months are kept apart, because their length depends on their start.
 struct W3cDuration {
     int months = 0;
     std::chrono::milliseconds rest{0};
     bool operator==(const W3cDuration&) const = default;
 };
-// Durations up to 1000 years are taken, none that is negative.
+// Reads a duration of up to 1000 years; negative ones are refused.
 [[nodiscard]] Result<W3cDuration> parse_w3c_duration(std::string_view text);
 
-// A month before March 31 is the last of February.
+// Returns the later time. A month before March 31 is the last day of February.
 [[nodiscard]] UtcTime later_by(UtcTime time, const W3cDuration& duration);
 [[nodiscard]] UtcTime earlier_by(UtcTime time, const W3cDuration& duration);
 

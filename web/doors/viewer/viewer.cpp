@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view page_name = "index.html";
 
-// Nothing but what this server has; the page's own program, its worker, and pictures that it makes.
+// Allows only content of this server: the page's program, its worker, and pictures that it makes.
 constexpr std::string_view policy =
     "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; "
     "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "

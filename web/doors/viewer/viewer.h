@@ -1,13 +1,12 @@
-// web/doors/viewer/viewer.h -- the viewer: a page in which people fly through the weather
-// (docs/viewer.md).
+// web/doors/viewer/viewer.h -- the viewer: a page for flying through the weather (docs/viewer.md).
 //
 //   /view/            the page
 //   /view/viewer.js   its program, and other files
 //
-// The page asks this server alone, which its Content-Security-Policy enforces.
+// The page sends requests to this server only; its Content-Security-Policy enforces this.
 //
 // Threads   Many threads may use it.
-// Errors    404 for files that there are not, and for all if the program was built without it.
+// Errors    404 for unknown files, and for all files if the program was built without the viewer.
 #pragma once
 
 #include "web/http/door.h"

@@ -1,4 +1,4 @@
-// The bytes of the viewer's files. The assembler includes them.
+// Holds the bytes of the viewer's files, which the assembler includes.
 #include "web/doors/viewer/viewer_files.h"
 
 #include <array>

@@ -1,5 +1,4 @@
-// web/doors/viewer/viewer_files.h -- the files of the viewer (viewer/), which are a part of the
-// program.
+// web/doors/viewer/viewer_files.h -- the files of the viewer (viewer/), linked into the program.
 #pragma once
 
 #include <span>
@@ -13,7 +12,7 @@ struct ViewerFile {
     std::string_view bytes;
 };
 
-// Empty in a program that was built without the viewer.
+// Returns the files; empty if the program was built without the viewer.
 [[nodiscard]] std::span<const ViewerFile> viewer_files();
 
 }  // namespace stormcellar::web

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_mercator_latitude_deg = 85.0511;
 
-// One fact a moment: where its newest grid is, and when there are grids.
+// One moment of a domain: where its newest grid is, and the times of its grids.
 struct MomentOfDomain {
     level2::Moment moment;
     render::EarthBox box;
@@ -38,7 +38,7 @@ std::vector<MomentOfDomain> moments_of(MapPictures& pictures, const std::string&
     return moments;
 }
 
-// The styles of each layer, worked out once for all domains.
+// The styles of each layer, computed once for all domains.
 class LayerStyles {
   public:
     const std::vector<std::string>& of(const MapProduct& layer) {
@@ -51,8 +51,8 @@ class LayerStyles {
     std::vector<std::pair<MapProduct, std::vector<std::string>>> styles_;
 };
 
-// Writes the document in one of the two versions. Their elements differ in names, and those of
-// 1.1.1 stand in the order of its DTD.
+// Writes the document in one of the two versions. Their elements have different names, and the
+// elements of 1.1.1 follow the order of its DTD.
 class CapabilitiesWriter {
   public:
     CapabilitiesWriter(WmsVersion version, std::string address)
@@ -146,7 +146,7 @@ void CapabilitiesWriter::write_operation(std::string_view name,
 }
 
 void CapabilitiesWriter::write_box(const render::EarthBox& box) {
-    // About the antimeridian, a box of this standard is all longitudes.
+    // In this standard, a box across the antimeridian must have all longitudes.
     const bool crosses = box.west_deg < -180 || box.east_deg > 180;
     const double west = crosses ? -180 : box.west_deg;
     const double east = crosses ? 180 : box.east_deg;
@@ -204,7 +204,8 @@ void CapabilitiesWriter::write_times(const MomentOfDomain& moment) {
     }
 }
 
-// 1.1.1 asks for the size of a legend, which is known only when it is drawn: there, none is named.
+// Writes the styles. 1.1.1 requires the size of a legend, which is known only after drawing, so it
+// gets no legends.
 void CapabilitiesWriter::write_styles(const std::string& layer,
                                       const std::vector<std::string>& styles) {
     for (const std::string& style : styles) {

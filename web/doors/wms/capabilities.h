@@ -1,9 +1,9 @@
-// web/doors/wms/capabilities.h -- what the Web Map Service says of itself (OGC 06-042, annex A.1,
+// web/doors/wms/capabilities.h -- the capabilities of the Web Map Service (OGC 06-042, annex A.1,
 // and OGC 01-068r3, annex A.1, for clients of 1.1.1).
 //
-// The layers stand in three ranks: domains, their moments, and the products of a moment, which
-// alone can be asked for. These name the instants of their grids, since QGIS does not take them
-// from the rank above.
+// The layers form three levels: domains, their moments, and the products of a moment. Only products
+// can be requested. Each product lists the instants of its grids, since QGIS does not inherit them
+// from the level above.
 //
 // Threads   Pure functions; they may open grids.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace stormcellar::web {
 
-// At /wms/DOMAIN of this domain alone, at /wms of all.
+// Returns the document: at /wms/DOMAIN for this domain only, at /wms for all.
 // Errors   A moment whose newest grid cannot be opened is left out.
 [[nodiscard]] std::string wms_capabilities(const Request& request, MapPictures& pictures);
 

@@ -54,7 +54,7 @@ WmsRead<int> whole_number(const WmsParameters& parameters, std::string_view name
     return number;
 }
 
-// "0xFFFFFF" as the standard writes colors.
+// Reads "0xFFFFFF", the standard's form of a color.
 WmsRead<render::Rgba8> color_of_text(std::string_view text) {
     std::uint32_t number = 0;
     const bool has_prefix = text.starts_with("0x") || text.starts_with("0X");
@@ -69,7 +69,8 @@ WmsRead<render::Rgba8> color_of_text(std::string_view text) {
     return render::Rgba8{byte(16), byte(8), byte(0), 255};
 }
 
-// JPEG has no transparency, so the standard has TRANSPARENT do nothing there.
+// Reads the background. JPEG has no transparency, so TRANSPARENT has no effect there, as the
+// standard says.
 WmsRead<std::optional<render::Rgba8>> ground_of(const WmsParameters& parameters, bool is_jpeg) {
     const auto transparent = parameters.find("TRANSPARENT");
     const bool is_true = transparent && same_letters(*transparent, "true");

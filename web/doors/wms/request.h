@@ -1,9 +1,9 @@
-// web/doors/wms/request.h -- what a client of the Web Map Service asks for (OGC 06-042, and the
-// older 1.1.1).
+// web/doors/wms/request.h -- reads a request to the Web Map Service (OGC 06-042, and the older
+// 1.1.1).
 //
-// Names of parameters are compared without regard to case, and those that nobody knows are ignored,
-// as the standard says. In 1.3.0 a box in EPSG:4326 begins with latitudes; in 1.1.1 and in CRS:84
-// it begins with longitudes.
+// Parameter names are compared without regard to case, and unknown ones are ignored, as the
+// standard says. A box in EPSG:4326 begins with latitudes in 1.3.0 and with longitudes in 1.1.1; a
+// box in CRS:84 begins with longitudes.
 //
 // Units     Those of the coordinate system: meters in EPSG:3857, degrees in EPSG:4326 and CRS:84.
 // Threads   Plain values and pure functions.
@@ -25,7 +25,7 @@
 namespace stormcellar::web {
 
 inline constexpr int most_wms_side = 4096;          // pixels
-inline constexpr std::size_t most_wms_layers = 16;  // of one picture
+inline constexpr std::size_t most_wms_layers = 16;  // in one picture
 inline constexpr std::array<std::string_view, 3> wms_systems{"EPSG:3857", "EPSG:4326", "CRS:84"};
 // Name of EPSG:3857 from before it had a number; older clients know no other.
 inline constexpr std::string_view older_web_mercator = "EPSG:900913";
@@ -54,9 +54,9 @@ class WmsParameters {
 };
 
 enum class WmsVersion { v1_1_1, v1_3_0 };
-// The version that VERSION names, 1.3.0 if it names none.
+// Returns the version that VERSION names, or 1.3.0 if there is none.
 [[nodiscard]] WmsRead<WmsVersion> wms_version(const WmsParameters& parameters);
-// The version in which to describe the service: 1.1.1 if VERSION names one below 1.3.0.
+// Returns the version in which to describe the service: 1.1.1 if VERSION is below 1.3.0.
 [[nodiscard]] WmsVersion wms_nearest_version(const WmsParameters& parameters);
 
 // A layer of the service is a layer of a domain: "KTLX:composite.REF".
@@ -66,12 +66,11 @@ struct WmsLayer {
 };
 [[nodiscard]] std::string wms_layer_name(std::string_view domain, const MapProduct& layer);
 
-// The styles of a layer: names of color tables. "default" is the first.
+// Returns the styles of a layer, which are names of color tables. "default" is the first.
 [[nodiscard]] std::vector<std::string> wms_styles_of(const MapProduct& layer);
 
-// Reads lists of layers and of their styles. An empty style is the default one. The options of
-// layers (web/data/pictures/map_product.h) are parameters too; each applies to the layers that use
-// it.
+// Reads the lists of layers and styles. An empty style means the default one. The options of layers
+// (web/data/pictures/map_product.h) are parameters, too; each applies to the layers that use it.
 [[nodiscard]] WmsRead<std::vector<WmsLayer>> wms_layers(const WmsParameters& parameters,
                                                         std::string_view layers,
                                                         std::string_view styles);

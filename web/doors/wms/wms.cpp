@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::chrono::hours farthest_nearest{1};
 
-// Clients of 1.1.1 know a fault by its own media type.
+// Answers with a fault. Clients of 1.1.1 recognize it by its own media type.
 Answer fault_answer(const Request& request, const WmsFault& fault) {
     const bool is_older = wms_nearest_version(WmsParameters(request.query)) == WmsVersion::v1_1_1;
     XmlWriter xml;
@@ -43,8 +43,8 @@ WmsFault fault_of(const Error& error) {
     return {"", without_paths(error.message) + ".", status_of(error)};
 }
 
-// The instant of a layer's grid, and what the header Warning says of it; empty: it is the one that
-// was asked for.
+// The instant of a layer's grid, and the text of the header Warning, which is empty if it is the
+// requested instant.
 struct ShownTime {
     UtcTime time;
     std::string warning;
@@ -93,11 +93,11 @@ std::string_view word_of(grid::CellStatus status) {
     return "";
 }
 
-// The value of one layer at the place that was asked about.
+// The value of one layer at the requested place.
 struct LayerValue {
     std::string layer, title, unit;
     UtcTime time;
-    std::optional<MapValue> found;  // none: outside of the grid
+    std::optional<MapValue> found;  // none: outside the grid
 };
 
 std::string plain_text(const std::vector<LayerValue>& values) {
@@ -162,7 +162,7 @@ WmsRead<WmsDoor::TimedPicture> WmsDoor::timed_picture(const WmsMap& map,
         if ((*grid)->may_change()) timed.max_age.reset();
         timed.picture.layers.push_back({std::move(*grid), layer.style});
         if (!shown->warning.empty()) {
-            // Another grid may come that is nearer.
+            // A nearer grid may come later.
             timed.max_age.reset();
             timed.warnings.emplace_back("Warning", shown->warning);
         }

@@ -7,10 +7,10 @@
 //   /wms?REQUEST=GetFeatureInfo&...&QUERY_LAYERS=...&I=...&J=...
 //   /wms?REQUEST=GetLegendGraphic&LAYER=...
 //
-// /wms/DOMAIN is the same, and its capabilities have that domain alone.
+// /wms/DOMAIN does the same; its capabilities have only that domain.
 //
-// TIME names the nearest grid within an hour; the header Warning says which one it was, as the
-// standard has it. The newest grid is the default.
+// TIME selects the nearest grid within an hour; the header Warning says which one was used, as the
+// standard requires. Without TIME, the newest grid is used.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -31,12 +31,12 @@ namespace stormcellar::web {
 class WmsDoor final : public Door {
   public:
     explicit WmsDoor(std::shared_ptr<MapPictures> pictures) : pictures_(std::move(pictures)) {}
-    // Pictures that are kept, while their grids are open.
+    // Answers with a kept picture, if its grids are open.
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
   private:
-    // A picture, and the headers that tell which instants it shows.
+    // A picture, and the headers that say which instants it shows.
     struct TimedPicture {
         MapPicture picture;
         Fields warnings;

@@ -61,7 +61,7 @@ std::string chunk_tag(const OpenGrid& grid, std::string_view array,
     return fmt::format("\"{}-{}-{}.{}.{}\"", grid.id, array, place[1], place[2], place[3]);
 }
 
-// Numbers of an axis from `first` on, NaN beyond their end.
+// Returns numbers of an axis from `first` on, padded with NaN beyond its end.
 std::string axis_chunk(const std::vector<double>& numbers, std::size_t first, std::size_t length) {
     std::vector<double> chunk(length, std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < length && first + i < numbers.size(); ++i)
@@ -117,8 +117,8 @@ std::optional<ZarrDoor::Named> ZarrDoor::named(const std::vector<std::string_vie
     return Named{std::string(path[1]), *moment};
 }
 
-// Every request describes the group anew, from the newest grid: that takes microseconds, and
-// nothing has to be told when a grid comes.
+// Describes the group anew for each request, from the newest grid. This takes microseconds, and no
+// notification of new grids is needed.
 Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
     const auto present = sources_.grids->times(named.domain, named.moment);
     if (present.empty())
@@ -166,7 +166,8 @@ std::optional<std::vector<std::size_t>> ZarrDoor::place_in(
     return place;
 }
 
-// False, too, where that takes longer than microseconds to say.
+// Returns true if the grid has the cells of the newest one. Returns false also if finding out takes
+// longer than microseconds.
 bool ZarrDoor::has_cells_of_newest(const Named& named, const OpenGrid& grid) const {
     const auto time = sources_.grids->newest(named.domain, named.moment);
     if (!time) return false;

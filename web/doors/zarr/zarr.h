@@ -1,12 +1,12 @@
 // web/doors/zarr/zarr.h -- grids over time as Zarr arrays (docs/web/zarr.md).
 //
-//   /zarr                     the groups that there are, as JSON
+//   /zarr                     the groups, as JSON
 //   /zarr/DOMAIN/MOMENT/...   a group in version 2 of the format, with consolidated metadata
 //   /zarr3/DOMAIN/MOMENT/...  the same in version 3
 //
-// Chunks are made when they are asked for, and kept. A chunk of a grid that was evicted is 404, as
-// the protocol has it for a chunk that is not there: readers take the fill value then, which for
-// the states is "unavailable".
+// Chunks are made on request and kept. A chunk of an evicted grid gets 404, the protocol's answer
+// for a missing chunk; readers then use the fill value, which means "unavailable" in the array of
+// states.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -37,13 +37,13 @@ class ZarrDoor final : public Door {
   public:
     ZarrDoor(ZarrSources sources, ZarrVersion version)
         : sources_(std::move(sources)), version_(version) {}
-    // Chunks that are kept, while their grid is open.
+    // Answers with a kept chunk, if its grid is open.
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
   private:
     struct Named;   // a domain and a moment that a path names
-    struct Opened;  // their group
+    struct Opened;  // the group of a Named
 
     [[nodiscard]] std::optional<Named> named(const std::vector<std::string_view>& path) const;
     [[nodiscard]] Result<Opened> open(const Named& named) const;
@@ -55,7 +55,7 @@ class ZarrDoor final : public Door {
                                const ZarrArray& array, const std::vector<std::size_t>& place) const;
     [[nodiscard]] Answer cells(const Request& request, const Named& named, const Opened& opened,
                                const ZarrArray& array, const std::vector<std::size_t>& place) const;
-    // The numbers of a chunk; none if this is no key of one.
+    // Returns the indexes of a chunk; none if the key is not a chunk's.
     [[nodiscard]] std::optional<std::vector<std::size_t>> place_in(
         const std::vector<std::string_view>& rest, std::size_t dimensions) const;
 
