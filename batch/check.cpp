@@ -40,7 +40,7 @@ class Check {
         return std::move(report_);
     }
 
-    // Writes the summary of a directory if all of its records are there.
+    // Writes the summary of a directory if all of its records exist.
     void sum_up(std::size_t first, std::size_t end) {
         Totals totals;
         for (std::size_t number = first; number < end; ++number) {
@@ -99,7 +99,7 @@ class Check {
         const auto standing = grids_standing(*store_, plan_, task);
         if (!standing) return pass_on(standing);
         if (digest_of(*standing) != record.digest) return false;
-        // The damaged grid that they lack may be made again.
+        // Frames that lack a damaged grid are not done; the grid may be made again.
         if (task.kind() == TaskKind::frames && !record.left_out.empty()) return false;
         for (const StandingGrid& grid : *standing) {
             const auto sound = is_sound(grid);
@@ -119,12 +119,12 @@ class Check {
             const bool is_whole = totals.tasks() == tasks;
             if (is_whole && json.at("plan") == plan_.facts().hash) return totals;
         } catch (const std::exception&) {
-            // It is made again.
+            // A damaged summary is made again.
         }
         return std::nullopt;
     }
 
-    // Without a summary, the next check reads the records again.
+    // Writes a summary and ignores a failure; the next check then reads the records again.
     void write_summary(const fs::path& path, const Totals& totals) const {
         Json json = json_of(totals);
         json["plan"] = plan_.facts().hash;

@@ -15,11 +15,11 @@
 namespace stormcellar::batch {
 namespace {
 
-// One kind of tasks, as a job array.
+// The tasks of one kind, as a job array.
 struct Step {
     const char* name;        // "grids"
-    const char* command;     // of `stormcellar batch`
-    std::size_t first, end;  // its tasks in the plan
+    const char* command;     // subcommand of `stormcellar batch`
+    std::size_t first, end;  // its tasks in the plan, [first, end)
     Resources needed;        // by one task
 };
 
@@ -84,8 +84,8 @@ std::string targets_of(const char* kind, const std::vector<std::size_t>& numbers
     return text;
 }
 
-// In a variable of a Makefile a dollar is doubled, and # begins a comment unless a backslash stands
-// before it. The backslashes before it are doubled then.
+// Quotes a text for a variable of a Makefile. A dollar is doubled. A # needs a backslash, or it
+// would begin a comment, and backslashes before it are doubled.
 std::string in_makefile(const std::string& text) {
     std::string escaped;
     std::size_t backslashes = 0;
@@ -184,7 +184,7 @@ Result<std::string> makefile_of(const Plan& plan, const TaskLists& tasks,
         in_makefile(quoted(plan.directory().native())), options.threads,
         targets_of("grid", tasks.grids), targets_of("frame", tasks.frames),
         targets_of("statistics", tasks.statistics));
-    // The hours of a day need the same grids, which are named once.
+    // The hours of a day need the same grids, so group tasks by needs to name them once.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_needs;
     for (const std::size_t number : tasks.frames) {
         const auto task = plan.task(number);

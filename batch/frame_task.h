@@ -1,9 +1,10 @@
-// batch/frame_task.h -- makes the frames of an hour, of what grid tasks left in the cache.
+// batch/frame_task.h -- makes the mosaics of an hour from the grids of the grid tasks.
 //
-// What is done is judged by records, never by what an engine says: frames are only made once all of
-// their grid tasks have a record. A frame that stands and was made of the present partials stays.
+// Records decide which tasks are done, not the engine: frames are made only once all of their grid
+// tasks have a record. An existing frame that was made from the present partials is kept.
 //
-// Threads   One task at a time in a process, because a process is measured as a whole.
+// Threads   One task at a time in a process, because the resources of the whole process are
+// measured.
 // Errors    unmet, naming the first grid task that is not done; those of the cache and of making
 //           frames; busy after a stop.
 #pragma once
@@ -12,8 +13,8 @@
 
 namespace stormcellar::batch {
 
-// Errors: unmet, naming the first of these tasks that has no record; those of check_stands(), and
-// of opening the cache.
+// Checks that the grid tasks are done. Errors: unmet, naming the first task without a record; those
+// of check_stands(), and of opening the cache.
 [[nodiscard]] Status check_needs(const Plan& plan, std::size_t first, std::size_t end);
 
 [[nodiscard]] Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task,

@@ -32,7 +32,7 @@ using pipeline::IngestResult;
 using StandingFiles = std::map<std::string, std::int64_t>;
 
 std::size_t hour_of(const fs::path& path) {
-    const std::string name = path.filename();  // or that of a member
+    const std::string name = path.filename();  // the file's name, or that of a member
     const auto volume = volume_named(name.substr(name.find_last_of(member_mark) + 1));
     if (!volume) return 0;
     return static_cast<std::size_t>((volume->start - UtcTime{volume->day()}) /
@@ -99,7 +99,7 @@ class GridRun {
         return options;
     }
 
-    // A source that is not mounted is an empty directory.
+    // Fails if files are missing: a source that is not mounted appears as an empty directory.
     [[nodiscard]] Status check_whole(const BroughtFiles& brought) const {
         if (brought.files.size() >= day_.files) return {};
         return fail(ErrorCode::io,
@@ -108,8 +108,8 @@ class GridRun {
                     recipe_.source, brought.files.size(), day_.files);
     }
 
-    // The files that need not be read again: those before the last one of which there is a grid, if
-    // there is a grid of them as they are. Of the last one a grid may be missing.
+    // Returns the files that need not be read again: the files with an unchanged grid that are
+    // before the last file with a grid. The last one may lack a grid of some moment.
     Result<std::set<fs::path>> files_done(const std::vector<fs::path>& files) const {
         const auto standing = grids_standing(store_, plan_, task_);
         if (!standing) return pass_on(standing);
@@ -133,7 +133,7 @@ class GridRun {
 
     Status take(pipeline::Ingestor& ingestor, const fs::path& path) {
         auto outcome = ingestor.ingest(path, true);
-        // The others are taken first, so that another try has little left to do.
+        // Grid the other files first, so that another try has little left to do.
         if (!outcome && outcome.error().code == ErrorCode::io) {
             if (!unread_) unread_ = std::move(outcome.error());
             return {};
@@ -141,7 +141,7 @@ class GridRun {
         if (!outcome && !is_shortage(outcome.error().code))
             outcome = ingestor.give_up(path, outcome.error());
         if (!outcome) return pass_on(outcome);
-        // Another user may be able to read it, or the source may be mounted again.
+        // Another user may be able to read the file, or the source may be mounted again.
         const auto* const rejected = std::get_if<pipeline::ended::Rejected>(&outcome->ending);
         if ((rejected && rejected->with == ErrorCode::permission) ||
             outcome->result() == IngestResult::vanished) {
@@ -187,7 +187,7 @@ class GridRun {
     cache::StoreWriter& store_;
     Usage usage_;
     Record record_;
-    std::optional<Error> unread_;  // of the first file that could not be read or gridded
+    std::optional<Error> unread_;  // for the first file that could not be read or gridded
 };
 
 }  // namespace
@@ -202,7 +202,7 @@ Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const Task
         const auto standing = grids_standing(*store, plan, task);
         if (!standing) return pass_on(standing);
         if (digest_of(*standing) == record->digest) return TaskOutcome{true, std::move(*record)};
-        // Until the grids stand again, no frame is made without them.
+        // Drop the record, so that no frame is made before the grids exist again.
         if (Status dropped = drop_record(plan, task); !dropped) return pass_on(dropped);
     }
     auto record = GridRun(plan, task, options, *store).run();

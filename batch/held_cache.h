@@ -1,8 +1,8 @@
-// batch/held_cache.h -- tells whether a task had the same cache from its beginning to its end.
+// batch/held_cache.h -- checks that a task had the same cache from beginning to end.
 //
-// A cache is often a mount. Where it is mounted or unmounted while a task runs, a part of the
-// task's grids is in the directory beneath. The directory is held open meanwhile, so that an
-// automounter keeps it. A mount that goes and comes back within one task is not noticed.
+// A cache is often a mount. If it is mounted or unmounted while a task runs, some of the task's
+// grids are in the directory beneath it. The object holds the directory open, so that an
+// automounter keeps it. It does not notice a mount that goes and comes back within one task.
 //
 // Threads   One thread at a time.
 // Errors    io.
@@ -17,10 +17,10 @@ namespace stormcellar::batch {
 
 class HeldCache {
   public:
-    // Opens the directory. If it is not there, check() fails.
+    // Opens the directory. If it does not exist, check() fails.
     explicit HeldCache(const std::filesystem::path& cache);
 
-    // Returns ok if the path still leads to the directory to which it led before.
+    // Returns ok if the path still leads to the same directory as at the start.
     [[nodiscard]] Status check() const;
 
   private:

@@ -1,10 +1,10 @@
-// batch/leftovers.h -- temporary files of writers that were killed.
+// batch/leftovers.h -- removes temporary files of writers that were killed.
 //
-// Many writers share a cache, so nobody may remove what another one is writing. A temporary file
-// says by its name which process of which host writes it (stormcellar/base/file_system.h).
+// Many writers share a cache, so no one may remove a file that another is writing. The name of a
+// temporary file contains the host and process that write it (stormcellar/base/file_system.h).
 //
-// Threads   Pure functions, but for the files.
-// Errors    None: what cannot be removed stays.
+// Threads   Pure functions, apart from the files.
+// Errors    None. Files that cannot be removed stay.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@
 
 namespace stormcellar::batch {
 
-// Removes the temporary files, in the directories of the task's grids, of processes of this host
-// that have ended.
+// Removes temporary files in the directories of the task's grids whose process ran on this host and
+// has ended.
 void remove_own_leftovers(const Recipe& recipe, const Task& task);
 
-// Removes all temporary files in the cache and beside the records. Call it when nothing runs any
-// more. Returns their number.
+// Removes all temporary files in the cache and beside the records. Call it when no task runs any
+// more. Returns the number of removed files.
 std::size_t remove_all_leftovers(const Plan& plan);
 
 }  // namespace stormcellar::batch

@@ -31,8 +31,8 @@ constexpr int version = 1;
 constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_task_bytes = std::size_t{1} << 20;
 
-// Estimates for gridding: bytes of raw files a second and processor, and the cost of each further
-// moment as a share of that of the first. docs/scaling.md has measured rates.
+// Estimates for gridding: bytes of raw files per second and processor, and the cost of each further
+// moment as a share of the first one's. docs/scaling.md has measured rates.
 constexpr double grid_bytes_a_second = 35e6;
 constexpr double share_of_more_moments = 0.6;
 // Seconds for a million cells of a frame.
@@ -61,7 +61,8 @@ double cost_of(const Recipe& recipe, const MonthHour&) {
                      1e6);
 }
 
-// The volumes around an hour's frames begin on the hour's day, or on a day that touches it.
+// Returns the task of an hour's frames. Their volumes begin on the hour's day or on an adjacent
+// day.
 FrameHour hour_of(const Recipe& recipe, UtcTime begin, const std::vector<StationDay>& all) {
     const UtcTime from = std::max(begin, recipe.from);
     const UtcTime to = std::min(begin + hours{1} - std::chrono::milliseconds{1}, recipe.to);
@@ -86,7 +87,8 @@ std::vector<FrameHour> hours_of(const Recipe& recipe, const std::vector<StationD
     return found;
 }
 
-// A month's statistics need all of its frames, whose tasks follow each other.
+// Returns the tasks of statistics. A month's statistics need all of its frames, whose tasks are
+// consecutive.
 std::vector<MonthHour> months_of(const Recipe& recipe, const std::vector<FrameHour>& frames,
                                  std::size_t first_frame_task) {
     std::map<std::tuple<int, unsigned, int>, MonthHour> found;
@@ -139,7 +141,7 @@ std::string line_of(std::size_t number, const MonthHour& part, double cost_s) {
         .dump();
 }
 
-// Gathers the lines of a plan, and what its first line says about them.
+// Collects the lines of a plan, and the facts for its first line.
 class PlanText {
   public:
     explicit PlanText(const Recipe& recipe) : recipe_(recipe) { facts_.hash = hash_of(recipe); }
@@ -220,7 +222,7 @@ Result<std::string> read_at(const Descriptor& file, const fs::path& path, std::u
     return text;
 }
 
-// It throws what nlohmann::json throws.
+// Reads a task. Throws the exceptions of nlohmann::json.
 Task task_of(const Json& json) {
     Task task;
     task.number = json.at("n");
@@ -314,7 +316,7 @@ Result<Task> Plan::task(std::size_t number) const {
         Task task = task_of(Json::parse(*line));
         if (task.number == number) return task;
     } catch (const std::exception&) {
-        // A damaged line is told below.
+        // The error below reports the damaged line.
     }
     return fail(ErrorCode::corrupt, "{}: the line of task {} is damaged", path.native(), number);
 }

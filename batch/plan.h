@@ -1,13 +1,13 @@
-// batch/plan.h -- the tasks that make an archive, in a file that each task reads one line of.
+// batch/plan.h -- the tasks that make an archive, in a file from which each task reads one line.
 //
-// PLAN/plan.jsonl is JSON, a document a line. The first line has the recipe; each further line is a
-// task, padded with blanks to the same length, so that a program finds task N without reading the
-// others. docs/guides/batch.md has the fields. Grid tasks come first, by day and then station; then
-// the frame tasks, by hour, and the statistics, by month and hour of the day. The same source,
-// range and recipe give the same bytes.
+// PLAN/plan.jsonl has one JSON document on each line. The first line holds the recipe. Each further
+// line is a task, padded with blanks to a common length, so that a program finds task N without
+// reading the others. docs/guides/batch.md lists the fields. Grid tasks come first, by day and then
+// station; then frame tasks, by hour; then statistics, by month and hour of the day. The same
+// source, range and recipe give the same bytes.
 //
-// Threads   A plan may be read by many threads.
-// Errors    not_found, corrupt, io; bad_argument for a number that is no task.
+// Threads   Many threads may read a plan.
+// Errors    not_found, corrupt, io; bad_argument for a number without a task.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,7 @@
 
 namespace stormcellar::batch {
 
-// The frames of an hour. They are made of what the tasks from `first_need` on, and before
-// `end_need`, made.
+// The frames of an hour. They need the grids of the tasks [first_need, end_need).
 struct FrameHour {
     UtcTime from, to;  // inclusive
     std::size_t first_need = 0, end_need = 0;
@@ -42,7 +41,7 @@ enum class TaskKind { grids, frames, statistics };
 
 struct Task {
     std::size_t number = 0;
-    double cost_s = 0;                                    // of a processor, estimated
+    double cost_s = 0;                                    // estimated processor time
     std::variant<StationDay, FrameHour, MonthHour> work;  // in the order of TaskKind
 
     [[nodiscard]] TaskKind kind() const { return static_cast<TaskKind>(work.index()); }
@@ -53,9 +52,9 @@ struct PlanFacts {
     std::size_t grid_tasks = 0, frame_tasks = 0, statistics_tasks = 0;
     std::size_t volumes = 0;    // 0: not known before the tasks run
     std::uint64_t bytes = 0;    // of the raw files
-    std::uint64_t largest = 0;  // of one station-day
-    double cost_s = 0;          // of all tasks
-    double largest_cost_s = 0;  // of one task
+    std::uint64_t largest = 0;  // largest station-day
+    double cost_s = 0;          // sum over all tasks
+    double largest_cost_s = 0;  // largest of one task
 
     [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
 };
@@ -83,11 +82,11 @@ class Plan {
     std::uint64_t first_task_at_ = 0, task_bytes_ = 0;
 };
 
-// Returns true if a plan can hold the text as it is: UTF-8 without control characters.
+// Returns true if a plan can hold the text unchanged: UTF-8 without control characters.
 [[nodiscard]] bool is_plan_text(const std::string& text);
 
 // Writes the plan of these station-days. Errors: also bad_argument if the directory has another
-// plan, or nothing is to be done.
+// plan, or if there is nothing to do.
 [[nodiscard]] Status write_plan(const std::filesystem::path& directory, const Recipe& recipe,
                                 const std::vector<StationDay>& days);
 

@@ -25,7 +25,7 @@ Json json_of_spec(const GridSpec& spec) {
             {"levels_m", spec.levels_m}};
 }
 
-// The readers below throw what nlohmann::json throws; recipe_of() catches it.
+// The readers below throw the exceptions of nlohmann::json, which recipe_of() catches.
 GridSpec spec_of(const Json& json) {
     GridSpec spec;
     const auto projection = grid::projection_from_name(json.at("projection").get<std::string>());

@@ -1,6 +1,6 @@
-// batch/recipe.h -- what an archive is made into: sources, times, stations and grids.
+// batch/recipe.h -- how an archive is gridded: sources, times, stations and grids.
 //
-// A recipe stands in the first line of a plan, so that each task has all that it needs there.
+// The first line of a plan holds the recipe, so that each task finds everything there.
 //
 // Units     Meters, degrees, seconds; times are UTC.
 // Threads   Plain data and pure functions.
@@ -23,31 +23,32 @@
 namespace stormcellar::batch {
 
 struct Recipe {
-    std::string source;           // an absolute directory, or the address of a bucket
-    std::filesystem::path cache;  // where the grids are kept
-    UtcTime from, to;             // of the frames, else of the starts of the volumes; inclusive
+    std::string source;           // an absolute directory, or the URL of a bucket
+    std::filesystem::path cache;  // directory of the grids
+    UtcTime from, to;             // of the frames, or without a domain of the volumes' starts;
+                                  // inclusive
     std::vector<level2::Moment> moments = {level2::Moment::ref};
     std::optional<grid::Tallied> statistics;  // of the domain's frames; none: no statistics
-    std::optional<pipeline::Domain> domain;   // none: own grids of the stations, of this shape
+    std::optional<pipeline::Domain> domain;   // none: each station's own grids, with this spec
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
 
-    // Returns the domain of the cache that has what a station gave.
+    // Returns the domain of the cache for the grids of a station.
     [[nodiscard]] std::string domain_of(const std::string& station) const;
-    // Returns how much earlier and later than from and to the volumes begin that are needed.
+    // Returns how much earlier than `from`, and later than `to`, needed volumes may begin.
     [[nodiscard]] std::chrono::milliseconds margin() const;
-    // Returns the same recipe as a fill of one moment takes it.
+    // Returns the recipe as options for filling in one moment.
     [[nodiscard]] pipeline::ArchiveOptions archive_options(int threads) const;
 };
 
-[[nodiscard]] bool is_address(const std::string& source);  // of a bucket
+[[nodiscard]] bool is_address(const std::string& source);  // true for the URL of a bucket
 
 [[nodiscard]] nlohmann::ordered_json json_of(const Recipe& recipe);
-// Errors: corrupt, for a document that json_of() did not make.
+// Reads a recipe. Errors: corrupt for a document that json_of() did not make.
 [[nodiscard]] Result<Recipe> recipe_of(const nlohmann::ordered_json& json);
 
-// Identifies the recipe and the software that makes it: what has another hash is of another plan.
+// Identifies the recipe and the software; a task with another hash belongs to another plan.
 [[nodiscard]] std::string hash_of(const Recipe& recipe);
 
 }  // namespace stormcellar::batch

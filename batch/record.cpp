@@ -27,7 +27,7 @@ Json json_of(const std::vector<NamedReason>& reasons) {
     return list;
 }
 
-// It throws what nlohmann::json throws.
+// Reads reasons. Throws the exceptions of nlohmann::json.
 std::vector<NamedReason> reasons_of(const Json& json) {
     std::vector<NamedReason> reasons;
     for (const Json& one : json)
@@ -77,7 +77,7 @@ Record read_fields(const Json& json) {
     record.grids = json.at("grids");
     record.digest = json.at("digest");
     record.notes = reasons_of(json.at("notes"));
-    // Records of frames before 2026-11-29 lack the list.
+    // Records of frames from before 2026-11-29 lack the list.
     if (json.contains("left_out")) record.left_out = reasons_of(json.at("left_out"));
     record.started = parse_utc(json.at("started").get<std::string>(), {}).value();
     record.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();

@@ -1,13 +1,14 @@
-// batch/record.h -- what a task did, in a file that appears when the task is done.
+// batch/record.h -- the result of a task, in a file that appears when the task is done.
 //
-// PLAN/tasks/00012/12345.json is the record of task 12345: a thousand records to a directory. Their
-// sum stands beside them once all are there (batch/check.h). docs/guides/batch.md has the fields.
+// PLAN/tasks/00012/12345.json is the record of task 12345; a directory has a thousand records.
+// Their sum is in the same directory once all exist (batch/check.h). docs/guides/batch.md lists the
+// fields.
 //
-// A record appears by rename. Of two tasks that ran at the same time, the last one's record stays;
-// what they made is the same.
+// A record appears by rename. If two runs of a task overlap, the record of the last one stays; both
+// make the same grids.
 //
 // Units     Seconds, bytes; times are UTC.
-// Threads   Pure functions, but for the files.
+// Threads   Pure functions, apart from the files.
 // Errors    Those of reading and writing files; corrupt.
 #pragma once
 
@@ -24,7 +25,7 @@
 namespace stormcellar::batch {
 
 struct NamedReason {
-    std::string name;  // of a file, without directories
+    std::string name;  // name of a file, without directories
     std::string reason;
 };
 
@@ -34,16 +35,16 @@ struct Record {
     std::size_t number = 0;
     std::string plan;  // the hash of its recipe
     TaskKind kind = TaskKind::grids;
-    std::string station;  // of grids
-    std::string day;      // of a station's files, as 20130520
-    // Raw files, taken or left out, and the grids or frames that exist.
+    std::string station;  // for grids
+    std::string day;      // for a station's files, as 20130520
+    // Numbers of raw files, taken or left out, and of the grids or frames that exist.
     std::size_t files = 0;
     std::size_t grids = 0;
     std::string digest;                 // identifies the grids to the byte
-    std::vector<NamedReason> left_out;  // of frames: damaged grids
-    std::vector<NamedReason> notes;     // taken, with a remark
+    std::vector<NamedReason> left_out;  // for frames: damaged grids
+    std::vector<NamedReason> notes;     // files taken, with a remark
     HourCounts taken_by_hour{}, left_out_by_hour{};
-    // Resources that the last run of the task used: less if it found grids of an earlier run.
+    // Resources of the last run of the task, which are lower if an earlier run had made some grids.
     UtcTime started, ended;
     double cpu_s = 0;
     std::uint64_t bytes_read = 0, bytes_written = 0, memory_bytes = 0;
@@ -54,10 +55,10 @@ inline constexpr std::size_t records_a_directory = 1000;
 [[nodiscard]] std::filesystem::path record_path(const std::filesystem::path& plan,
                                                 std::size_t number);
 
-// Returns what the file of a record has.
+// Returns the contents of the record's file.
 [[nodiscard]] std::string text_of(const Record& record);
 [[nodiscard]] Status write_record(const std::filesystem::path& plan, const Record& record);
-// Returns none if there is no record, or it is damaged, or of another recipe or another task.
+// Returns none if the record is missing, damaged, or of another recipe or task.
 [[nodiscard]] std::optional<Record> read_record(const Plan& plan, const Task& task);
 [[nodiscard]] Result<Record> parse_record(std::string_view text);
 

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_depth = 16;  // the same depth as the daemon
+constexpr int max_depth = 16;  // as deep as the daemon
 constexpr int transfers_of_a_task = 4;
 
 struct TimeSpan {
@@ -44,7 +44,7 @@ Error failure(const fs::path& path, const std::error_code& error) {
             fmt::format("{}: {}", path.native(), error.message())};
 }
 
-// Returns the file name of a member, which may lie in an archive inside the archive.
+// Returns the file name of a member, which may be in an archive inside the archive.
 std::string own_name_of(const std::string& member) {
     return fs::path(member.substr(member.find_last_of(member_mark) + 1)).filename();
 }
@@ -66,7 +66,7 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
         const std::string name = own_name_of(one.name);
         if (one.name.empty() || is_archive_name(name) || volume_named(name)) leave_out(name, one);
     }
-    // Others may stand behind a member where it is cut.
+    // Further members may follow the place at which the archive is cut.
     const std::string& why = reader->why_ended();
     if (reader->is_unreadable()) return fail(ErrorCode::io, "{}: {}", path.native(), why);
     if (!why.empty() && (left_out.empty() || left_out.back().reason != why))
@@ -74,7 +74,7 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     return {};
 }
 
-// Counts what belongs to each station-day while a source is walked.
+// Collects the files of each station-day while a source is walked.
 class Walk {
   public:
     Walk(fs::path root, TimeSpan span) : root_(std::move(root)), span_(span) {}
@@ -88,7 +88,7 @@ class Walk {
             if (pipeline::is_temporary_name(name)) continue;
             std::error_code unknown;
             const fs::file_type type = entry->symlink_status(unknown).type();
-            // A file that went away meanwhile is not missing.
+            // A file that was removed during the walk is not missing.
             if (unknown && type != fs::file_type::not_found)
                 return tl::unexpected(failure(entry->path(), unknown));
             if (type == fs::file_type::directory && depth < max_depth) {
@@ -173,7 +173,7 @@ class Walk {
     SourceListing listing_;
 };
 
-// The starts of the volumes that a task takes.
+// Returns the range of the starts of a task's volumes.
 TimeSpan span_of(const Recipe& recipe, std::chrono::sys_days day) {
     return {std::max<UtcTime>(day, recipe.from - recipe.margin()),
             std::min<UtcTime>(UtcTime{day} + std::chrono::days{1} - std::chrono::milliseconds{1},
@@ -193,7 +193,7 @@ Status set_time(const fs::path& path, UtcTime time) {
     return tl::unexpected(failure(path, {errno, std::system_category()}));
 }
 
-// Without a time of their own, members have that of their tar.
+// Returns the time of a file. Members without a time of their own have their tar's.
 Result<UtcTime> time_of(const fs::path& path) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0) {
@@ -211,7 +211,7 @@ Status add_members(const fs::path& tar, const StationDay& what, const TimeSpan& 
     const auto take = [&](const archive::Member& member) -> Status {
         const std::string name = own_name_of(member.name);
         if (!is_of(name, what, span)) return {};
-        // Another archive may hold a file of this name, whole or not.
+        // Another archive may hold a file of this name, complete or not.
         fs::path path = scratch / name;
         for (int number = 2; files.contains(path); ++number)
             path = scratch / std::to_string(number) / name;
@@ -282,7 +282,7 @@ std::optional<NamedVolume> volume_named(std::string_view file_name) {
     const std::string station = station_in_name(file_name);
     if (station.empty() || file_name.ends_with("_MDM")) return std::nullopt;
     constexpr std::size_t icao = 4, time = 15;
-    // NCEI puts a number of four digits before the station.
+    // NCEI writes four digits before the station.
     const std::size_t before = icao_of(file_name.substr(0, icao)) == station ? 0 : icao;
     if (file_name.size() < before + icao + time) return std::nullopt;
     const auto start = parse_compact(file_name.substr(before + icao, time));

@@ -1,13 +1,13 @@
-// batch/source.h -- the raw files of an archive: a directory, tars in it, or a public bucket.
+// batch/source.h -- finds the raw files of an archive: in a directory, in its tars, or in a public
+// bucket.
 //
-// A volume is known by its file's name, which begins with a station and the time at which the
-// volume begins (KTLX20130520_200356_V06.gz, 6500KTLX19910720_160529.Z). Nothing is decoded to make
-// a plan.
+// A volume is identified by its file's name, which begins with a station and the start of the
+// volume (KTLX20130520_200356_V06.gz, 6500KTLX19910720_160529.Z). A plan is made without decoding.
 //
-// Units     Sizes are in bytes; days are of UTC.
-// Threads   Pure functions, but for what they read.
-// Errors    Those of reading directories and tars, and of fetch::fetch(). What is damaged is left
-//           out; what cannot be read, which may pass, is an error.
+// Units     Sizes are in bytes; days are UTC.
+// Threads   Pure functions, apart from the files that they read.
+// Errors    Those of reading directories and tars, and of fetch::fetch(). Damaged files are left
+//           out. A file that cannot be read gives an error, because another try may succeed.
 #pragma once
 
 #include <atomic>
@@ -41,20 +41,21 @@ struct NamedVolume {
 struct StationDay {
     std::chrono::sys_days day;
     std::string station;
-    // The directories and tars that hold its files, below the source, sorted. Empty: a bucket.
+    // The directories and tars that hold its files, relative to the source, sorted. Empty for a
+    // bucket.
     std::vector<std::string> in;
     std::size_t files = 0;
     std::uint64_t bytes = 0;
 };
 
-// A station-day of a bucket is taken to have this size, because buckets are not listed for a plan.
+// Assumed size of a station-day of a bucket, because a plan does not list buckets.
 inline constexpr std::uint64_t bytes_of_unlisted_day = 1'500'000'000;
 
 struct SourceListing {
     std::vector<StationDay> days;  // by day, then station
-    std::size_t nameless = 0;      // files whose names say no station and time
+    std::size_t nameless = 0;      // files without a station and time in their names
     std::string first_nameless;
-    // Tars and members that may hold volumes and do not give them, with the reason.
+    // Tars and members that may hold volumes but cannot be read, with the reason.
     std::vector<std::string> cut;
     std::size_t links = 0;  // symbolic links, which are not followed
     std::filesystem::path first_link;
@@ -62,19 +63,20 @@ struct SourceListing {
 // Lists the volumes that begin in the range. Tars are read from end to end.
 [[nodiscard]] Result<SourceListing> list_source(const std::string& source, UtcTime from,
                                                 UtcTime to);
-// A bucket is not listed for a plan: each station may have files on each day of the range.
+// Returns a listing of a bucket without asking it: each station may have files on each day of the
+// range.
 [[nodiscard]] SourceListing every_day_of(const std::vector<std::string>& stations, UtcTime from,
                                          UtcTime to);
 
-// The files of a station-day where they can be read, by start and name.
+// The files of a station-day, made readable, by start and name.
 struct BroughtFiles {
     std::vector<std::filesystem::path> files;
-    std::filesystem::path beneath;  // all are below this directory
+    std::filesystem::path beneath;  // the directory that holds all of them
     std::vector<pipeline::LeftOut> left_out;
 };
-// Members of tars and files of a bucket are brought to `scratch`, with the times that they have
-// there. Files that the bucket lists and refuses to give are left out. Errors: also io if one could
-// not be fetched for another reason, and busy after a stop.
+// Makes the files of a station-day readable. Members of tars and files of a bucket are copied to
+// `scratch` with their times. Files that the bucket lists but refuses are left out. Errors: also io
+// if a file could not be fetched for another reason, and busy after a stop.
 [[nodiscard]] Result<BroughtFiles> bring(const Recipe& recipe, const StationDay& what,
                                          const std::filesystem::path& scratch,
                                          const std::atomic<bool>& stop);

@@ -15,8 +15,8 @@
 namespace stormcellar::batch {
 namespace {
 
-// A volume begins at most this long before the time in its file's name. A file that several volumes
-// were joined in may hold later ones; those that begin later than this are made again each time.
+// A volume begins at most this long before the time in its file's name. A file of several joined
+// volumes may hold later ones; those that begin later than this are made again each time.
 constexpr std::chrono::minutes most_before{15};
 constexpr std::chrono::hours most_after{2};
 
@@ -45,14 +45,14 @@ bool is_of(const cache::GridDescription& description, const Recipe& recipe, cons
            pipeline::is_of_grid(recipe.archive_options(1), description);
 }
 
-// Returns true if the file could not be read, which says nothing of its contents.
+// Returns true if the file could not be read, so that its contents may still be sound.
 bool may_be_sound(const Error& error) {
     return error.code == ErrorCode::io || is_shortage(error.code);
 }
 
 struct Found {
     std::vector<StandingGrid> standing;
-    std::size_t damaged = 0;  // their headers do not say of which task they are
+    std::size_t damaged = 0;  // damaged headers do not name their task
 };
 
 Result<Found> find_grids(const cache::StoreReader& store, const Recipe& recipe, const Task& task) {
@@ -98,7 +98,7 @@ Status check_stands(const cache::StoreReader& store, const Plan& plan, const Tas
     const auto found = find_grids(store, plan.recipe(), task);
     if (!found) return pass_on(found);
     const std::size_t there = found->standing.size() + found->damaged;
-    if (there > record.grids) return {};  // another plan has the same cache
+    if (there > record.grids) return {};  // another plan uses the same cache
     if (there < record.grids) {
         return fail(ErrorCode::io,
                     "{}: has {} of the {} grids that task {} made; if the others are lost, submit "
@@ -111,7 +111,7 @@ Status check_stands(const cache::StoreReader& store, const Plan& plan, const Tas
 }
 
 Result<bool> is_sound(const StandingGrid& grid) {
-    if (grid.path.empty()) return true;  // the checksum of counts is that of all their bytes
+    if (grid.path.empty()) return true;  // the checksum of counts covers all their bytes
     const auto file = cache::GridFile::open(grid.path);
     const Status sound = file ? file->verify() : Status{pass_on(file)};
     if (!sound && may_be_sound(sound.error())) return pass_on(sound);
@@ -125,7 +125,7 @@ Status remove_damaged(const cache::StoreReader& store, const Plan& plan, const T
         const auto sound = is_sound(grid);
         if (!sound) return pass_on(sound);
         if (*sound) continue;
-        // Until it stands again, no frame is made without it.
+        // Drop the record, so that no frame is made before the grid exists again.
         if (Status dropped = drop_record(plan, task); !dropped) return dropped;
         std::error_code error;
         std::filesystem::remove(grid.path, error);

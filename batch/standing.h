@@ -1,9 +1,9 @@
-// batch/standing.h -- the grids of a task that the cache holds, whoever made them.
+// batch/standing.h -- finds the grids of a task in the cache, whoever made them.
 //
-// Threads   Pure functions, but for the files.
-// Errors    Those of listing the cache and of reading its files. A grid does not stand if its
-//           header is damaged, if it is of another shape, or if another version of this software
-//           made it.
+// Threads   Pure functions, apart from the files.
+// Errors    Those of listing the cache and of reading its files. A grid does not count if its
+//           header is damaged, if it has another shape, or if another version of this software made
+//           it.
 #pragma once
 
 #include <cstdint>
@@ -19,32 +19,32 @@
 namespace stormcellar::batch {
 
 struct StandingGrid {
-    std::string volume;        // level2::volume_name() of what it was made of; empty: a frame
-    std::int64_t made_ns = 0;  // when its file was written, since 1970
+    std::string volume;        // level2::volume_name() of its volume; empty: a frame
+    std::int64_t made_ns = 0;  // time of its file, since 1970
     UtcTime time;
     std::uint64_t checksum = 0;
     std::uint64_t bytes = 0;  // on disk
     std::filesystem::path path;
 };
 
-// Returns the grids of the task in order of moment, then time. Of statistics it is the file of
+// Returns the grids of the task in order of moment, then time. For statistics this is the file of
 // counts.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
 
-// Returns ok if the cache has the grids that a task made, by its record. Damaged grids count as
-// there. If another plan added grids of the same day, only the number is compared. Errors: also io
-// if there are fewer grids or others, for example because the cache is not mounted.
+// Returns ok if the cache has the grids of the task's record. Damaged grids count as present. If
+// another plan added grids of the same day, only the number is compared. Errors: also io if there
+// are fewer or different grids, for example because the cache is not mounted.
 [[nodiscard]] Status check_stands(const cache::StoreReader& store, const Plan& plan,
                                   const Task& task, const Record& record);
 
-// Returns true if all bytes of the grid are those that were written.
+// Returns true if all bytes of the grid are as they were written.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
-// Removes the record of a task that has damaged grids, and then these grids.
+// Removes the record of a task with damaged grids, and then these grids.
 [[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,
                                     const Task& task);
 
-// Identifies grids to the byte, in their order.
+// Returns a digest of all bytes of these grids, in their order.
 [[nodiscard]] std::string digest_of(const std::vector<StandingGrid>& grids);
 
 }  // namespace stormcellar::batch

@@ -25,13 +25,13 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t most_tally_bytes = std::uint64_t{8} << 30;
-constexpr int fastest = 1;  // most counts are small, so little is gained by more
+constexpr int fastest = 1;  // most counts are small, so more effort gains little
 
 std::string name_of(const MonthHour& part) {
     return fmt::format("{:04}{:02}-{:02}", part.year, part.month, part.hour);
 }
 
-// The instants of the month's days at which the hour has frames.
+// Returns the instants at which the hour has frames, on all days of the month.
 std::vector<UtcTime> instants_of(const Recipe& recipe, const MonthHour& part) {
     using namespace std::chrono;
     const auto first = year{part.year} / month{part.month} / day{1};
@@ -48,7 +48,7 @@ std::vector<UtcTime> instants_of(const Recipe& recipe, const MonthHour& part) {
     return all;
 }
 
-// Reads the frames that there are. An instant without volumes around it has none.
+// Counts the frames that exist. An instant without volumes around it has none.
 Result<std::uint64_t> count_frames(const cache::StoreReader& store, const Recipe& recipe,
                                    const std::vector<UtcTime>& instants, const TaskOptions& options,
                                    grid::GridTally& tally) {

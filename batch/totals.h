@@ -1,4 +1,4 @@
-// batch/totals.h -- sums of the records of tasks.
+// batch/totals.h -- sums up the records of tasks.
 //
 // Threads   Pure functions.
 #pragma once
@@ -25,20 +25,20 @@ struct Totals {
     std::size_t grid_tasks = 0, frame_tasks = 0, statistics_tasks = 0;  // done
     std::size_t files = 0, left_out = 0, grids = 0, frames = 0;
     [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
-    double cpu_s = 0, cost_s = 0;  // taken, and what the plan estimated for the same tasks
+    double cpu_s = 0, cost_s = 0;  // used, and the plan's estimate for the same tasks
     std::uint64_t bytes_read = 0, bytes_written = 0, most_memory_bytes = 0;
-    std::optional<UtcTime> started, ended;  // of the first, and of the last
+    std::optional<UtcTime> started, ended;  // of the first task, and of the last
     std::map<std::string, StationHours> stations;
     std::vector<std::size_t> with_left_out;  // tasks that left files out
 };
 
-// Adds the record of a task that the plan estimated to cost so many seconds of a processor.
+// Adds the record of a task, for which the plan estimated `cost_s` seconds of a processor.
 void add(const Record& record, double cost_s, Totals& totals);
 void add(const Totals& more, Totals& all);
 
-// The totals must hold at least one record.
+// The totals must include at least one record.
 [[nodiscard]] nlohmann::ordered_json json_of(const Totals& totals);
-// Throws what nlohmann::json throws if something is missing or of another type.
+// Throws the exceptions of nlohmann::json if a field is missing or has another type.
 [[nodiscard]] Totals totals_of(const nlohmann::ordered_json& json);
 
 }  // namespace stormcellar::batch

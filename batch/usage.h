@@ -1,4 +1,4 @@
-// batch/usage.h -- what a task takes of a machine.
+// batch/usage.h -- measures the resources that a task uses.
 //
 // Threads   One task at a time in a process.
 #pragma once
@@ -9,8 +9,8 @@ namespace stormcellar::batch {
 
 class Usage {
   public:
-    Usage();  // the task begins
-    // Writes times, processor seconds, the process's largest memory, and the host.
+    Usage();  // starts the measurement
+    // Writes times, processor seconds, the process's peak memory, and the host to the record.
     void end(Record& record) const;
 
   private:
