@@ -1,7 +1,7 @@
 // fetch/bucket/bucket_listing.h -- reads the listing of a public bucket of Level II files.
 //
 // The keys of the bucket are YYYY/MM/DD/STATION/NAME (docs/data-sources.md). A listing is a GET of
-// ?list-type=2&prefix=..., in pages that a token continues (Amazon S3, ListObjectsV2). Other
+// ?list-type=2&prefix=..., in pages that a token continues (Amazon S3, ListObjectsV2). Compatible
 // servers give the same answers.
 //
 // Threads   Pure functions.
@@ -29,23 +29,25 @@ struct BucketObject {
 
 struct ListingPage {
     std::vector<BucketObject> objects;
-    std::vector<std::string> folders;  // prefixes that a listing by folders names, with a last '/'
+    std::vector<std::string> folders;  // prefixes that a listing by folders returns, each ending in
+                                       // '/'
     std::string next_token;            // empty: this is the last page
 };
 
 struct ListingQuestion {
     std::string prefix;
-    std::string start_after = {};  // only keys behind this one; empty: all
+    std::string start_after = {};  // only keys after this one; empty: all
     bool by_folders = false;       // name the folders below the prefix instead of their objects
-    int most_keys = 1000;          // of a page
-    std::string token = {};        // of the last page; empty: the first page is wanted
+    int most_keys = 1000;          // in one page
+    std::string token = {};        // from the last page; empty: ask for the first page
 };
 
-// Parses a page. Errors: corrupt if the text is not a listing, or says that it continues and not
-// where.
+// Parses a page. Errors: corrupt if the text is not a listing, or if it has more pages but no
+// token.
 [[nodiscard]] Result<ListingPage> parse_listing(std::span<const std::byte> xml);
 
-// `source` is the address of the bucket, "https://HOST" or "https://HOST/BUCKET".
+// Returns the URL of a listing. `source` is the URL of the bucket, "https://HOST" or
+// "https://HOST/BUCKET".
 [[nodiscard]] std::string listing_url(std::string_view source, std::string_view prefix,
                                       std::string_view token);
 [[nodiscard]] std::string listing_url(std::string_view source, const ListingQuestion& question);

@@ -26,7 +26,7 @@ constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // for one pag
 constexpr std::size_t most_pages = 20;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
-// A file that is being downloaded. What has come is kept beside its final place, in a hidden file.
+// A file that is being downloaded. The bytes so far are beside its final place, in a hidden file.
 struct Download {
     BucketObject object;
     fs::path target, part;
@@ -54,8 +54,8 @@ void set_time(const fs::path& path, UtcTime time) {
     (void)::utimensat(AT_FDCWD, path.c_str(), times, 0);
 }
 
-// Returns the name of a file while it is being downloaded. A part of another content has another
-// name.
+// Returns the name of a file while it is being downloaded. It includes the tag, so parts of
+// different contents do not mix.
 std::string part_name_of(const BucketObject& object) {
     const std::int64_t modified = object.modified ? object.modified->time_since_epoch().count() : 0;
     const std::string contents =
@@ -71,7 +71,7 @@ bool is_plain_tag(std::string_view tag) {
            std::ranges::all_of(tag.substr(1, tag.size() - 2), is_plain);
 }
 
-// Letters, digits, '_', '-' and dots inside are what the names of raw files have.
+// Returns true for names of raw files: letters, digits, '_', '-' and dots that are not at the ends.
 bool is_plain_name(std::string_view name) {
     const auto is_plain = [](char c) {
         return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
@@ -121,7 +121,7 @@ class Fetching {
             auto listing = outcome.good
                                ? parse_listing(*body)
                                : Result<ListingPage>{fail(ErrorCode::io, "{}", outcome.reason)};
-            // A listing that was cut on the way is not a listing either.
+            // A listing that was truncated in transfer is asked for again.
             const bool again = outcome.good ? !listing : outcome.may_be_tried_again;
             if (!listing && again && tries + 1 < request_.tries) {
                 list(prefix, token, page, tries + 1);
@@ -266,7 +266,7 @@ class Fetching {
     const FetchRequest& request_;
     Transfers& transfers_;
     FetchReport report_;
-    std::map<std::string, std::string> taken_;  // names, and their keys
+    std::map<std::string, std::string> taken_;  // names with their keys
     std::size_t failed_files_ = 0;
 };
 

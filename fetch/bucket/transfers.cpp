@@ -20,7 +20,7 @@ constexpr long slowest_bytes_per_s = 200;
 constexpr std::uint64_t most_error_bytes = std::uint64_t{1} << 20;
 constexpr std::chrono::hours most_retry_after{24};
 
-// Forbidden, not found, gone.
+// Returns true for statuses that another try would not change: forbidden, not found, gone.
 bool is_for_good(long status) {
     return status == 403 || status == 404 || status == 410;
 }
@@ -54,7 +54,7 @@ struct Transfers::Running {
     CURL* easy = nullptr;
     bool has_begun = false;
     bool was_refused = false;
-    bool has_wrong_range = false;   // the server answers with another part than was requested
+    bool has_wrong_range = false;   // the server answers with another part than requested
     std::uint64_t error_bytes = 0;  // size of the body of an error
     curl_slist* headers = nullptr;
     std::array<char, CURL_ERROR_SIZE> error{};
@@ -84,7 +84,7 @@ struct Transfers::Running {
         auto& running = *static_cast<Running*>(self);
         const long status = running.status();
         const std::size_t length = size * count;
-        // The body of an error is of no use, and one without an end is an error itself.
+        // The body of an error is useless, and an error with an endless body would never end.
         if (status != http_ok && status != http_partial) {
             running.error_bytes += length;
             return running.error_bytes <= most_error_bytes ? length : 0;
@@ -137,7 +137,7 @@ bool Transfers::start(Transfer transfer) {
     const std::string agent = fmt::format("{}/{}", options_.agent, software_version);
     curl_easy_setopt(easy, CURLOPT_URL, running->transfer.url.c_str());
     curl_easy_setopt(easy, CURLOPT_PROTOCOLS_STR, "http,https");
-    // A request over https must not be redirected to http.
+    // If the request uses https, forbid redirects to http.
     const bool is_safe = running->transfer.url.starts_with("https");
     curl_easy_setopt(easy, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
     curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, options_.most_redirects > 0 ? 1L : 0L);

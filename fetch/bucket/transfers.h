@@ -31,7 +31,7 @@ struct Transfer {
     // The tag of the wanted content, if only a part is requested. A server with another content
     // answers 412.
     std::string tag;
-    // Takes the body. It returns false if it cannot be taken, and the transfer then fails for good.
+    // Takes the body. Returns false if it cannot, and the transfer then fails for good.
     std::function<bool(const std::byte* bytes, std::size_t count)> take;
     // Called before the body of each answer. `from_byte` is where the body begins, which is 0 if
     // the server sends the whole object although a part was requested.
@@ -39,12 +39,12 @@ struct Transfer {
     struct Outcome {
         bool good = false;
         bool may_be_tried_again = false;
-        // it cannot continue at from_byte; only the whole object can be had
+        // the server cannot continue at from_byte; only the whole object can be had
         bool part_is_useless = false;
-        bool is_refused = false;              // the server answered, and will not give it
-        std::string reason;                   // set if it is not good
-        long status = 0;                      // of HTTP; 0: no answer
-        std::chrono::seconds retry_after{0};  // how long the server asks to wait
+        bool is_refused = false;              // the server answered and refuses to give it
+        std::string reason;                   // set if the transfer failed
+        long status = 0;                      // HTTP status; 0: no answer
+        std::chrono::seconds retry_after{0};  // the wait that the server asks for
         std::optional<UtcTime> modified;
     };
     // May add further transfers, including this one with another from_byte.
@@ -53,10 +53,10 @@ struct Transfer {
 
 struct TransferOptions {
     int parallel = 8;
-    std::chrono::seconds stall{30};   // a transfer without a byte for so long fails
-    std::chrono::seconds longest{0};  // a whole transfer; 0: any time
+    std::chrono::seconds stall{30};   // a transfer without a byte for this long fails
+    std::chrono::seconds longest{0};  // for a whole transfer; 0: no limit
     long most_redirects = 5;
-    std::string proxy = {};             // an address; empty: as the environment says, or as below
+    std::string proxy = {};             // a URL; empty: as the environment says, or as below
     bool is_direct = false;             // without a proxy, whatever the environment says
     std::string ca_file = {};           // certificates to trust; empty: those of the system
     std::string agent = "stormcellar";  // the program's name for the server
@@ -69,7 +69,7 @@ class Transfers {
     Transfers& operator=(const Transfers&) = delete;
     ~Transfers();
 
-    // Adds a transfer, which begins when there is room and `wait` has passed.
+    // Adds a transfer. It begins when there is room and `wait` has passed.
     void add(Transfer transfer, std::chrono::milliseconds wait = {});
     // Runs until all transfers have ended or the flag is set. Calls `turn` often.
     void run(const std::atomic<bool>* stop, const std::function<void()>& turn);

@@ -1,15 +1,15 @@
-// fetch/feed/bucket_client.h -- asks the bucket: listings and chunks, many at a time, on one
+// fetch/feed/bucket_client.h -- fetches listings and chunks from the bucket, many at a time, on one
 // thread.
 //
-// Only the address of the configuration is asked: redirections are not followed, and proxies of the
-// environment are ignored. An answer is bounded in bytes, in time, and in pages.
+// The client talks only to the configured address: it follows no redirects and ignores proxies of
+// the environment. Each answer is limited in bytes, time, and pages.
 //
 // Threads   One thread at a time; it calls the functions that take answers, within run().
 // Errors    Passed to the function that takes the answer; the message says what the server did.
-//           busy        it may pass: no connection, a timeout, 429, 500 and above, or cut
+//           busy        may pass: no connection, a timeout, 429, 500 and above, or cut off
 //           not_found   404 and 410
 //           permission  403
-//           over_budget more bytes or pages than anyone needs
+//           over_budget more bytes or pages than are plausible
 //           truncated   fewer bytes than the listing says
 //           corrupt     not a listing
 //           io          any other answer
@@ -43,7 +43,7 @@ class BucketClient {
     BucketClient& operator=(const BucketClient&) = delete;
     ~BucketClient();
 
-    // Asks after `wait`. A listing of many pages is passed on as one.
+    // Asks for a listing after `wait`. The pages of a long listing are passed on as one.
     void list(fetch::ListingQuestion question, std::chrono::milliseconds wait,
               std::function<void(Result<fetch::ListingPage>)> taken);
     // Asks for an object that has exactly `size` bytes.
@@ -51,7 +51,7 @@ class BucketClient {
     // Runs until the flag is set or nothing is left to ask. Calls `turn` often.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
 
-    // Returns how long the server asked to wait, in the answer that is being taken.
+    // Returns the wait that the server asked for in the answer that is being taken.
     [[nodiscard]] std::chrono::seconds retry_after() const { return retry_after_; }
 
   private:

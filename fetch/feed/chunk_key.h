@@ -2,12 +2,12 @@
 // SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E.
 //
 // A key is also the path of the chunk below the drop directory, where LDM would put it. So only
-// keys of exactly this form are taken: a station's name, a volume number from 1 to 999 without
-// leading zeros, a time that exists, and a chunk's number of three digits.
+// keys of exactly this form are accepted: a station's name, a volume number from 1 to 999 without
+// leading zeros, a valid time, and a chunk's number of three digits.
 //
-// Units     Times are those of the radar: the start of the volume.
+// Units     Times are the radar's: the start of the volume.
 // Threads   Plain values and pure functions.
-// Errors    None; a key of another form gives std::nullopt.
+// Errors    None. A key of another form gives std::nullopt.
 #pragma once
 
 #include <chrono>
@@ -23,13 +23,13 @@ namespace stormcellar::feed {
 
 inline constexpr int last_volume = 999;  // 1 follows
 inline constexpr int last_chunk = 999;
-// A key of a later time than this after now is not taken, so that it cannot pass for the newest for
-// ever. Clocks may differ by less.
+// A key whose time is further in the future than this is rejected, so that it does not count as the
+// newest forever. Clocks may differ by less.
 inline constexpr std::chrono::hours tolerated_clock_error{24};
 
 struct VolumeId {
     UtcTime time;    // first, so that volumes are sorted by time
-    int number = 0;  // of its directory, 1 to 999
+    int number = 0;  // directory, 1 to 999
     auto operator<=>(const VolumeId&) const = default;
 };
 
@@ -46,7 +46,7 @@ struct ChunkKey {
 
 // Returns the number of a volume's directory, from "494"; none for anything else.
 [[nodiscard]] std::optional<int> parse_volume_number(std::string_view text);
-// Returns the number `steps` further on the ring of volume numbers.
+// Returns the number `steps` further around the ring of volume numbers.
 [[nodiscard]] int volume_number_after(int number, int steps = 1);
 // Returns "KTLX/494/", the prefix of the keys of a directory.
 [[nodiscard]] std::string directory_of(std::string_view station, int number);

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_stations = 400;
 
-// tests/fetch/feed/feed_config_test.cpp reads the shipped file, which has all of them.
+// tests/fetch/feed/feed_config_test.cpp loads the shipped file, which has all of these tables, so a
+// missing name fails there.
 constexpr const char* tables_of_others[] = {"ingest",  "cache", "domain",   "loop",
                                             "catalog", "watch", "partials", "status",
                                             "station", "web",   "pull"};

@@ -1,4 +1,4 @@
-// fetch/feed/feed_config.h -- what stormcellar-feed reads of stormcellard.toml: [feed].
+// fetch/feed/feed_config.h -- reads the table [feed] of stormcellard.toml.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -18,13 +18,14 @@ inline constexpr const char* default_bucket =
 
 struct FeedConfig {
     std::vector<std::string> stations;
-    std::string bucket = default_bucket;  // without a last '/'
+    std::string bucket = default_bucket;  // without a '/' at the end
     std::filesystem::path drop = "/var/lib/stormcellar-feed/drop";
-    std::filesystem::path state = "/var/lib/stormcellar-feed";  // of status.json
+    std::filesystem::path state = "/var/lib/stormcellar-feed";  // directory of status.json
     std::chrono::milliseconds every{4000};
     std::chrono::seconds keep{std::chrono::hours{8}};  // age of volumes in the drop directory
-    std::uint64_t bytes = 50'000'000'000;              // of all of them; the oldest give way
-    std::chrono::seconds stall{20};  // a transfer without a byte for so long fails
+    std::uint64_t bytes = 50'000'000'000;              // for all volumes; the oldest are removed
+                                                       // first
+    std::chrono::seconds stall{20};  // a transfer without a byte for this long fails
     std::string proxy;               // empty: none
     std::string ca_file;             // empty: the certificates of the system
     std::string log_level = "info";  // debug, info, warning or error
@@ -36,9 +37,9 @@ struct FeedConfig {
     bool operator==(const FeedConfig&) const = default;
 };
 
-// Relative paths start at the directory of the file. The tables of other programs are not looked
-// at, but for [paths] drop, in which `drop` must be if stations are named. Errors: those of reading
-// the file; bad_argument, "FILE:LINE: [section] key: why".
+// Relative paths start at the directory of the file. Tables of other programs are ignored, except
+// [paths] drop, which must contain `drop` if stations are named. Errors: those of reading the file;
+// bad_argument, "FILE:LINE: [section] key: why".
 [[nodiscard]] Result<FeedConfig> load_feed_config(const std::filesystem::path& file);
 
 }  // namespace stormcellar::feed

@@ -19,7 +19,7 @@ std::uint64_t counted_bytes(std::uint64_t size) {
     return std::max(size, least_counted);
 }
 
-// Names below a directory; none if it cannot be read. Links are not followed.
+// Returns the names in a directory; none if it cannot be read. Links are not followed.
 std::vector<std::string> names_in(const fs::path& directory, fs::file_type type) {
     std::vector<std::string> names;
     std::error_code error;
@@ -119,8 +119,8 @@ void FeedDrop::remove(const Volume& volume) {
     for (const std::string& name : names_in(directory, fs::file_type::regular))
         if (name.starts_with(prefix)) (void)file_system_->remove(directory / name);
     std::error_code ignored;
-    fs::remove(directory_ / station / std::to_string(id.number), ignored);  // if it is empty
-    fs::remove(directory_ / station, ignored);                              // the same
+    fs::remove(directory_ / station / std::to_string(id.number), ignored);  // if empty
+    fs::remove(directory_ / station, ignored);                              // if empty
     bytes_ -= volumes_[volume];
     volumes_.erase(volume);
 }

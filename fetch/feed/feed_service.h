@@ -1,8 +1,8 @@
-// fetch/feed/feed_service.h -- the stations of a configuration, the drop directory and the file
-// that says how it goes, on one thread.
+// fetch/feed/feed_service.h -- follows the configured stations, with the drop directory and the
+// status file, on one thread.
 //
-// A station goes on where the drop directory shows that it was, if that is less than 20 minutes
-// ago; otherwise it begins with the newest volume but one.
+// A station continues where the drop directory shows that it stopped, if that was less than 20
+// minutes ago; otherwise it begins with the newest volume but one.
 //
 // Threads   One thread at a time.
 // Errors    open(): the directories cannot be made or read, or libcurl cannot be started.
@@ -30,7 +30,7 @@ class FeedService {
 
     // Follows the stations until the flag is set. Calls `turn` ten times a second or more often.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
-    // Writes status.json if it would say something new. Errors: those of writing.
+    // Writes status.json if its contents have changed. Errors: those of writing.
     Status publish();
     [[nodiscard]] FeedStatus status() const;
 

@@ -1,4 +1,5 @@
-// stormcellar-feed: follows the public chunk bucket for some stations. Its usage is the text below.
+// stormcellar-feed: follows the public chunk bucket for some stations. The text below describes its
+// usage.
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -18,7 +19,8 @@ namespace stormcellar::feed {
 namespace {
 
 constexpr std::string_view program = "stormcellar-feed";
-// The program looks for signals, and writes the status and feeds the watchdog, as often as this.
+// How often the program checks for signals, and how often it writes the status and feeds the
+// watchdog.
 constexpr std::chrono::milliseconds between_looks{100}, between_reports{2000};
 
 constexpr std::string_view usage =
@@ -39,7 +41,7 @@ Result<FeedConfig> load_with_stations(const std::filesystem::path& file) {
     return config;
 }
 
-// Runs until a signal comes, and returns its number.
+// Runs until a signal comes. Returns the signal's number.
 int run_until_signal(FeedService& service, const Signals& signals, Notifier& notifier) {
     std::atomic<bool> stop{false};
     int number = 0;
@@ -59,7 +61,7 @@ int run_until_signal(FeedService& service, const Signals& signals, Notifier& not
     return number;
 }
 
-// Returns none if the service goes on as it was.
+// Returns the service of the new configuration; none if it cannot be made, and the old one goes on.
 std::unique_ptr<FeedService> reloaded(const std::filesystem::path& file) {
     const auto fresh = load_with_stations(file);
     if (!fresh) {

@@ -2,12 +2,12 @@
 //
 // One listing names the directories that exist. In the order of their numbers, their times rise to
 // the newest and then fall once to the oldest, wherever that is. So the search takes the first
-// directory's newest time and bisects: a directory that has something newer comes before the fall,
-// any other one behind it. That takes some 12 listings, once, however full the ring is.
-// When a station has jumped to another number, the ring may fall more than once, and the search may
-// find the end of any rise; StationFollower looks further when nothing comes after it.
+// directory's newest time and bisects: a directory with something newer is before the fall, any
+// other one is behind it. That takes some 12 listings, once, however full the ring is. If a station
+// has jumped to another number, the times may fall more than once, and the search may find the end
+// of any rise; StationFollower looks further if nothing comes after it.
 //
-// Threads   Plain data: one thread at a time.
+// Threads   Plain data; one thread at a time.
 #pragma once
 
 #include <optional>
@@ -29,14 +29,14 @@ class NewestSearch {
     void take(const fetch::ListingPage& answer, UtcTime now);
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
 
-    // The follower begins with the directory before the newest one, so that a whole volume comes
-    // first, or with the newest itself. Chunks older than `from` are of an earlier round of the
-    // ring.
+    // Where the follower begins: with the directory before the newest, so that a complete volume
+    // comes first, or with the newest itself. Chunks older than `from` are from an earlier round of
+    // the ring.
     struct Start {
         int number = 0;
         UtcTime from;
     };
-    // None: the bucket has no volume of this station.
+    // Returns none if the bucket has no volume of this station.
     [[nodiscard]] std::optional<Start> start() const;
 
   private:
@@ -47,9 +47,9 @@ class NewestSearch {
 
     std::string station_;
     Step step_ = Step::directories;
-    std::vector<int> numbers_;             // of directories that exist, rising
+    std::vector<int> numbers_;             // of directories that exist, ascending
     UtcTime first_time_;                   // the newest time in numbers_[0]
-    std::size_t newest_ = 0, beyond_ = 0;  // the newest is in [newest_, beyond_)
+    std::size_t newest_ = 0, beyond_ = 0;  // the newest volume is in [newest_, beyond_)
 };
 
 }  // namespace stormcellar::feed

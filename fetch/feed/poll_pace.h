@@ -1,13 +1,13 @@
-// fetch/feed/poll_pace.h -- how long to wait before the bucket is asked again for one station.
+// fetch/feed/poll_pace.h -- decides how long to wait before asking the bucket for a station again.
 //
 // While chunks come, the next listing follows after the polling interval, or after half the time
-// from chunk to chunk where that is longer, but three intervals at most. A station that has been
+// between chunks if that is longer, but after at most three intervals. A station that has been
 // silent for a minute is asked less and less often, down to every 30 s. After a failure the pause
-// doubles from 1 s to 60 s, or is what the server asks for, up to 60 s. Whatever happens, listings
-// that bring nothing come 20 times within a minute at most. Pauses are shortened by up to a tenth
-// by chance, so that stations do not ask all at once.
+// doubles from 1 s to 60 s, or is the pause that the server asks for, up to 60 s. Listings that
+// bring nothing never exceed 20 within a minute. Pauses are shortened at random by up to a tenth,
+// so that stations do not ask all at once.
 //
-// Threads   Plain data: one thread at a time. The caller passes the current time.
+// Threads   Plain data; one thread at a time. The caller passes the current time.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ class PollPace {
   public:
     static constexpr std::chrono::seconds window{60}, silent_after{60};
 
-    // `most_in_vain`: listings within a minute that bring nothing.
+    // `most_in_vain` limits the listings within a minute that bring nothing.
     PollPace(std::chrono::milliseconds every, std::size_t most_in_vain, unsigned seed)
         : every_(every), most_in_vain_(most_in_vain), chance_(seed) {}
 
@@ -30,7 +30,8 @@ class PollPace {
     void note_nothing(SteadyTime now);
     void note_failure(SteadyTime now, std::chrono::seconds retry_after);
     [[nodiscard]] bool is_silent(SteadyTime now) const { return now - news_ >= silent_after; }
-    // `is_urgent`: the answer only led to the next question, so it follows at once.
+    // Returns the pause. `is_urgent` means that the answer only led to the next question, which
+    // follows at once.
     [[nodiscard]] std::chrono::milliseconds pause(SteadyTime now, bool is_urgent = false);
 
   private:
@@ -42,7 +43,8 @@ class PollPace {
     SteadyTime news_ = steady_now();
     std::chrono::milliseconds between_chunks_{0}, asked_pause_{0};
     int silent_turns_ = 0, failures_ = 0;
-    std::deque<SteadyTime> counted_;  // listings that brought nothing, the last most_in_vain_
+    std::deque<SteadyTime> counted_;  // times of the last most_in_vain_ listings that brought
+                                      // nothing
 };
 
 }  // namespace stormcellar::feed

@@ -8,12 +8,12 @@
 namespace stormcellar::feed {
 namespace {
 
-// Chunks have 20 to 300 kB.
+// A chunk has 20 to 300 kB.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{4} << 20;
 constexpr int most_bad_tries = 3, most_tries = 8;
 constexpr std::chrono::milliseconds longest_between_chunks{60'000};
 
-// The server answers, but this chunk is no good.
+// Returns true if the server works but this chunk is bad.
 bool is_of_the_chunk(ErrorCode code) {
     return code == ErrorCode::truncated || code == ErrorCode::over_budget ||
            code == ErrorCode::not_found || code == ErrorCode::permission || code == ErrorCode::io;
@@ -67,7 +67,7 @@ void StationFeed::take(Result<fetch::ListingPage> answer) {
     get_next();
 }
 
-// Passes over chunks that need no request, and asks for the first one that does.
+// Skips chunks that need no request, and asks for the first one that does.
 void StationFeed::get_next() {
     while (!wanted_.empty()) {
         const StationFollower::Chunk& chunk = wanted_.front();
@@ -119,12 +119,12 @@ void StationFeed::give_up(const Error& why) {
     finish_chunk();
 }
 
-// A failure is over when a whole turn has worked: the bucket answers although the disk is full.
+// Ends a failure after a whole turn has worked; the bucket may answer while the disk is full.
 void StationFeed::note_good() {
     if (status_.error.empty()) return;
     status_.error.clear();
     status_.next_try.reset();
-    quiet_since_ += steady_now() - failing_since_;  // nobody knows what came meanwhile
+    quiet_since_ += steady_now() - failing_since_;  // it is unknown what came during the failure
     if (tools_.lines.allow(steady_now())) say(LogLevel::info, "{}: goes on again", station_);
 }
 

@@ -1,14 +1,14 @@
-// fetch/feed/station_feed.h -- brings the chunks of one station from the bucket into the drop
+// fetch/feed/station_feed.h -- copies the chunks of one station from the bucket into the drop
 // directory.
 //
-// It asks one thing at a time: a listing, then the chunks that the listing names anew, in the order
-// of their numbers. A chunk that is in the drop directory with its size is not fetched again, so
-// nothing is lost or repeated over a restart. A chunk that comes with another size than listed, or
-// that the bucket does not give although it lists it, is given up after three tries, any other one
-// after eight. After a failure the station pauses, and then lists again.
+// It makes one request at a time: a listing, then the new chunks of the listing in the order of
+// their numbers. A chunk that is in the drop directory with its size is not fetched again, so a
+// restart loses and repeats nothing. A chunk is given up after three tries if it comes with another
+// size than listed, or if the bucket lists it but does not give it, and after eight tries for any
+// other reason. After a failure the station pauses, and then lists again.
 //
 // Threads   One thread at a time, that of BucketClient::run().
-// Errors    None; status() and the log tell of failures.
+// Errors    None. status() and the log report failures.
 #pragma once
 
 #include <deque>
@@ -28,20 +28,20 @@ namespace stormcellar::feed {
 struct FeedTools {
     BucketClient& client;
     FeedDrop& drop;
-    RateLimit& lines;  // of the log
+    RateLimit& lines;  // limits log lines
     const FeedConfig& config;
 };
 
 class StationFeed {
   public:
-    // `written`: the volumes to go on with, as for StationFollower.
+    // `written` are the volumes to continue with, as for StationFollower.
     StationFeed(std::string station, const std::vector<VolumeId>& written, FeedTools tools,
                 unsigned seed);
     StationFeed(const StationFeed&) = delete;
     StationFeed& operator=(const StationFeed&) = delete;
     ~StationFeed() = default;
 
-    // Asks for the first listing after this time. Everything else follows from the answers.
+    // Asks for the first listing after this time; the answers drive everything else.
     void begin(std::chrono::milliseconds wait) { ask(wait); }
     [[nodiscard]] StationStatus status() const;
 
@@ -64,12 +64,12 @@ class StationFeed {
     StationFollower follower_;
     std::deque<StationFollower::Chunk> wanted_;
     bool has_news_ = false;  // in this turn
-    int tries_ = 0;          // of wanted_.front(), over all turns
+    int tries_ = 0;          // for wanted_.front(), over all turns
     ChunkKey tried_;
     std::optional<UtcTime> modified_;  // of the last chunk
     std::chrono::milliseconds between_chunks_{0};
     SteadyTime failing_since_{};
-    // The last chunk came then, or later by the time in which turns failed.
+    // When the last chunk came, moved later by the time in which turns failed.
     SteadyTime quiet_since_ = steady_now();
     StationStatus status_;
 };

@@ -6,13 +6,13 @@
 namespace stormcellar::feed {
 namespace {
 
-// A radar's clock may be set back by less than this from one volume to the next.
+// A radar's clock may be set back by less than this between two volumes.
 constexpr std::chrono::hours clock_set_back{1};
 constexpr std::chrono::seconds grace{60}, between_looks{15};
 // While chunks come, every fourth listing in vain is of the next directory instead of the volume. A
-// silent station will rather begin anew, so there it is the other way round.
+// silent station will more likely begin anew, so there three of four are of the next directory.
 constexpr int every_fourth = 4;
-// Steps around the ring, and the first one; 13 has no divisor in common with 999.
+// Step around the ring, and the first step; 13 and 999 have no common divisor.
 constexpr int ring_step = 13, first_step = 3;
 
 }  // namespace
@@ -94,7 +94,7 @@ fetch::ListingQuestion StationFollower::question_of(const Followed& volume) cons
 fetch::ListingQuestion StationFollower::question_of_directory(bool is_silent) {
     const int expected = volume_number_after(last_.number);
     const int number = next_directory(is_silent);
-    // Anywhere else than where it is expected, only what is newer is the station's next volume.
+    // Except in the expected directory, only a newer volume can be the station's next one.
     const std::string after = number == expected
                                   ? prefix_of(station_, {last_.time - clock_set_back, number})
                                   : prefix_of(station_, {last_.time, number}) + "~";
@@ -125,13 +125,13 @@ StationFollower::News StationFollower::take_search(const fetch::ListingPage& ans
         search_.emplace(station_);
         return {};
     }
-    // The directory is listed like that of the volume after another.
+    // Set a fictitious last volume, so that the directory is listed like the one after it.
     last_ = {start->from + clock_set_back, volume_number_after(start->number, last_volume - 1)};
     search_.reset();
     return {{}, true};
 }
 
-// Returns what answers the question, sorted; anything else that the server says is left out.
+// Returns the chunks that answer the question, sorted; other keys in the answer are ignored.
 std::vector<StationFollower::Chunk> StationFollower::chunks_in(const fetch::ListingPage& answer,
                                                                UtcTime utc) const {
     std::vector<Chunk> chunks;
@@ -175,7 +175,7 @@ StationFollower::News StationFollower::new_in(const fetch::ListingPage& answer, 
     }
     if (asked_ == Asked::current) add_new_of(*current_);
     if (!news.chunks.empty()) return news;
-    // In the directory of the current volume only a later one is another.
+    // In the directory of the current volume, only a later volume is a new one.
     const auto next = std::ranges::find_if(listed, [&](const Chunk& chunk) {
         return !current_ || (chunk.key.volume != current_->id &&
                              (asked_ == Asked::directory || current_->id < chunk.key.volume));

@@ -1,17 +1,17 @@
 // fetch/feed/station_follower.h -- decides what to list next for a station, and what is new in an
 // answer.
 //
-// It follows one volume. It lists the keys behind the last chunk without a gap before it, so it
-// sees a late chunk as well as the next one. When the volume is whole, and at each fourth listing
-// in vain, it lists the directory of the next number instead, from an hour before this volume on;
-// older keys belong to an earlier round of the ring. It also follows a later volume in the same
-// directory. It looks again every 15 s, for a minute, at a volume that it left with gaps or without
-// its end. When a station is silent, it also looks where the station may have gone on: one number
-// further, at number 1, and in steps around the whole ring.
+// It follows one volume. It lists the keys after the last chunk without a gap before it, so it sees
+// a late chunk as well as the next one. When the volume is complete, and at each fourth listing in
+// vain, it lists the directory of the next number instead, from an hour before this volume on,
+// because older keys belong to an earlier round of the ring. It also follows a later volume in the
+// same directory. If it left a volume with gaps or without its end, it looks at it again every 15 s
+// for a minute. If a station is silent, it also looks where the station may have continued: one
+// number further, at number 1, and in steps around the whole ring.
 //
 // The caller asks the bucket, writes the chunks and passes the time.
 //
-// Threads   Plain data: one thread at a time.
+// Threads   Plain data; one thread at a time.
 #pragma once
 
 #include <bitset>
@@ -34,11 +34,12 @@ class VolumeChunks {
         return done_.test(static_cast<std::size_t>(number));
     }
     void add(int number, level2::ChunkKind kind);
-    // The last chunk before which none is missing; 0: the first is.
+    // Returns the last chunk before which none is missing; 0 if the first is missing.
     [[nodiscard]] int without_gap() const;
     [[nodiscard]] bool is_whole() const { return end_ > 0 && without_gap() >= end_; }
     [[nodiscard]] int highest() const { return highest_; }
-    // Chunks below the highest that did not come, and the end if that did not.
+    // Returns how many chunks are missing below the highest that came, counting the end if it did
+    // not come.
     [[nodiscard]] int missing() const;
 
   private:
@@ -48,8 +49,8 @@ class VolumeChunks {
 
 class StationFollower {
   public:
-    // `written`: the volumes to go on with, oldest first, at most two; none: the newest is
-    // searched.
+    // `written` are the volumes to continue with, oldest first, at most two; if there are none, the
+    // newest volume is searched.
     StationFollower(std::string station, const std::vector<VolumeId>& written, SteadyTime now);
 
     [[nodiscard]] fetch::ListingQuestion question(SteadyTime now, bool is_silent);
@@ -61,11 +62,11 @@ class StationFollower {
     };
     struct News {
         std::vector<Chunk> chunks;  // in the order of their numbers
-        bool is_urgent = false;     // the next question follows at once
+        bool is_urgent = false;     // ask the next question at once
     };
     // Takes the answer to the last question.
     [[nodiscard]] News take(const fetch::ListingPage& answer, UtcTime utc, SteadyTime now);
-    // The chunk is written, or was given up.
+    // Notes that the chunk was written or given up.
     void note_done(const ChunkKey& key);
 
     [[nodiscard]] bool is_searching() const { return search_.has_value(); }
@@ -78,7 +79,7 @@ class StationFollower {
     struct Followed {
         VolumeId id;
         VolumeChunks chunks;
-        SteadyTime next_look{}, until{};  // of one that was left
+        SteadyTime next_look{}, until{};  // for a volume that was left
     };
     [[nodiscard]] fetch::ListingQuestion question_of(const Followed& volume) const;
     [[nodiscard]] fetch::ListingQuestion question_of_directory(bool is_silent);
@@ -91,12 +92,12 @@ class StationFollower {
 
     std::string station_;
     std::optional<NewestSearch> search_;
-    VolumeId last_;  // the volume before the one that is expected next
+    VolumeId last_;  // the volume before the expected one
     std::optional<Followed> current_, previous_;
     Asked asked_ = Asked::search;
     fetch::ListingQuestion question_;
-    int in_vain_ = 0;  // answers in a row that had nothing new
-    int probes_ = 0;   // of a silent station
+    int in_vain_ = 0;  // consecutive answers without anything new
+    int probes_ = 0;   // for a silent station
     std::uint64_t missing_ = 0;
 };
 

@@ -1,7 +1,7 @@
-// fetch/pull/grid_list.h -- what a data server says that it has: the answer of /api/v1/grids.
+// fetch/pull/grid_list.h -- reads a data server's list of grids, the answer of /api/v1/grids.
 //
 // Threads   Pure functions.
-// Errors    corrupt for what is not such an answer. A grid whose name makes no sense is left out.
+// Errors    corrupt for any other text. A grid whose name makes no sense is left out.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace stormcellar::pull {
 
-// The server lists the newest grids, at most this many.
+// The server lists at most this many grids, the newest.
 inline constexpr std::size_t most_listed = 10'000;
 // Limit of the text of such a list.
 inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
@@ -24,7 +24,7 @@ inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
 [[nodiscard]] std::string list_url(const PullSource& source, UtcTime from);
 [[nodiscard]] std::string file_url(const PullSource& source, const cache::GridName& grid);
 
-// Returns the partials of the source's domains that are not older than `from` and not of the
+// Returns the partials of the source's domains that are not older than `from` and not in the
 // future, newest first.
 [[nodiscard]] Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> text,
                                                                    const PullSource& source,

@@ -43,15 +43,16 @@ struct HttpClient::Handle {
     }
     [[nodiscard]] bool is_stopped() const { return options->stop != nullptr && *options->stop; }
 
-    // An exception that leaves through libcurl makes its handle useless for good.
+    // Passes a piece to the taker. An exception must not leave through libcurl, whose handle would
+    // be useless afterward.
     [[nodiscard]] Status given(std::span<const std::byte> piece) const {
         try {
             return request->take(piece);
-        } catch (const std::exception& thrown) {  // no memory
+        } catch (const std::exception& thrown) {  // memory is short
             return fail(ErrorCode::exhausted, "cannot be taken: {}", thrown.what());
         }
     }
-    // Any other number of bytes than it was given ends the transfer.
+    // Takes the body. Returning another number than the bytes given ends the transfer.
     static std::size_t take_body(char* bytes, std::size_t size, std::size_t count, void* self) {
         auto& handle = *static_cast<Handle*>(self);
         const std::size_t length = size * count;

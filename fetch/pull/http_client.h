@@ -1,13 +1,12 @@
-// fetch/pull/http_client.h -- GET, one at a time, over a connection that stays open.
+// fetch/pull/http_client.h -- makes one GET at a time, over a connection that stays open.
 //
-// Only the address that was asked answers: redirects are not followed, and only http and https are
-// spoken. What the server sends is bounded in bytes and in time. The flag ends a transfer within a
-// second or so.
+// The client follows no redirects and speaks only http and https. Answers are limited in bytes and
+// in time. The flag ends a transfer within a second or so.
 //
 // Threads   One thread at a time; the flag and the beat may be used by all.
-// Errors    busy      it may pass: no connection, a timeout, 429, 500 and above, or the flag
+// Errors    busy      may pass: no connection, a timeout, 429, 500 and above, or the flag
 //           truncated the body ended early
-//           over_budget more bytes than were allowed
+//           over_budget more bytes than allowed
 //           not_found 404 and 410
 //           io        any other answer, or the taker's error
 #pragma once
@@ -28,22 +27,22 @@ namespace stormcellar::pull {
 
 struct HttpRequest {
     std::string url;
-    std::string known_tag;         // with its quotes: asks for nothing if the answer has this tag
+    std::string known_tag;         // with its quotes; an answer with this tag has no body
     std::uint64_t most_bytes = 0;  // of the body
-    // Takes the body of a 200, piece by piece.
+    // Takes the body of a 200 answer, piece by piece.
     std::function<Status(std::span<const std::byte>)> take;
 };
 
 struct HttpAnswer {
     bool is_unchanged = false;  // 304
-    std::string tag;            // of the header ETag, with its quotes; may be empty
+    std::string tag;            // from the header ETag, with its quotes; may be empty
     std::uint64_t bytes = 0;    // of the body
 };
 
 struct HttpOptions {
     std::chrono::seconds connect{10};
     std::chrono::seconds stall{20};     // without a byte
-    std::chrono::seconds longest{300};  // of one transfer
+    std::chrono::seconds longest{300};  // for one transfer
     const std::atomic<bool>* stop = nullptr;
     std::function<void()> beat;  // called at least once a second during a transfer
 };
@@ -56,7 +55,7 @@ class HttpClient {
     ~HttpClient();
 
     [[nodiscard]] Result<HttpAnswer> get(const HttpRequest& request);
-    // Returns the time that the last answer asked to wait (Retry-After); none: it did not say.
+    // Returns the wait that the last answer asked for (Retry-After); none if it did not.
     [[nodiscard]] std::optional<std::chrono::seconds> retry_after() const { return retry_after_; }
 
   private:

@@ -1,5 +1,5 @@
-// stormcellar-pull: fetches grids from the data servers of other machines. Its usage is the text
-// below.
+// stormcellar-pull: fetches grids from the data servers of other machines. The text below describes
+// its usage.
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -27,7 +27,7 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-// The threads end, and begin anew as the configuration now says. Returns false if they cannot.
+// Ends the threads and starts new ones with the new configuration. Returns false if that fails.
 bool reload(std::unique_ptr<PullService>& service, const std::filesystem::path& file) {
     const auto fresh = load_pull_config(file);
     if (!fresh) {

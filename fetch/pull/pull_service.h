@@ -1,12 +1,11 @@
-// fetch/pull/pull_service.h -- a thread for each machine that is asked, and the file that says how
-// it goes.
+// fetch/pull/pull_service.h -- runs a thread for each source machine, and writes the status file.
 //
-// Each machine has a directory of its own below [pull] directory, so that one that hangs or lies
-// touches no other. status.json stands beside these directories; it is written when something has
-// changed.
+// Each machine has its own directory below [pull] directory, so that a machine that hangs or sends
+// wrong data affects no other. status.json is beside these directories and is written when
+// something has changed.
 //
-// Threads   One thread at a time; the object has threads of its own, which end with it within a
-//           second or so.
+// Threads   One thread at a time. The object has its own threads, which end with it within a second
+//           or so.
 // Errors    open(): the directories cannot be made or read.
 #pragma once
 
@@ -32,10 +31,10 @@ class PullService {
     PullService& operator=(const PullService&) = delete;
     ~PullService();
 
-    // Writes status.json if it would say something new. Errors: those of writing.
+    // Writes status.json if its contents have changed. Errors: those of writing.
     Status publish();
     [[nodiscard]] std::vector<SourceStatus> status() const;
-    // The time since the thread that has done nothing for longest did something.
+    // Returns the time since the last activity of the thread that has been inactive longest.
     [[nodiscard]] std::chrono::milliseconds longest_silence() const;
 
   private:
@@ -50,7 +49,7 @@ class PullService {
     ConditionVariable stopped_;
     std::string published_;  // without its time
     std::vector<std::unique_ptr<SourcePuller>> pullers_;
-    std::vector<std::thread> threads_;  // the last: they use the members above
+    std::vector<std::thread> threads_;  // declared last, because they use the members above
 };
 
 }  // namespace stormcellar::pull

@@ -26,10 +26,10 @@ std::uint64_t bytes_on_disk(const fs::path& path) {
                                              : 0;
 }
 
-constexpr std::size_t most_told_of_tag = 40;  // a server may send 100 kB
+constexpr std::size_t most_told_of_tag = 40;  // a server may send a tag of 100 kB
 
-// Reads all of the file, so that nothing half is given a name. One at a time, for all machines: it
-// may take half a gigabyte.
+// Reads the whole file, so that no incomplete grid gets a name. All machines share one turn at a
+// time, because a check may take half a gigabyte.
 Status check(const fs::path& path, const cache::GridName& name, const std::string& tag) {
     static Mutex one_at_a_time;
     const MutexLock lock(one_at_a_time);
@@ -53,7 +53,7 @@ Status check(const fs::path& path, const cache::GridName& name, const std::strin
 
 Result<PulledGrids> PulledGrids::open(FileSystem& file_system, fs::path directory,
                                       PulledLimits limits) {
-    // The role of the one writer removes what a killed one left.
+    // Opening as the only writer removes the leftovers of a killed one.
     const auto store = cache::StoreWriter::open(file_system, directory, true);
     if (!store) return pass_on(store);
     PulledGrids grids(file_system, std::move(directory), limits);
@@ -109,7 +109,7 @@ Status PulledGrids::give_name(Incoming& incoming_file) {
 Status PulledGrids::keep(Incoming incoming, const std::string& tag) {
     const Status good = check(incoming.file_.temporary_path(), incoming.name_, tag);
     if (!good) {
-        // The name that the grid will not have says more than that of the temporary file.
+        // Report the name that the grid would have had instead of the temporary one.
         std::string why = good.error().message;
         const std::string temporary = incoming.file_.temporary_path().native() + ": ";
         if (why.starts_with(temporary)) why.erase(0, temporary.size());
@@ -131,7 +131,7 @@ void PulledGrids::remove_empty_above(const fs::path& path) const {
         if (!fs::remove(above, ignored)) break;
 }
 
-// The directories of a day and above go with their last grid.
+// Removes a grid, and the directories of its day and above if it was their last.
 void PulledGrids::remove(const cache::GridName& name) {
     const fs::path path = path_of(name);
     (void)file_system_->remove(path);

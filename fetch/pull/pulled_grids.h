@@ -1,15 +1,15 @@
 // fetch/pull/pulled_grids.h -- the directory of grids that were pulled from one machine.
 //
-// It has the layout of a cache (stormcellar/cache/grid_name.h). A grid appears under its name only
-// after all of it was checked: that it is a grid file whose every brick has its checksum, the one
-// that was asked for by station, moment and time, and the one that the server named by its tag.
-// While it comes it lies beside the domains under a temporary name, and directories are made only
-// for what is kept; what a killed program left is removed by open().
-// One process writes to a directory.
+// The directory has the layout of a cache (stormcellar/cache/grid_name.h). A grid gets its name
+// only after a check of all of its bytes: it must be a grid file in which every brick has its
+// checksum, of the requested station, moment and time, and with the tag that the server named.
+// Until then it is beside the domains under a temporary name, and directories are made only for
+// grids that are kept. open() removes the leftovers of a killed program. One process writes to a
+// directory.
 //
 // Units     Sizes are in bytes on disk.
 // Threads   One thread at a time.
-// Errors    Those of files, and those that a check finds: corrupt, truncated, unsupported.
+// Errors    Those of file operations and of the check: corrupt, truncated, unsupported.
 #pragma once
 
 #include <chrono>
@@ -29,8 +29,8 @@ namespace stormcellar::pull {
 struct PulledLimits {
     std::uint64_t bytes = 0;
     std::chrono::seconds age{0};
-    // A nation's radars make some 60,000 of one moment for a mosaic in a day. Each takes a file and
-    // some memory, however small it is.
+    // For a mosaic, a nation's radars make some 60,000 grids of one moment in a day. Each takes a
+    // file and some memory, however small it is.
     std::size_t grids = 100'000;
 };
 
@@ -41,9 +41,9 @@ class PulledGrids {
                                     PulledLimits limits);
 
     [[nodiscard]] bool has(const cache::GridName& name) const { return grids_.contains(name); }
-    // Returns the entity tag of the grid that stands; empty if it cannot be read.
+    // Returns the entity tag of the present grid; empty if it cannot be read.
     [[nodiscard]] std::string tag_of(const cache::GridName& name);
-    // A grid that is coming.
+    // A grid that is being received.
     class Incoming {
       public:
         Status append(std::span<const std::byte> bytes) { return file_.append(bytes); }
@@ -56,11 +56,11 @@ class PulledGrids {
         AtomicFile file_;
     };
     [[nodiscard]] Result<Incoming> begin(const cache::GridName& name);
-    // Checks the grid and gives it its name. `tag` is what the server said.
+    // Checks the grid and gives it its name. `tag` is the server's.
     Status keep(Incoming incoming, const std::string& tag);
 
-    // Removes grids that are too old, then the oldest until the limits of bytes and of grids are
-    // kept. Returns how many were removed.
+    // Removes grids that are too old, and then the oldest until the limits of bytes and of grids
+    // are met. Returns how many were removed.
     std::size_t prune(UtcTime now);
 
     [[nodiscard]] std::size_t count() const { return grids_.size(); }
@@ -70,7 +70,7 @@ class PulledGrids {
   private:
     struct Known {
         std::uint64_t bytes = 0;
-        std::string tag;  // empty: not known yet
+        std::string tag;  // empty: unknown
     };
     PulledGrids(FileSystem& file_system, std::filesystem::path directory, PulledLimits limits)
         : file_system_(&file_system), directory_(std::move(directory)), limits_(limits) {}

@@ -15,18 +15,21 @@ namespace {
 
 constexpr std::chrono::milliseconds first_pause{1000}, longest_pause{60'000};
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
-// The list begins at a multiple of this, so that its address, and its tag, stay for a while.
+// The list begins at a multiple of this, so that its address and its tag stay the same for a while.
 constexpr std::chrono::minutes list_step{10};
-// A short list is asked for at each turn, and after so many the whole one, for what comes late.
+// Each turn asks for a short list; after this time, a turn asks for the whole list, to find late
+// grids.
 constexpr std::chrono::minutes short_list{30};
 constexpr int short_lists = 12;
-// A partial is made again when the rest of its volume comes, within minutes.
+// Grids younger than this are asked for again, because a partial is made again within minutes when
+// the rest of its volume comes.
 constexpr std::chrono::minutes young{20};
 constexpr std::chrono::seconds between_asking{60};
-// A turn of a machine that was away takes several turns; one that sends junk is left alone.
+// Limits of one turn. Catching up after a long absence takes several turns; a machine that sends
+// junk is paused.
 constexpr int most_of_a_turn = 1000, most_refused_in_a_row = 16;
 
-// The machine answers, but this grid is no good.
+// Returns true if the machine works but this grid is bad.
 bool is_of_the_grid(ErrorCode code) {
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
            code == ErrorCode::unsupported || code == ErrorCode::over_budget ||
@@ -71,11 +74,11 @@ Status SourcePuller::turn() {
     return done;
 }
 
-// An exception ends the turn of this machine, and not the service for all.
+// Runs a turn. An exception ends this machine's turn, not the service of all.
 Status SourcePuller::try_to_pull() {
     try {
         return pull();
-    } catch (const std::exception& error) {  // no memory
+    } catch (const std::exception& error) {  // memory is short
         return fail(ErrorCode::exhausted, "cannot take its grids: {}", error.what());
     }
 }
@@ -91,7 +94,7 @@ SourceStatus SourcePuller::status() const {
     return status_;
 }
 
-// Called also at the start, when nothing was asked yet.
+// Notes how a turn ended. Also called at the start, before the first request.
 void SourcePuller::note_outcome(const Status& done) {
     const MutexLock lock(mutex_);
     status_.grids = grids_.count();
@@ -116,7 +119,7 @@ Status SourcePuller::pull() {
     return ask_again(now);
 }
 
-// Returns whether the list is another one than the last.
+// Fetches the list. Returns whether it differs from the last one.
 Result<bool> SourcePuller::list(UtcTime from, UtcTime now) {
     std::vector<std::byte> text;
     const std::string url = list_url(source_, from);
@@ -141,7 +144,7 @@ Result<bool> SourcePuller::list(UtcTime from, UtcTime now) {
     return !answer->is_unchanged;
 }
 
-// The list is of what is newer than `from`.
+// Forgets grids that are newer than `from` and not in the list, which has nothing older.
 void SourcePuller::forget_unlisted(UtcTime from, UtcTime now) {
     const std::set<cache::GridName> listed(listed_.begin(), listed_.end());
     const auto is_gone = [&](const auto& one) {
@@ -156,7 +159,7 @@ bool SourcePuller::may_fetch() const {
     return !stop_ && fetched_ < most_of_a_turn;
 }
 
-// Makes room at once, of the oldest grids first. Returns false if the one that came had to go.
+// Removes the oldest grids to make room. Returns false if that removed the new grid itself.
 bool SourcePuller::make_room_for(const cache::GridName& name) {
     if (grids_.bytes() <= config_.bytes_a_source) return true;
     const std::uint64_t bytes = grids_.bytes();
@@ -182,7 +185,7 @@ Status SourcePuller::fetch_missing() {
         if (grids_.has(name)) continue;
         if (!has_room_for(name)) return {};
         if (Status fetched = fetch(name); !fetched) return fetched;
-        // The newest come first: where one of them has no room, older ones have none either.
+        // The newest grids come first: if one of them has no room, older ones have none either.
         if (!make_room_for(name)) return {};
     }
     return {};
@@ -200,7 +203,7 @@ Status SourcePuller::ask_again(UtcTime now) {
     return {};
 }
 
-// Fails only if the machine is to be left alone for a while.
+// Fetches a grid. Fails only if the machine must be left alone for a while.
 Status SourcePuller::fetch(const cache::GridName& name) {
     const auto known = bad_.find(name);
     if (known != bad_.end() && steady_now() < known->second.next) return {};
@@ -212,7 +215,7 @@ Status SourcePuller::fetch(const cache::GridName& name) {
         bad_.erase(name);
         return {};
     }
-    // Evicted since it was listed.
+    // The grid was evicted since it was listed.
     if (done.error().code == ErrorCode::not_found) return {};
     if (!is_of_the_grid(done.error().code)) return done;
     Bad& bad = bad_[name];
@@ -229,7 +232,7 @@ Status SourcePuller::fetch(const cache::GridName& name) {
 
 Status SourcePuller::get(const cache::GridName& name) {
     beat();
-    std::optional<PulledGrids::Incoming> incoming;  // once something comes
+    std::optional<PulledGrids::Incoming> incoming;  // set when the first bytes come
     const auto take = [&](std::span<const std::byte> bytes) -> Status {
         if (!incoming) {
             auto begun = grids_.begin(name);

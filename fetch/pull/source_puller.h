@@ -1,15 +1,15 @@
 // fetch/pull/source_puller.h -- pulls the partials of one machine, turn by turn.
 //
-// A turn asks for the list of grids, fetches what is missing, newest first, and asks whether the
-// newest grids were made again. A machine that does not answer ends the turn; the next one begins
-// after a pause that doubles from one second to a minute, or as long as the machine asks for. A
-// grid that comes cut or fails a check is asked for again after a pause of its own, so that it
-// holds up no others. A turn fetches 1,000 grids at most, and ends as failed after 16 that were
-// refused in a row, so a machine that sends nothing but junk is left alone like one that is down.
-// What is remembered of grids is forgotten when the machine no longer lists them.
+// A turn asks for the list of grids, fetches missing grids, newest first, and asks whether the
+// newest grids were made again. A machine that does not answer ends the turn. The next turn begins
+// after a pause that doubles from one second to a minute, or that the machine asks for. A grid that
+// is cut off or fails a check is asked for again after its own pause, so that it delays no others.
+// A turn fetches at most 1,000 grids and fails after 16 refusals in a row, so a machine that sends
+// only junk is paused like one that is down. The puller forgets a grid when the machine no longer
+// lists it.
 //
 // Threads   turn() by one thread; status() by any.
-// Errors    turn() says why it ended early; the next one may succeed.
+// Errors    turn() says why it ended early; the next turn may succeed.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@
 
 namespace stormcellar::pull {
 
-// A pause that doubles from the first to the longest.
+// Returns the pause after this many failures, which doubles from the shortest to the longest.
 [[nodiscard]] std::chrono::milliseconds pause_after(int failures);
 
 class SourcePuller {
@@ -45,7 +45,7 @@ class SourcePuller {
     [[nodiscard]] const PullSource& source() const { return source_; }
     // Returns the size of the larger of its two memories: grids asked for lately, and bad ones.
     [[nodiscard]] std::size_t remembered() const { return std::max(asked_.size(), bad_.size()); }
-    // The last time that a turn, or a transfer in it, was seen to go on.
+    // Returns when a turn, or a transfer in it, last made progress.
     [[nodiscard]] SteadyTime last_beat() const { return beat_.load(); }
     void beat() { beat_ = steady_now(); }
 
@@ -67,7 +67,7 @@ class SourcePuller {
         int tries = 0;
         SteadyTime next{};
     };
-    // The last grid that had to go as soon as it came, because all others are newer.
+    // The last grid that was removed as soon as it came, because all others are newer.
     struct NoRoom {
         UtcTime time;
         std::uint64_t bytes = 0;
@@ -82,12 +82,12 @@ class SourcePuller {
     std::string list_url_, list_tag_;
     std::vector<cache::GridName> listed_;  // newest first
     SteadyTime next_long_list_{};
-    std::map<cache::GridName, SteadyTime> asked_;  // when a young grid was last asked for
+    std::map<cache::GridName, SteadyTime> asked_;  // when each young grid was last asked for
     std::map<cache::GridName, Bad> bad_;
     std::optional<NoRoom> no_room_;
-    int failures_ = 0;          // turns, one after the other
-    int fetched_ = 0;           // requests of the turn
-    int refused_in_a_row_ = 0;  // of the turn
+    int failures_ = 0;          // consecutive turns
+    int fetched_ = 0;           // requests in this turn
+    int refused_in_a_row_ = 0;  // in this turn
     RateLimit lines_{20, std::chrono::seconds{60}};
 
     mutable Mutex mutex_;

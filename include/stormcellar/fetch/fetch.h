@@ -1,15 +1,15 @@
 // stormcellar/fetch/fetch.h -- downloads raw files from a public bucket into a directory.
 //
-// Files keep their names and the times that the bucket gives them. A file that is there with its
-// full size is not downloaded again; an interrupted transfer continues where it stopped. A file
-// appears under its name only when it is whole. A failed transfer is tried again, with longer waits
-// each time; what fails for good is listed in the report.
+// Files keep their names and the times that the bucket gives them. A file that exists with its full
+// size is not downloaded again; an interrupted transfer continues where it stopped. A file appears
+// under its name only when it is complete. Failed transfers are tried again, with longer waits each
+// time; the report lists those that fail for good.
 //
-// The transfers are done by a module with libcurl, stormcellar_fetch.so, which nothing else loads.
+// A module with libcurl, stormcellar_fetch.so, does the transfers; nothing else loads it.
 //
 // Units     Sizes are in bytes.
 // Threads   One thread at a time; fetch() calls `progress` on the thread that called it.
-// Errors    See fetch(). The failure of a single file is no error; it is in the report.
+// Errors    See fetch(). The failure of a single file is not an error; the report lists it.
 #pragma once
 
 #include <atomic>
@@ -41,7 +41,7 @@ struct FetchRequest {
     int tries = 6;     // for each file
     // before the second try; doubled for each further try
     std::chrono::milliseconds first_wait{500};
-    std::chrono::seconds stall{30};  // a transfer without a byte for so long has failed
+    std::chrono::seconds stall{30};  // a transfer without a byte for this long has failed
     std::function<void(const FetchProgress&)> progress;
     const std::atomic<bool>* stop = nullptr;  // once it is set, fetch() stops all transfers
 };
@@ -49,7 +49,7 @@ struct FetchRequest {
 struct FetchFailure {
     std::string what;  // a key of the bucket, or the listing that failed
     std::string reason;
-    // The server has this object no more, or does not give it to us: another try would fail, too.
+    // The server no longer has this object, or does not give it to us; another try would fail, too.
     bool is_refused = false;
 };
 
@@ -63,11 +63,11 @@ struct FetchReport {
     bool stopped = false;
 };
 
-// Downloads the files and returns what became of them. Errors: bad_argument if the source is not an
-// address; unsupported if the module is not installed; those of the directory.
+// Downloads the files and returns a report. Errors: bad_argument if the source is not a URL;
+// unsupported if the module is not installed; those of the directory.
 [[nodiscard]] Result<FetchReport> fetch(const FetchRequest& request);
 
-// The function that the module exports, under the name below.
+// The function that the module exports under the name below.
 using FetchEntry = void (*)(const FetchRequest& request, Result<FetchReport>& report);
 inline constexpr const char* fetch_module_file = "stormcellar_fetch.so";
 inline constexpr const char* fetch_module_entry = "stormcellar_fetch_files";
