@@ -1,4 +1,4 @@
-// stormcellar: the command line. One subcommand for each file; see cli/shared/commands.h.
+// stormcellar: the command line. Each subcommand has its own file; see cli/shared/commands.h.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -22,7 +22,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// No option and no argument may be empty.
+// Makes every option and argument refuse an empty value.
 void refuse_empty(CLI::App& command) {
     const auto complaint = [](const std::string& value) {
         return value.empty() ? std::string{"must not be empty"} : std::string{};
@@ -34,20 +34,20 @@ void refuse_empty(CLI::App& command) {
         refuse_empty(*inner);
 }
 
-// Returns the subcommand that is typed first, if no other one is needed to run it or to explain it.
-// To set up the options of all takes ten times as long as to set up those of one.
+// Returns the first subcommand typed, if it can run or explain itself without the others. Setting
+// up the options of all commands takes ten times as long as those of one.
 const Subcommand* only_command(int argc, char** argv) {
     const Subcommand* const typed = argc < 2 ? nullptr : find_subcommand(argv[1]);
     return typed != find_subcommand("help") ? typed : nullptr;
 }
 
-// CLI11 would only report that a subcommand is missing.
+// Returns an unknown first word, because CLI11 would only report that a subcommand is missing.
 std::optional<std::string> unknown_command(int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-' || find_subcommand(argv[1]) != nullptr) return std::nullopt;
     return argv[1];
 }
 
-// Returns "catalog list" if the words are behind that command, and an empty text for none.
+// Returns "catalog list" if that command was typed; empty if none was.
 std::string command_typed(const CLI::App& app) {
     std::string words;
     for (const CLI::App* at = &app; at != nullptr;) {
@@ -60,7 +60,7 @@ std::string command_typed(const CLI::App& app) {
     return words;
 }
 
-// Prints the help or version that was asked for, or what is wrong. Returns the exit status.
+// Prints the requested help or version, or the error. Returns the exit status.
 int answer(const CLI::ParseError& error, const CLI::App& app) {
     if (error.get_name() == "CallForVersion") return app.exit(error) == 0 ? exit_done : exit_failed;
     const CommandReference program = reference_of(app);
@@ -78,7 +78,7 @@ int answer(const CLI::ParseError& error, const CLI::App& app) {
     return exit_bad_usage;
 }
 
-// Output only counts as done when it was written.
+// Flushes stdout. Returns the status, or a failure if the output could not be written.
 int flushed(int status) {
     const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     if (!failed) return status;
@@ -86,7 +86,8 @@ int flushed(int status) {
     return status == exit_done ? exit_failed : status;
 }
 
-// Hidden; used by the build of the package (cli/reference/reference.h).
+// Prints the reference, for the hidden option that the build of the package uses
+// (cli/reference/reference.h).
 int print_reference(const CLI::App& app, const std::string& kind) {
     const std::optional<std::string> text = reference_text(app, kind);
     if (!text) {

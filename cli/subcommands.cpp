@@ -7,7 +7,7 @@
 
 namespace stormcellar::cli {
 
-// Each is defined in the file of its subcommand.
+// Each function is defined in the file of its subcommand.
 Run set_up_accuracy(CLI::App& command);
 Run set_up_batch(CLI::App& command);
 Run set_up_cache(CLI::App& command);
@@ -26,8 +26,8 @@ Run set_up_view(CLI::App& command);
 
 namespace {
 
-// stormcellar-first, with which scripts/demo draws its first picture, has frame, replay and synth
-// alone.
+// stormcellar-first, which scripts/demo uses for its first picture, has only frame, replay and
+// synth.
 constexpr std::array registry{
 #ifndef STORMCELLAR_FIRST
     Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",

@@ -1,7 +1,7 @@
 // cli/subcommands.h -- the registry of the subcommands of `stormcellar`.
 //
-// One row a subcommand. The dispatch of main.cpp, the overview of --help, the manual pages and the
-// completions of shells all come from it.
+// It has one row for each subcommand. The dispatch of main.cpp, the overview of --help, the manual
+// pages and the completions of shells are made from it.
 // Thread contract: the registry is constant.
 #pragma once
 
@@ -14,17 +14,17 @@ namespace stormcellar::cli {
 
 struct Subcommand {
     const char* name;     // "grid"
-    const char* summary;  // one line: in the overview, and first in its own help and manual
+    const char* summary;  // one line, for the overview and the top of the command's help and manual
     Run (*set_up)(CLI::App& command);
-    const char* footer = "";  // what its help says below the options
+    const char* footer = "";  // text below the options in its help
 };
 
 // sorted by name, as --help shows them
 [[nodiscard]] std::span<const Subcommand> subcommands();
-// Null: there is none of this name.
+// Returns null if there is no subcommand of this name.
 [[nodiscard]] const Subcommand* find_subcommand(std::string_view name);
 
-// Puts a subcommand on the program.
+// Adds a subcommand to the program.
 [[nodiscard]] Command add_subcommand(CLI::App& app, const Subcommand& subcommand);
 
 }  // namespace stormcellar::cli

@@ -52,7 +52,7 @@ struct Subject {
 
 struct Measured {
     std::vector<accuracy::LadderRow> rows;
-    std::vector<synth::TruthRow> truth;  // of a simulated scene
+    std::vector<synth::TruthRow> truth;  // for a simulated scene
 };
 
 Result<Subject> load_subject(const AccuracyOptions& options, const GridRequest& request) {
@@ -95,7 +95,8 @@ nlohmann::ordered_json to_json(const std::vector<accuracy::LadderRow>& rows,
     return list;
 }
 
-// A step without any error is a row of points in one place, and says nothing.
+// Returns false for a step without any error: its points would all be in one place and show
+// nothing.
 bool has_error(const std::vector<accuracy::LadderRow>& rows, const std::string& step) {
     return std::ranges::any_of(rows, [&](const accuracy::LadderRow& row) {
         const double error = row.value ? row.value->p99 : row.image_p99_de.value_or(0);
@@ -147,7 +148,7 @@ constexpr std::string_view words_of_pictures =
     "it:\n"
     "no other rung of the step is as fast and as accurate.\n";
 
-// Breaks a sentence at its blanks, for the width of the table.
+// Breaks a sentence at blanks to fit the width of the table.
 std::string in_lines(std::string text) {
     constexpr std::size_t width = 96;
     for (std::size_t begin = 0; text.size() - begin > width;) {
@@ -199,7 +200,7 @@ void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
     }
 }
 
-// Returns the rows of the ladder and, for a simulated scene, those of the truth.
+// Returns the rows of the ladder and, for a simulated scene, the rows of the truth.
 Result<Measured> measure(const Subject& subject, const GridRequest& request,
                          const grid::GridSpec& spec, const EffectRequest& effects,
                          const AccuracyOptions& options) {
@@ -323,7 +324,8 @@ int report_ladder(const AccuracyOptions& options, const GridRequest& request,
     return exit_done;
 }
 
-// For several sites, or for an instant, a mosaic's own steps; else volumes that are held out.
+// Measures a mosaic's own steps for several sites or for an instant, else volumes that are held
+// out.
 int run_files(const AccuracyOptions& options, const GridRequest& request) {
     auto sources = load_mosaic(options.grid.files, request);
     if (!sources) return report_error(sources.error());

@@ -1,5 +1,5 @@
-// cli/accuracy/held_out_accuracy.h -- `stormcellar accuracy` over time: what each way of making a
-// grid for an instant errs by, scored on volumes, or repeated cuts, that were held out
+// cli/accuracy/held_out_accuracy.h -- `stormcellar accuracy` over time: measures the error of each
+// way to make a grid for an instant, on volumes or repeated cuts that were held out
 // (grid/judge/held_out_sequence.h).
 #pragma once
 
@@ -19,16 +19,17 @@
 
 namespace stormcellar::cli {
 
-// Volumes of one site, in order of time. bad_argument when there are less than three.
+// Returns the volumes of one site, in order of time. Errors: bad_argument if there are fewer than
+// three.
 [[nodiscard]] Result<std::vector<grid::TimedVolume>> sequence_of(MosaicSources sources);
-// The repeated cuts (SAILS, MRLE) of the file's lowest elevation, each as a volume of its own.
-// not_found when there are less than three.
+// Returns the repeated cuts (SAILS, MRLE) of the file's lowest elevation, each as a volume of its
+// own. Errors: not_found if there are fewer than three.
 [[nodiscard]] Result<std::vector<grid::TimedVolume>> load_repeats(const std::string& file,
                                                                   const GridRequest& request);
-// Three volumes of a simulated scene.
+// Returns three volumes of a simulated scene.
 [[nodiscard]] Result<std::vector<grid::TimedVolume>> observe_sequence(const synth::Scene& scene);
 
-// One row for each volume that has neighbours.
+// Returns one row for each volume that has neighbors.
 [[nodiscard]] Result<std::vector<grid::HeldOutRow>> score_sequence(
     const std::vector<grid::TimedVolume>& sequence, const GridRequest& request,
     const std::function<void(std::size_t done, std::size_t total)>& progress);

@@ -1,5 +1,5 @@
-// cli/accuracy/ladder_markdown.h -- prints the ladder of accuracy as the table of docs/accuracy.md:
-// that page shows the output of `stormcellar accuracy --markdown`.
+// cli/accuracy/ladder_markdown.h -- prints the ladder of accuracy as the table of docs/accuracy.md,
+// which shows the output of `stormcellar accuracy --markdown`.
 //
 //   step | rung | time_s | position max / rms (m) | value rms / p95 / p99 / max (UNIT) |
 //   status differs (%) | Pareto
@@ -18,7 +18,7 @@
 
 namespace stormcellar::cli {
 
-// Lines end with "\n". Without rows only the head is returned.
+// Returns the table. Each line ends with a line feed. Without rows it has only the head.
 [[nodiscard]] std::string ladder_markdown(std::span<const accuracy::LadderRow> rows,
                                           accuracy::ValueUnit unit);
 

@@ -14,7 +14,7 @@
 
 namespace stormcellar::cli {
 
-// The volumes overlap by the default rule of the moment. Errors name the file.
+// Returns the ladder. The volumes overlap by the default rule of the moment. Errors name the file.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(
     const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
     int rounds, const std::function<void(std::size_t done, std::size_t total)>& progress);

@@ -1,4 +1,4 @@
-// stormcellar batch plan|run|merge|check|submit: archives on many machines.
+// stormcellar batch plan|run|merge|check|submit: grids archives on many machines.
 #include "cli/batch/batch.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// cli/batch/batch.h -- what the subcommands of `stormcellar batch` share.
+// cli/batch/batch.h -- code that the subcommands of `stormcellar batch` share.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -17,7 +17,7 @@ namespace stormcellar::cli {
 
 // Exit status of a task that another try, or another machine, may finish (EX_TEMPFAIL).
 inline constexpr int exit_try_again = 75;
-// Exit status of a check that finds tasks of the plan not done.
+// Exit status of a check that finds unfinished tasks.
 inline constexpr int exit_incomplete = 3;
 
 void add_plan_option(CLI::App& app, std::string& plan);
@@ -29,7 +29,7 @@ Run set_up_batch_check(CLI::App& command);
 Run set_up_batch_statistics(CLI::App& command);
 Run set_up_batch_submit(CLI::App& command);
 
-// Checks a plan, with a bar on stderr.
+// Checks a plan, with a progress bar on stderr.
 [[nodiscard]] Result<batch::CheckReport> check_with_bar(const batch::Plan& plan, bool deep,
                                                         bool quiet);
 

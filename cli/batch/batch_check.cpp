@@ -1,4 +1,5 @@
-// stormcellar batch check --plan PLAN: what is done, missing and left out.
+// stormcellar batch check --plan PLAN: reports tasks that are done, missing, or have left files
+// out.
 #include <algorithm>
 #include <memory>
 
@@ -44,8 +45,8 @@ void print_left_out(const batch::Plan& plan, const CheckReport& report, std::siz
     }
 }
 
-// A row a station: the volumes that were gridded in each hour of the day, with those left out after
-// a minus. Hours without a file show a dot.
+// Prints a row for each station: the volumes gridded in each hour of the day, followed by a minus
+// and those left out. Hours without a file show a dot.
 void print_table(const Totals& done) {
     fmt::print("{:<7}", "hour");
     for (int hour = 0; hour < 24; ++hour)

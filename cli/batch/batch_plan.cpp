@@ -1,4 +1,5 @@
-// stormcellar batch plan --source DIR|URL --from T --to T -o PLAN: the tasks that make an archive.
+// stormcellar batch plan --source DIR|URL --from T --to T -o PLAN: writes the tasks that make an
+// archive.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -90,7 +91,7 @@ Result<pipeline::Domain> domain_of(const PlanOptions& options, const Recipe& rec
                                    const std::vector<std::string>& known) {
     if (Status good = check_mosaic_name(options.mosaic); !good) return pass_on(good);
     ArchiveOptions archive = options.archive;
-    archive.catalog = options.source;  // it is an archive's
+    archive.catalog = options.source;  // an archive's volumes come from the source
     if (archive.stations.empty() && archive.bounds.empty())
         archive.stations = fmt::format("{}", fmt::join(known, ","));
     const auto request = parse_archive(archive);
@@ -122,7 +123,7 @@ Result<pipeline::Domain> domain_of(const PlanOptions& options, const Recipe& rec
     return domain;
 }
 
-// Sets the shape of the stations' own grids. Returns the stations that were named, or all known.
+// Sets the shape of the stations' own grids. Returns the named stations, or all known ones.
 Result<std::vector<std::string>> take_own_grids(const PlanOptions& options,
                                                 const std::vector<std::string>& known,
                                                 Recipe& recipe) {
@@ -164,7 +165,7 @@ std::string links_text(const SourceListing& listing) {
         listing.links, listing.links == 1 ? "link is" : "links are", listing.first_link.native());
 }
 
-// Sets the grids of the recipe and lists what belongs to them.
+// Sets the grids of the recipe and lists their raw files.
 Result<SourceListing> take_stations(const PlanOptions& options, Recipe& recipe) {
     const bool is_bucket = batch::is_address(recipe.source);
     const auto margin = options.mosaic.empty()
@@ -259,7 +260,7 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
                format_byte_size(batch::bytes_of_counts(plan)));
 }
 
-// Counts are of reflectivity, whose thresholds are in dBZ.
+// Checks the statistics, which count reflectivity only; their thresholds are in dBZ.
 Status check_statistics(const PlanOptions& options, const Recipe& recipe) {
     if (!options.statistics && !options.cell_statistics) return {};
     const bool is_reflectivity = recipe.moments == std::vector{level2::Moment::ref};

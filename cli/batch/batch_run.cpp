@@ -1,4 +1,4 @@
-// stormcellar batch run --plan PLAN --task N, and batch merge.
+// stormcellar batch run --plan PLAN --task N, and batch merge: do tasks of a plan.
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -49,7 +49,8 @@ Result<TaskRange> parse_tasks(const std::string& text) {
     return range;
 }
 
-// Asks for another try only if the system failed: no try changes the data or the plan.
+// Returns the exit status. It asks for another try only if the system failed, because no try
+// changes the data or the plan.
 int status_of(const Error& error) {
     if (error.cause() == Cause::system) return exit_try_again;
     return error.code == ErrorCode::bad_argument ? exit_bad_usage : exit_failed;
@@ -113,7 +114,7 @@ Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs
     return outcome;
 }
 
-// The status of a range is that of the task that went worst.
+// Runs a range of tasks. Returns the worst status of a task.
 int run_tasks(const TaskCommand& command) {
     const auto range = parse_tasks(command.tasks);
     if (!range) return report_error(range.error());

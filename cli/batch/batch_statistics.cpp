@@ -1,4 +1,4 @@
-// stormcellar batch statistics --plan PLAN --by hour|month|all -o FILE.nc: a climatology.
+// stormcellar batch statistics --plan PLAN --by hour|month|all -o FILE.nc: writes a climatology.
 #include <map>
 #include <memory>
 #include <vector>
@@ -23,7 +23,7 @@ int group_of(const batch::MonthHour& part, const std::string& by) {
     return by == "month" ? static_cast<int>(part.month) : 0;
 }
 
-// Adds the counts of each month and hour to those of its group.
+// Adds the counts of each month and hour to their group.
 Result<std::vector<netcdf::TallyGroup>> sum_up(const batch::Plan& plan,
                                                const StatisticsCommand& command) {
     std::map<int, netcdf::TallyGroup> groups;

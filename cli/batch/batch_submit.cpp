@@ -38,7 +38,7 @@ Status write_text(const fs::path& path, const std::string& text) {
     return write_file_atomically(real_file_system(), path, std::as_bytes(std::span(text)));
 }
 
-// Runs a command of a shell and returns what it printed.
+// Runs a shell command and returns its output.
 Result<std::string> output_of(const std::string& command) {
     std::FILE* const pipe = ::popen(command.c_str(), "re");
     if (pipe == nullptr) return fail(ErrorCode::exhausted, "{}: cannot be run", command);
@@ -55,7 +55,7 @@ Result<std::string> output_of(const std::string& command) {
 }
 
 std::string sbatch_command(const fs::path& script, const std::string& after) {
-    // Frames are judged by the records of their grids, so they may begin however the grids ended.
+    // Frame tasks check the records of their grids, so they may begin however the grid tasks ended.
     const std::string dependency =
         after.empty() ? "" : fmt::format(" --dependency=afterany:{}", after);
     return fmt::format("sbatch --parsable{} {}", dependency, quoted(script.native()));
@@ -78,7 +78,7 @@ int submit_to_slurm(const SubmitCommand& command, const batch::Plan& plan,
         }
         const auto number = output_of(sbatch_command(script, after));
         if (!number) return report_error(number.error());
-        after = number->substr(0, number->find(';'));  // a cluster's name may follow
+        after = number->substr(0, number->find(';'));  // the name of a cluster may follow
         fmt::print("{}: job {}\n", job.name, after);
     }
     return exit_done;

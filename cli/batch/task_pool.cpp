@@ -22,7 +22,7 @@ struct Turn {
     int tries = 1;
 };
 
-// The task writes where this program does, and ends with it by Ctrl-C.
+// Starts a task. It writes where this program does, and Ctrl-C ends both.
 Result<pid_t> start(const PoolJob& job, std::size_t task) {
     return spawn(job.program,
                  {"batch", job.command, "--plan", job.plan, "--task", std::to_string(task),
@@ -48,7 +48,7 @@ Result<std::vector<std::size_t>> run_pool(const PoolJob& job, const std::vector<
             running[*child] = left.front();
             left.pop_front();
         }
-        if (running.empty()) break;  // stopped
+        if (running.empty()) break;  // the stop flag is set and all tasks have ended
         int status = 0;
         const pid_t child = ::wait(&status);
         if (child < 0 && errno == EINTR) {

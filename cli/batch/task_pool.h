@@ -1,7 +1,7 @@
-// cli/batch/task_pool.h -- runs tasks of a plan as processes of this machine, several at a time.
+// cli/batch/task_pool.h -- runs tasks of a plan as processes on this machine, several at a time.
 //
-// Each task is a process of its own, as with any other engine, so one that crashes takes no other
-// with it. A task that ends with status 75 is tried again, up to three times in all.
+// Each task is a process, as with any other engine, so a crash affects no other task. A task that
+// ends with status 75 is tried again, up to three times in all.
 //
 // Threads   One pool at a time; it waits for all children of the process.
 // Errors    io or exhausted if a process cannot be started.
@@ -19,14 +19,14 @@ namespace stormcellar::cli {
 
 struct PoolJob {
     std::filesystem::path program, plan;
-    const char* command = "run";  // of `stormcellar batch`
+    const char* command = "run";  // subcommand of `stormcellar batch`
     int jobs = 1;
     int threads = 1;
 };
 
-// Runs the tasks in their order. Once `stop` is set, no further task begins, and those that run are
-// told to end. `done` is called after each task that has ended for good, with their number so far.
-// Returns the tasks that failed.
+// Runs the tasks in their order. Once `stop` is set, no further task begins, and running ones are
+// told to end. After each task that has ended for good, `done` is called with the number of such
+// tasks. Returns the tasks that failed.
 [[nodiscard]] Result<std::vector<std::size_t>> run_pool(
     const PoolJob& job, const std::vector<std::size_t>& tasks, const std::atomic<bool>& stop,
     const std::function<void(std::size_t done)>& done);

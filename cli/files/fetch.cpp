@@ -1,5 +1,5 @@
-// stormcellar fetch --from T --to T --stations A,B|--bounds W,S,E,N -o DIR: raw files from a public
-// bucket.
+// stormcellar fetch --from T --to T --stations A,B|--bounds W,S,E,N -o DIR: downloads raw files
+// from a public bucket.
 #include "stormcellar/fetch/fetch.h"
 
 #include <algorithm>

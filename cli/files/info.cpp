@@ -29,7 +29,7 @@ struct InfoOptions {
     bool json = false;
     int threads = 0;  // 0: as many as the machine has
     std::string to;   // CfRadial file to write; empty: none
-    int volume = 0;   // of the file, from 1; 0: its only one
+    int volume = 0;   // number in the file, from 1; 0: its only one
     bool own_ranges = false;
     SiteOptions site;
 };
@@ -71,7 +71,7 @@ void print_times(const level2::Volume& volume) {
     }
 }
 
-// Lists each moment once with its gates, as "REF 1832 x 250 m".
+// Returns each moment once with its gates, as "REF 1832 x 250 m".
 std::string moments_text(const level2::Sweep& sweep) {
     std::string text;
     for (const level2::Moment name : level2::all_moments) {
@@ -116,7 +116,7 @@ void print_problems(const level2::DecodeReport& report) {
     }
 }
 
-// For a file with several volumes.
+// Lists the volumes of a file that has several.
 void print_volumes(const std::vector<level2::VolumePart>& parts) {
     if (parts.size() < 2) return;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -162,7 +162,7 @@ std::uintmax_t size_of(const std::vector<std::filesystem::path>& chunks) {
     return sum;
 }
 
-// Checks before long work that the CfRadial file can be written.
+// Checks, before long work, that the CfRadial file can be written.
 Status check_output(const InfoOptions& options) {
     if (options.to.empty()) return {};
     for (const std::string& file : options.files) {
@@ -175,7 +175,8 @@ Status check_output(const InfoOptions& options) {
                              options.json);
 }
 
-// Returns the number of the volume that is to be written, from 0. Of chunks one volume was decoded.
+// Returns the number of the volume to write, from 0. If the file is a set of chunks, only one
+// volume was decoded.
 Result<std::size_t> chosen_volume(const InfoOptions& options, const InputFile& file,
                                   std::size_t count) {
     if (!file.chunks.empty() && count == 1) return 0;

@@ -12,15 +12,15 @@
 
 namespace stormcellar::cli {
 
-// Writes volumes[number] of the volumes of `source`. Problems found in the file become notes. An
-// existing file is replaced. With own_ranges each gate geometry has a range axis of its own.
-// Errors: those of netcdf::write_volume().
+// Writes volumes[number] of `source`. Problems found in the file become notes. Replaces an existing
+// file. With own_ranges, each gate geometry gets its own range axis. Errors: those of
+// netcdf::write_volume().
 [[nodiscard]] Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t number,
                                    const level2::DecodeReport& report,
                                    const std::filesystem::path& source,
                                    const std::filesystem::path& to, bool own_ranges);
 
-// The flag --own-ranges, for every command that writes volumes.
+// Adds the flag --own-ranges, for every command that writes volumes.
 CLI::Option* add_own_ranges(CLI::App& app, bool& own_ranges);
 
 }  // namespace stormcellar::cli

@@ -37,7 +37,7 @@ Status check_output(const GridOptions& options, const InputFiles& inputs) {
         fmt::format("a grid is written as {}", grid_export::known_grid_formats()), options.json);
 }
 
-// Prints the plans, where they were asked for. Errors: unmet for a plan that misses its budget.
+// Prints the plans, if requested. Errors: unmet for a plan that misses its budget.
 Status report_plans(const GridOptions& options, const std::vector<MadeGrid>& all, bool explain) {
     const bool taken = options.json || is_stdout(options.output);
     for (const MadeGrid& made : all) {
@@ -55,14 +55,14 @@ Status write_all(const GridOptions& options, const std::vector<grid::Grid>& grid
     auto output = OutputFile::open(options.output);
     if (!output) return pass_on(output);
     const auto* format = grid_export::grid_format_of(options.output);
-    // Standard output has no ending and takes the default.
+    // Standard output has no ending, so it gets the default format.
     if (format == nullptr) format = &grid_export::grid_formats().front();
     const auto written = format->write(real_file_system(), output->path(), grids);
     if (!written) return written;
     return output->finish();
 }
 
-// A note that several moments give alike is printed once.
+// Prints notes. A note that several moments share is printed once.
 void print_notes(const std::vector<grid::Grid>& grids, const std::vector<MomentRequest>& moments) {
     std::set<std::string> said;
     for (const grid::Grid& grid : grids) {

@@ -16,7 +16,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// A table of the site frame, and the exact geometry.
+// one table of the site frame, and one for the exact geometry
 constexpr std::size_t most_geometries = 2;
 
 grid::GridderOptions gridder_options(const GridRequest& request, const MomentRequest& of,
@@ -32,14 +32,14 @@ grid::GridderOptions gridder_options(const GridRequest& request, const MomentReq
     return gridder;
 }
 
-// The moments of one file that are gridded share what is here.
+// Data that all moments gridded from one file share.
 struct FileScene {
     const SourceVolume& source;
     grid::GridSpec spec;
     pipeline::GeometryCache geometries{most_geometries};
 };
 
-// Without a plan: the default, changed by the settings of the effects.
+// Grids without a plan: the default chain, changed by the settings of the effects.
 Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, const MomentRequest& of,
                               GridTimings& timings) {
     Stopwatch watch;
@@ -89,15 +89,15 @@ Result<MadeGrid> grid_by_plan(FileScene& scene, const GridRequest& request, cons
     return made;
 }
 
-// Returns true if the moment is gridded: one that was named always, and of all that the volumes may
-// hold those that one of them holds.
+// Returns true if the moment must be gridded. A named moment always is; with "all", only moments
+// that one of the volumes has.
 bool is_gridded(const GridRequest& request, level2::Moment moment,
                 const std::vector<const level2::Volume*>& volumes) {
     const auto has = [&](const level2::Volume* volume) { return level2::holds(*volume, moment); };
     return !request.any_moment || std::ranges::any_of(volumes, has);
 }
 
-// Returns a grid of each moment; after one that does not meet its budget there are no more.
+// Returns a grid of each moment. Stops after the first grid that does not meet its budget.
 Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridRequest& request,
                                         const std::vector<MomentRequest>& moments,
                                         GridTimings& timings, std::vector<SourceVolume>* kept) {
@@ -129,7 +129,7 @@ Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridReque
     return all;
 }
 
-// All moments are brought to one instant: the one that was asked for, or that of the first moment.
+// Merges the files for one instant: the requested one, or that of the first moment.
 Result<std::vector<MadeGrid>> grid_files(const std::vector<std::string>& files, GridRequest request,
                                          const std::vector<MomentRequest>& moments,
                                          GridTimings& timings, std::vector<SourceVolume>* kept) {

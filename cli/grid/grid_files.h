@@ -1,7 +1,6 @@
-// cli/grid/grid_files.h -- grids the files that a command line names: one file, or a mosaic of
-// several.
+// cli/grid/grid_files.h -- grids the files of a command line: one file, or a mosaic of several.
 //
-// Threads   Pure functions, which read the files and use request.threads threads.
+// Threads   Pure functions. They read the files and use request.threads threads.
 #pragma once
 
 #include <optional>
@@ -24,25 +23,24 @@ namespace stormcellar::cli {
 struct MomentRequest {
     level2::Moment moment = level2::Moment::ref;
     EffectRequest effects;
-    grid::MosaicOptions mosaic;  // of several files
+    grid::MosaicOptions mosaic;  // for several files
 };
-// Returns one for each moment of the request. Errors: bad_argument, naming the option.
+// Returns the options of each moment of the request. Errors: bad_argument, naming the option.
 [[nodiscard]] Result<std::vector<MomentRequest>> parse_each_moment(
     const GridOptions& options, const GridRequest& request, const EffectOptions& effect_options,
     const MosaicOptions& mosaic_options);
 
-// A grid, and the plan by which it was made, if a plan was requested.
+// A grid, and its plan, if one was requested.
 struct MadeGrid {
     grid::Grid grid;
     std::optional<accuracy::Plan> plan;
 
-    // Its plan does not meet the budget, and the grid is empty.
+    // Returns true if the plan does not meet the budget; the grid is then empty.
     [[nodiscard]] bool has_failed() const { return plan && !plan->meets_budget; }
 };
 
-// Returns a grid of each moment; after one that does not meet its budget there are no more. Adds to
-// the timings. The volumes that were read are moved into `kept`, if it is not null. Errors name the
-// file.
+// Returns a grid of each moment. Stops after the first grid that does not meet its budget. Adds to
+// the timings. Moves the decoded volumes into `kept`, unless that is null. Errors name the file.
 [[nodiscard]] Result<std::vector<MadeGrid>> grid_inputs(const std::vector<std::string>& files,
                                                         const GridRequest& request,
                                                         const std::vector<MomentRequest>& moments,

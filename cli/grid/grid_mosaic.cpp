@@ -17,9 +17,9 @@
 namespace stormcellar::cli {
 namespace {
 
-constexpr double beyond_sites_m = 230'000;  // what a mosaic shows beyond its outermost sites
+constexpr double beyond_sites_m = 230'000;  // extent of a mosaic beyond its outermost sites
 
-// Whole cells that hold all sites and 230 km about them, in kilometers.
+// Returns the extent, in kilometers, of whole cells that hold all sites and 230 km around them.
 std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,
                                    grid::GeoPoint center, double spacing_km) {
     const grid::HalfExtent half = grid::half_extent_of(sites, center);
@@ -41,7 +41,7 @@ std::vector<grid::SitePosition> sites_of(const std::vector<SourceVolume>& source
     return sites;
 }
 
-// The moments whose values of different sites are not to be mixed: "VEL and PHI".
+// Returns the moments whose values must not be mixed between sites: "VEL and PHI".
 std::string never_mixed() {
     std::vector<level2::MomentFacts> apart;
     for (const level2::MomentFacts& facts : level2::moment_facts) {

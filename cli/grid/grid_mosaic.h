@@ -1,5 +1,5 @@
-// cli/grid/grid_mosaic.h -- `stormcellar grid A B C...`: files of several sites, or of several
-// times, become one grid for an instant (pipeline/mosaic/mosaic_frame.h).
+// cli/grid/grid_mosaic.h -- `stormcellar grid A B C...`: grids files of several sites, or of
+// several times, as one grid for an instant (pipeline/mosaic/mosaic_frame.h).
 #pragma once
 
 #include <optional>
@@ -23,20 +23,21 @@ struct MosaicOptions {
 };
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
-// For one moment. Errors: bad_argument, naming the option, also for an option that only makes sense
-// with several files. The averaging is the default one, because it is among the effects.
+// Parses the options for one moment. Errors: bad_argument, naming the option, also for one that
+// only makes sense with several files. The averaging stays the default, because it is among the
+// effects.
 [[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
                                                        const EffectOptions& effects,
                                                        std::size_t files,
                                                        const GridRequest& request,
                                                        level2::Moment moment);
 
-// Returns a grid about the requested center, else about the middle of the sites; without an extent,
-// up to 230 km beyond them. Errors: those of spec_about().
+// Returns a grid about the requested center, or about the middle of the sites. Without an extent it
+// reaches 230 km beyond the sites. Errors: those of spec_about().
 [[nodiscard]] Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                                  GridRequest request);
 
-// The volumes of a mosaic, and the grid that holds them.
+// The volumes of a mosaic, and the spec of its grid.
 struct MosaicSources {
     std::vector<SourceVolume> volumes;
     std::vector<std::string> files;  // one for each volume
@@ -44,17 +45,18 @@ struct MosaicSources {
     double read_s = 0, decode_s = 0;
 
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes() const;
-    // Returns only the volumes that hold the moment; all, if none does.
+    // Returns the volumes that hold the moment, or all volumes if none does.
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes(level2::Moment moment) const;
     [[nodiscard]] std::size_t site_count() const;
 };
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
 
-// Returns the request for the moment that `overlap` is for, on the grid of the sources: about the
-// middle of the sites without --center, and to 230 km beyond them without an extent. Without --time
-// the mosaic is for the middle between the earliest and the latest of the sites' newest volumes; if
-// not all of these are within 15 minutes of it, for the middle of the newest one.
+// Returns the request for the moment of `overlap`, on the grid of the sources: about the middle of
+// the sites if there is no --center, and reaching 230 km beyond them if there is no extent. Without
+// --time, the instant is the middle between the earliest and the latest of the sites' newest
+// volumes, or the middle of the newest one if any of these volumes is more than 15 minutes from the
+// first instant.
 [[nodiscard]] pipeline::MosaicRequest mosaic_request(const MosaicSources& sources,
                                                      const GridRequest& request,
                                                      const grid::MosaicOptions& overlap,

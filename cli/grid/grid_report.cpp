@@ -20,7 +20,7 @@ std::array<std::size_t, 4> count_states(const grid::Grid& grid) {
     return counts;
 }
 
-// Adds what a grid of one moment holds, and how it was made.
+// Adds the contents of a grid of one moment, and how it was made.
 void describe_cells(const grid::Grid& grid, nlohmann::ordered_json& json) {
     const auto counts = count_states(grid);
     for (std::size_t state = 0; state < counts.size(); ++state)

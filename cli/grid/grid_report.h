@@ -1,6 +1,6 @@
-// cli/grid/grid_report.h -- what `stormcellar grid` says of the grids that it wrote.
+// cli/grid/grid_report.h -- reports on the grids that `stormcellar grid` wrote.
 //
-// Threads   Pure, but for the output of print_facts().
+// Threads   Pure, except that print_facts() prints.
 #pragma once
 
 #include <vector>
@@ -18,13 +18,13 @@ struct GridTimings {
     double write_s = 0, total_s = 0;
 };
 
-// Returns the facts of grids of one or several moments of the same cells. Of one grid everything
-// stands side by side; of several, "moments" has an object for each.
+// Returns facts about grids of one or several moments on the same cells. For one grid all facts are
+// in one object; for several, "moments" has an object for each.
 [[nodiscard]] nlohmann::ordered_json describe(const GridOptions& options,
                                               const std::vector<grid::Grid>& grids,
                                               const GridTimings& timings);
 
-// Prints the same in words: to standard error if the file goes to standard output.
+// Prints the same facts as text, to standard error if the grid goes to standard output.
 void print_facts(const GridOptions& options, const std::vector<grid::Grid>& grids,
                  const GridTimings& timings);
 

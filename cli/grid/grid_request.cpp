@@ -49,7 +49,7 @@ Result<std::array<double, 2>> parse_pair(std::string_view option, std::string_vi
     return std::array<double, 2>{(*given)[0], (*given)[1]};
 }
 
-// "azimuthal_equidistant (aeqd), latitude_longitude (lat-lon, latlon)" and so on.
+// Returns "azimuthal_equidistant (aeqd), latitude_longitude (lat-lon, latlon)" and so on.
 std::string known_projections(std::string_view before_last) {
     struct Named {
         std::string name;
@@ -82,8 +82,7 @@ std::string_view unit_name(SizeUnit unit) {
     return unit == SizeUnit::km ? "km" : "degree";
 }
 
-// Returns `cells` if they are few enough; each has this spacing, and together they make up an
-// extent.
+// Returns `cells`, the number of this spacing in the extent, or an error if there are too many.
 Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit) {
     constexpr int most = grid::GridSpec::greatest_side;
     if (cells <= most) return static_cast<int>(cells);
@@ -93,7 +92,7 @@ Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit)
         extent, spacing, unit_name(unit), most, most * spacing);
 }
 
-// Returns how many cells make up an extent, which must be a whole number.
+// Returns how many cells an extent has; it must be a whole number.
 Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     const double cells = std::round(extent / spacing);
     const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;
@@ -105,7 +104,7 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     return count_of(cells, extent, spacing, unit);
 }
 
-// Returns the cells that cover the extent; a millionth of a cell counts as rounding.
+// Returns how many cells cover the extent; a millionth of a cell counts as rounding.
 Result<int> cells_over(double extent_deg, double spacing_deg) {
     const double cells = std::ceil(extent_deg / spacing_deg - 1e-6);
     if (!(cells >= 1)) {
@@ -116,7 +115,7 @@ Result<int> cells_over(double extent_deg, double spacing_deg) {
     return count_of(cells, extent_deg, spacing_deg, SizeUnit::degrees);
 }
 
-// Reads one spacing and one extent, each in kilometers or in degrees.
+// Reads the spacing and the extent, either both in kilometers or both in degrees.
 Status parse_size(const GridOptions& options, GridRequest& request) {
     const bool any_degrees = options.spacing_deg || !options.extent_deg.empty();
     if (any_degrees && !grid::facts_of(request.projection).in_degrees) {
@@ -173,7 +172,7 @@ Result<level2::Moment> parse_moment(const std::string& name) {
 
 constexpr std::string_view every_moment = "all";
 
-// Reads one moment, or where several are taken a list of them or "all".
+// Reads one moment, or, where several are allowed, a list of them or "all".
 Status parse_moments(const GridOptions& options, GridRequest& request) {
     const std::string& text = options.moment;
     request.any_moment = options.takes_moments && text == every_moment;
@@ -203,7 +202,7 @@ Status parse_moments(const GridOptions& options, GridRequest& request) {
 constexpr std::string_view counts_field = "counts";
 constexpr std::string_view weights_field = "weights";
 
-// Adds one of --fields. Returns false if there is none of that name.
+// Adds one of --fields. Returns false if there is none of this name.
 bool add_field(std::string_view name, bool mosaic, GridRequest& request) {
     const bool all = name == "all";
     request.site_counts = request.site_counts || name == counts_field || (all && mosaic);
@@ -328,7 +327,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     request.threads = options.threads > 0
                           ? options.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    // For several sites, the extent, and the spacing that fits it, are known only with the sites.
+    // For several sites, the extent and a spacing that fits it are known only once the sites are.
     const bool has_extent = request.extent_given || options.files.size() == 1;
     if (has_extent && (request.center_deg || grid::facts_of(request.projection).is_polar)) {
         const auto [latitude_deg, longitude_deg] =

@@ -27,14 +27,14 @@ struct GridOptions {
     std::vector<std::string> files;
     std::string output;
     std::string center;
-    std::string_view center_option = "--center";  // or --at, as it was typed
+    std::string_view center_option = "--center";  // or --at, as typed
     std::string projection{grid::projection_name(grid::Projection::azimuthal_equidistant)};
     std::string parallels;
     std::string extent_km, extent_deg;
     std::optional<double> spacing_km, spacing_deg;
     std::string levels_km;
     std::string moment{level2::moment_name(level2::Moment::ref)};
-    bool takes_moments = false;  // --moment may name several, or all
+    bool takes_moments = false;  // --moment may name several moments, or "all"
     std::string time, fields;
     SiteOptions site;
     int volume = 0;   // its number, from 1; 0: see add_volume_option()
@@ -54,7 +54,7 @@ void add_spec_options(CLI::App& app, GridOptions& options);
 
 enum class SizeUnit { km, degrees };
 
-// The options as far as they can be parsed before the site is known.
+// The options, parsed as far as is possible before the site is known.
 struct GridRequest {
     std::optional<std::array<double, 2>> center_deg;
     grid::Projection projection = grid::Projection::azimuthal_equidistant;
@@ -66,15 +66,16 @@ struct GridRequest {
     SizeUnit spacing_unit = SizeUnit::km;  // degrees are only for latitude_longitude
     std::vector<double> levels_m;          // empty: those of grid::default_spec()
     level2::Moment moment = level2::Moment::ref;
-    std::vector<level2::Moment> more_moments;  // beside it, in the order of the list of moments
+    std::vector<level2::Moment> more_moments;  // in addition to the first, in the order of the list
+                                               // of moments
     bool any_moment = false;            // --moment all: a moment that no volume holds is left out
-    std::optional<UtcTime> frame_time;  // the sweeps nearest to this time are then used
-    grid::DetailSet details;            // of one file
-    bool site_counts = false;           // of several files
+    std::optional<UtcTime> frame_time;  // selects the sweeps nearest to this time
+    grid::DetailSet details;            // for one file
+    bool site_counts = false;           // for several files
     bool site_weights = false;
-    SiteRequest site;  // for every file
-    int volume = 0;    // of the one file, from 1; 0: the first, or of chunks the newest
-    // The files that the names refer to; null: each name is one file.
+    SiteRequest site;  // applies to every file
+    int volume = 0;    // number in the one file, from 1; 0: the first, or the newest of chunks
+    // The files behind the names; null: each name is one file.
     std::shared_ptr<InputFiles> inputs;
     int threads = 1;
 
@@ -82,16 +83,16 @@ struct GridRequest {
     [[nodiscard]] std::vector<level2::Moment> moments() const;
 };
 
-// Returns the files that were named, with archives and directories replaced by the files in them.
+// Returns the named files, with archives and directories replaced by the files in them.
 // Errors: those of InputFiles::find().
 [[nodiscard]] Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options);
 
-// Errors: bad_argument, naming the option. With --center, and if the center does not matter, the
-// spec is checked as well.
+// Parses the options. With --center, or if the center does not matter, it checks the spec as well.
+// Errors: bad_argument, naming the option.
 [[nodiscard]] Result<GridRequest> parse_request(const GridOptions& options);
 
-// Returns the requested grid about a center, which is valid. For a latitude-longitude grid,
-// kilometers are converted to degrees at the center, rounded up to whole cells.
+// Returns the requested grid about a valid center. For a latitude-longitude grid, kilometers are
+// converted to degrees at the center, rounded up to whole cells.
 [[nodiscard]] Result<grid::GridSpec> spec_about(const GridRequest& request,
                                                 double center_latitude_deg,
                                                 double center_longitude_deg);

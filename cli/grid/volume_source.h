@@ -14,14 +14,14 @@ namespace stormcellar::cli {
 using grid::ChooseCuts;
 using grid::SourceVolume;
 
-// Returns the first volume of the file that holds one of the requested moments, with these alone.
-// Errors name the file: those of reading and decoding, and of apply_site(); not_found if the
-// position of the radar is not known. With `choose_cuts` only the sweeps of these cuts are decoded,
-// and all sweeps where that gives none with a moment.
+// Returns the first volume of the file that holds one of the requested moments, with these moments
+// only. If `choose_cuts` is set, only the sweeps of these cuts are decoded, or all sweeps if those
+// hold none of the moments. Errors name the file: those of reading and decoding, and of
+// apply_site(); not_found if the position of the radar is unknown.
 [[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
                                                const ChooseCuts& choose_cuts = {});
-// The same for the bytes of a file that is in memory; `file` is its name. Of several volumes in it,
-// the one that begins at `start` is taken.
+// Does the same for the bytes of a file in memory; `file` is its name. If it has several volumes,
+// the one that begins at `start` is used.
 [[nodiscard]] Result<SourceVolume> decode_volume(std::span<const std::byte> bytes,
                                                  const std::string& file,
                                                  const GridRequest& request, UtcTime start,

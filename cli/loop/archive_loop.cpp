@@ -97,7 +97,8 @@ Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call,
     return plan;
 }
 
-// Runs `work` with a progress bar. Grids are committed whole, so an interrupt need not wait for it.
+// Runs `work` with a progress bar. An interrupt need not wait for it, because grids are committed
+// whole.
 template <class Work>
 Status run_with_bar(const std::string& what, std::size_t total, bool wanted, Interrupt& interrupt,
                     Work work) {
@@ -125,7 +126,7 @@ std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
     return stations;
 }
 
-// A station that was named but does not exist is a mistake, which `nothing` reports.
+// Checks the stations. A named station that does not exist is a mistake, which `nothing` reports.
 Status check_stations(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                       std::string& nothing) {
     const auto known = catalog.station_names();
@@ -151,7 +152,7 @@ void note_without_volumes(const ArchiveCall& call, const std::vector<ArchiveVolu
     }
 }
 
-// Refuses what will not fit; says what is to be done.
+// Prints what there is to do, and refuses a fill that does not fit.
 Status announce(const ArchiveCall& call, const pipeline::ArchivePlan& plan,
                 const pipeline::ArchiveFill& fill, const std::vector<ArchiveVolume>& volumes,
                 const std::vector<ArchiveVolume>& missing, std::size_t frames) {
@@ -192,7 +193,7 @@ void warn(const std::vector<pipeline::LeftOut>& files, std::string_view what) {
     }
 }
 
-// A file that can no longer be read may have left a grid when it could.
+// Reports the files left out. A file that can no longer be read may have been gridded earlier.
 void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& missing,
                   ArchiveGrids& grids) {
     for (pipeline::LeftOut& file : grids.report.left_out) {
@@ -211,7 +212,7 @@ void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& mis
     warn(grids.report.left_out, "left out: ");
 }
 
-// A bar for the volumes, and one for a mosaic's frames.
+// Fills in the grids, with one progress bar for the volumes and one for a mosaic's frames.
 Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
             const std::vector<ArchiveVolume>& missing, const std::vector<UtcTime>& instants,
             Interrupt& interrupt, ArchiveGrids& grids) {
@@ -242,7 +243,7 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
     return {};
 }
 
-// Adds what the report does not have: what the plan left out, and files without a volume.
+// Adds to the report the volumes that the plan left out, and files without a volume.
 Status add_left_out(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                     const std::vector<pipeline::LeftOut>& by_plan, pipeline::FillReport& report) {
     report.left_out.insert(report.left_out.begin(), by_plan.begin(), by_plan.end());
@@ -253,7 +254,7 @@ Status add_left_out(const ArchiveCall& call, const catalog::CatalogReader& catal
     return {};
 }
 
-// A process that was just killed may hold the lock a moment longer.
+// Opens the cache, with retries: a process that was just killed may hold the lock a moment longer.
 Result<cache::RollingStore> open_cache(const fs::path& directory) {
     auto store = cache::RollingStore::open(real_file_system(), directory, {});
     for (int tries = 1; tries < 20 && !store; ++tries) {
@@ -342,7 +343,7 @@ Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids) {
         }
         return {};
     }
-    // It goes while it is still held, so that no other loop opens it meanwhile.
+    // Remove it while its lock is held, so that no other loop opens it meanwhile.
     std::error_code error;
     fs::remove_all(grids.directory, error);
     grids.store.reset();

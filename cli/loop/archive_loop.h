@@ -1,9 +1,9 @@
-// cli/loop/archive_loop.h -- the grids that an archive's loop is drawn from, made as far as they do
-// not stand yet (pipeline/care/archive_fill.h).
+// cli/loop/archive_loop.h -- makes the missing grids for an archive's loop
+// (pipeline/care/archive_fill.h).
 //
-// They are kept in --cache, or below $XDG_CACHE_HOME (else ~/.cache) in a directory whose name says
-// by a hash what determines them: catalog, stations, grid, moment, rules, version. One process at a
-// time fills it.
+// The grids are kept in --cache, or below $XDG_CACHE_HOME (else ~/.cache) in a directory whose name
+// has a hash of everything that determines them: catalog, stations, grid, moment, rules, version.
+// One process at a time fills it.
 #pragma once
 
 #include <chrono>
@@ -24,14 +24,14 @@
 
 namespace stormcellar::cli {
 
-// An archive request, and what the rest of the command says about it.
+// An archive request, with the related options of the command.
 struct ArchiveCall {
     ArchiveRequest request;
     std::filesystem::path catalog;
-    std::set<std::filesystem::path> files;  // of the catalog, only these; empty: all
+    std::set<std::filesystem::path> files;  // of the catalog, use only these; empty: all
     std::filesystem::path cache;            // empty: the private one
-    std::string domain;                     // of a mosaic; empty: made of the stations' names
-    TimeRange range;                        // both ends are needed
+    std::string domain;                     // of a mosaic; empty: composed of the stations' names
+    TimeRange range;                        // both ends are required
     level2::Moment moment = level2::Moment::ref;
     std::optional<std::chrono::seconds> interval;
     grid::TimeMethod time = grid::TimeMethod::advected;
@@ -41,24 +41,24 @@ struct ArchiveCall {
 };
 
 struct ArchiveGrids {
-    std::optional<cache::RollingStore> store;  // holds the cache against other writers
+    std::optional<cache::RollingStore> store;  // locks the cache against other writers
     std::string domain;
-    std::vector<cache::StoreEntry> entries;  // those of the range, rising in time
+    std::vector<cache::StoreEntry> entries;  // entries in the range, ascending in time
     std::optional<pipeline::Domain> mosaic;  // none: a station's own grids
     pipeline::FillReport report;
     double fill_s = 0, frames_s = 0;
     std::filesystem::path directory;  // of the cache
-    std::uint64_t bytes = 0;          // in it, once it was left
+    std::uint64_t bytes = 0;          // in it, set when it is left
 };
 
-// Fills the cache with progress on stderr. Files that are left out are named there. None when
-// nothing in the catalog matches: `nothing` says what.
-// An interrupt ends the process at once, in the midst of the work: what was committed stays.
+// Fills the cache, with progress on stderr, and names files that are left out. Returns none if
+// nothing in the catalog matches; `nothing` then says why. An interrupt ends the process at once;
+// committed grids stay.
 [[nodiscard]] Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
                                                                     Interrupt& interrupt,
                                                                     std::string& nothing);
 
-// Says where the cache is and how large; removes it where it is private and not to be kept.
+// Prints where the cache is and its size; removes it if it is private and not to be kept.
 [[nodiscard]] Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids);
 
 }  // namespace stormcellar::cli

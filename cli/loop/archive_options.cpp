@@ -17,9 +17,9 @@
 namespace stormcellar::cli {
 namespace {
 
-constexpr int most_cells_a_side = 1024;  // of a grid without a requested spacing
+constexpr int most_cells_a_side = 1024;  // for a grid without a requested spacing
 
-// Returns an option that only makes sense with an archive; empty: none was given.
+// Returns an option that only makes sense with an archive; empty if none was given.
 std::string_view stray_option(const ArchiveOptions& options) {
     const GridOptions& place = options.place;
     const bool placed = !place.center.empty() || !place.parallels.empty() ||
@@ -33,7 +33,7 @@ std::string_view stray_option(const ArchiveOptions& options) {
     return placed ? "a grid's place or size" : "";
 }
 
-// Returns whole cells that hold the bounds, in the unit of the spacing.
+// Returns a grid of whole cells that holds the bounds, in the unit of the spacing.
 Result<grid::GridSpec> spec_over(const pipeline::Bounds& bounds, GridRequest request) {
     const grid::GeoPoint middle = pipeline::middle_of(bounds);
     request.extent_given = true;

@@ -38,20 +38,21 @@ void add_overlap_options(CLI::App& app, ArchiveOptions& options, const std::stri
 void add_archive_options(CLI::App& app, ArchiveOptions& options);
 
 struct ArchiveRequest {
-    std::vector<std::string> stations;  // as typed; empty: those that reach the bounds
+    std::vector<std::string> stations;  // as typed; empty: the stations that reach the bounds
     std::optional<pipeline::Bounds> bounds;
     GridRequest place;
     bool spacing_given = false;
-    bool place_given = false;  // a center or a projection: a grid that is not the station's own
+    bool place_given = false;  // a center or a projection makes a grid that is not the station's
+                               // own
     std::optional<grid::Overlap> overlap;
     double overlap_length_m = 250'000;
 };
 
-// Errors: bad_argument, naming the option, also for one that only makes sense without --catalog.
+// Parses the options. Errors: bad_argument, naming the option, also for one that needs --catalog.
 [[nodiscard]] Result<ArchiveRequest> parse_archive(const ArchiveOptions& options);
 
 // Returns the grid that holds the sites and 230 km around them, or the bounds. Without a spacing,
-// it is the smallest of 1, 2, 4 and 8 km with which no side has more than 1024 cells.
+// it takes the smallest of 1, 2, 4 and 8 km with which no side has more than 1024 cells.
 [[nodiscard]] Result<grid::GridSpec> archive_spec(const ArchiveRequest& request,
                                                   const std::vector<grid::SitePosition>& sites);
 

@@ -29,16 +29,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A process that was just killed may hold the lock a moment longer.
+// A process that was just killed may hold the lock a moment longer, so try again.
 constexpr int lock_tries = 20;
 constexpr auto lock_pause = std::chrono::milliseconds{50};
 constexpr std::size_t most_rejected_named = 20;
-// All volumes lie between these, in milliseconds since 1970.
+// All volumes are between these times.
 constexpr UtcTime earliest{std::chrono::days{1}}, latest{std::chrono::days{100'000}};
 
 struct NamedFiles {
     std::set<fs::path> named;   // files, archives, and directories of chunks
-    std::vector<fs::path> all;  // with the chunks of these, sorted
+    std::vector<fs::path> all;  // including the chunks of the directories, sorted
 };
 
 Result<NamedFiles> find_files(const std::vector<std::string>& names) {
@@ -60,7 +60,7 @@ Result<NamedFiles> find_files(const std::vector<std::string>& names) {
         }
         files.named.insert(path);
         if (file.chunks.empty()) all.insert(path);
-        // They lie in the directory that is the path.
+        // The chunks are in the directory of this path.
         for (const fs::path& chunk : file.chunks)
             all.insert(path / chunk.filename());
     }
@@ -146,7 +146,7 @@ Status say_rejected(const fs::path& catalog, const NamedFiles& files) {
     return {};
 }
 
-// Sets the stations and the times that options do not say.
+// Sets the stations and times that the options leave open.
 Status take_range(const fs::path& catalog, LoopOptions& options) {
     auto reader = catalog::CatalogReader::open(catalog);
     if (!reader) return pass_on(reader);
@@ -183,7 +183,7 @@ Result<std::vector<pipeline::LeftOut>> rejected_among(const std::set<fs::path>& 
     if (!stations) return pass_on(stations);
     std::vector<pipeline::LeftOut> rejected;
     for (const std::string& station : *stations) {
-        // Rows of rejected files come with those of volumes, of which one is enough.
+        // This also returns rows of rejected files; one row is enough.
         const auto rows = catalog.list(station, {{}, {}, true, 1});
         if (!rows) return pass_on(rows);
         for (const catalog::CatalogEntry& row : *rows) {

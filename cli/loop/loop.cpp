@@ -56,7 +56,7 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const LoopScene& s
     return {};
 }
 
-// Draws and writes; adds to `report`.
+// Draws and writes the loop; adds to `report`.
 Status make_loop(LoopGrids& grids, const LoopOptions& options, const LoopScene& scene,
                  const std::atomic<bool>& stop, LoopReport& report) {
     auto writers = make_writers(options.outputs, options.animation);
@@ -78,9 +78,9 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const LoopScene& 
     return {};
 }
 
-// Names the grids that cannot be opened and removes them, so that the file states the true number
-// of frames. Returns the first grid that can be opened: the plan for it is used for all frames, and
-// its method represents theirs.
+// Reports and removes the grids that cannot be opened, so that the file states the true number of
+// frames. Returns the first grid that can be opened. Its plan is used for all frames, and its
+// method is reported for them.
 std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& report) {
     std::optional<cache::GridFile> first;
     bool is_mixed = false;
@@ -107,8 +107,8 @@ std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& repor
     return first;
 }
 
-// Fits the view to the echo of all grids; of frames that are made when they are drawn, to that of
-// the first grid.
+// Fits the view to the echo of all grids. For frames that are made when drawn, it uses the first
+// grid only.
 Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const LoopOptions& options,
                 LoopScene& shown) {
     render::Scene& scene = shown.scene;
@@ -147,8 +147,8 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     return {};
 }
 
-// Spreads the frames over as many as the loop is to have; each grid has its share of them. A loop
-// that is followed may begin with a single grid, and its camera then stands until there are more.
+// Distributes the grids over the frames of the loop. A followed loop may begin with a single grid;
+// its camera then stands still until there are more.
 Status spread(LoopGrids& grids, const LoopOptions& options) {
     auto& frames = grids.frames;
     grids.frames_there = frames.size();
@@ -163,7 +163,7 @@ Status spread(LoopGrids& grids, const LoopOptions& options) {
     return {};
 }
 
-// Adds the frames of the way back, without the two ends.
+// Adds the frames of the way back, except the two ends.
 void turn_back(std::vector<LoopFrame>& frames) {
     for (std::size_t i = frames.size(); i > 2; --i) {
         const LoopFrame frame = frames[i - 2];
@@ -171,7 +171,7 @@ void turn_back(std::vector<LoopFrame>& frames) {
     }
 }
 
-// Returns the exit status. Interrupting a loop that is followed is no failure.
+// Draws the loop. Returns the exit status. Interrupting a followed loop is not a failure.
 int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interrupt& interrupt,
               SteadyTime start) {
     options.domain = grids.domain;
@@ -215,7 +215,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
     return exit_done;
 }
 
-// Returns none as long as there is no cache.
+// Opens the cache. Returns none if there is none yet.
 Result<std::optional<cache::StoreReader>> open_if_there(const std::string& cache) {
     auto opened = cache::StoreReader::open(cache);
     if (opened) return std::optional{std::move(*opened)};
@@ -223,7 +223,7 @@ Result<std::optional<cache::StoreReader>> open_if_there(const std::string& cache
     return std::optional<cache::StoreReader>{};
 }
 
-// Returns the grids that now exist; a cache that has appeared in the meantime is opened.
+// Returns the grids that exist now. Opens a cache that has appeared in the meantime.
 Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::StoreReader>& store,
                                                   const LoopOptions& options,
                                                   level2::Moment moment) {
@@ -237,7 +237,7 @@ Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::StoreRead
     return entries_now(*store, options, moment);
 }
 
-// Makes the loop again each time, from the grids that then exist.
+// Makes the loop again after each change, from the grids that exist then.
 int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt) {
     auto opened = open_if_there(options.cache);
     if (!opened) return report_error(opened.error());
@@ -257,8 +257,8 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
                   options.follow, interrupt.flag());
 }
 
-// A way of the camera in the scene file is left out beside options that say how it moves or where
-// it is. Else the camera is first where the way begins.
+// Applies the camera path of the scene file, unless options say how the camera moves or where it
+// is. The camera starts at the beginning of the path.
 void take_camera_keys(LoopOptions& options) {
     if (options.camera.empty()) return;
     if (std::ranges::any_of(options.scene.typed,
@@ -271,7 +271,7 @@ void take_camera_keys(LoopOptions& options) {
     if (options.camera.front().look_at) camera.look_at = options.camera.front().look_at;
 }
 
-// A scene file with panels may be used for a loop, too, if a moment is typed.
+// Refuses panels, unless a moment is typed, which makes a scene file with panels usable for a loop.
 Status refuse_panels(const LoopOptions& options) {
     const bool is_one = render::contains(options.scene.typed, render::moment_option());
     const bool are_in_file = !options.scene.panels.empty() && !is_one;
@@ -283,7 +283,7 @@ Status refuse_panels(const LoopOptions& options) {
                                        : std::string{"--panels"});
 }
 
-// Refuses what a loop of sweeps cannot do.
+// Refuses options that a loop of sweeps does not support.
 Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
     if (!render::facts_of(scene.product).is_of_sweep) return {};
     if (options.follow.wanted) {
@@ -316,7 +316,7 @@ Result<render::Scene> check(LoopOptions& options) {
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return pass_on(plan);
     options.plan = std::move(*plan);
-    // A check looks at no cache, which may not be there yet.
+    // A check does not look at the cache, which may not exist yet.
     const bool has_source = !options.domain.empty() || !options.typed_domain.empty() ||
                             !options.sources.empty() || options.archive.asked();
     if (options.only_check && !has_source) {
@@ -328,7 +328,7 @@ Result<render::Scene> check(LoopOptions& options) {
     return scene;
 }
 
-// Writes nothing, and needs no directory to exist.
+// Checks the options only. Writes nothing, and needs no directory to exist.
 int only_check(const LoopOptions& options) {
     for (const std::string& output : options.outputs) {
         if (auto fine = render::check_animation_name(output); !fine) {
@@ -339,8 +339,8 @@ int only_check(const LoopOptions& options) {
     return range ? exit_done : report_error(range.error());
 }
 
-// Returns the output that is standard output, which is made in a temporary file: "-", or "-.gif"
-// and so on for a format other than WebP. None: there is none.
+// Returns the output that goes to standard output, which is made in a temporary file: "-", or
+// "-.gif" and so on for a format other than WebP. Returns none if there is none.
 Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     const auto is_piped = [](const std::string& output) {
         return is_stdout(output) || output.starts_with("-.");
@@ -359,7 +359,7 @@ Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     return std::optional{std::move(*file)};
 }
 
-// Hands a loop that was made to standard output, if that is where it goes.
+// Copies a finished loop to standard output, if it goes there.
 int finish_piped(int status, std::optional<OutputFile>& piped) {
     if (status != exit_done || !piped) return status;
     const Status written = piped->finish();
@@ -373,7 +373,7 @@ int run_loop(LoopOptions options) {
     const auto scene = check(options);
     if (!scene) return report_error(scene.error());
     if (options.only_check) return only_check(options);
-    // An output that could never be written is refused before any grid is made.
+    // Refuse an output that can never be written before any grid is made.
     if (const auto writers = make_writers(options.outputs, options.animation); !writers) {
         return report_error(writers.error());
     }

@@ -12,7 +12,7 @@ namespace {
 using render::Camera;
 using render::CameraPath;
 
-// Turns the place of a camera about the point that it looks at.
+// Turns the camera about the point that it looks at.
 Camera turned_about_its_point(Camera camera, double by_deg) {
     const render::Eye& middle = *camera.look_at;
     const double turn = by_deg * std::numbers::pi / 180;
@@ -30,7 +30,7 @@ Camera orbiting(const LoopScene& shown, double by_deg) {
     return render::turned(shown.view, by_deg, shown.scene.curved_earth);
 }
 
-// A camera without a place of its own is as far from what is shown as it is in the fitted view.
+// Places a camera that has no position: as far from the scene as in the fitted view.
 Camera placed(const LoopScene& shown, const Camera& camera) {
     if (camera.eye || camera.look_at) return camera;
     render::FittedView view = shown.view;
@@ -38,7 +38,7 @@ Camera placed(const LoopScene& shown, const Camera& camera) {
     return render::turned(view, 0, shown.scene.curved_earth);
 }
 
-// Returns how far along the path frame i is, from 0 to 1. A path that ends where it began leaves
+// Returns how far frame i is along the path, from 0 to 1. A path that ends where it began leaves
 // out its last frame, because the loop begins with the same one.
 double share_of(const CameraPath& path, std::size_t i, std::size_t there) {
     const std::size_t steps = path.is_closed() ? there : std::max<std::size_t>(there, 2) - 1;
@@ -87,7 +87,7 @@ Result<std::vector<Camera>> cameras_of(const LoopSettings& settings, const LoopS
         return cameras;
     }
     Camera usual = shown.scene.camera;
-    if (shown.view.distance_m > 0) usual.eye.reset();  // its place follows from where it looks
+    if (shown.view.distance_m > 0) usual.eye.reset();  // its position follows from its direction
     const auto path = CameraPath::make(settings.camera, usual);
     if (!path) return pass_on(path);
     for (std::size_t i = 0; i < all; ++i) {

@@ -23,7 +23,7 @@ struct FrameGrid {
     [[nodiscard]] Status check_whole() const { return file ? file->check_whole() : Status{}; }
 };
 
-// Errors: not_found if no volume is near.
+// Returns the grid of a frame. Errors: not_found if no volume is near.
 Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between,
                           Drawing& drawing) {
     FrameGrid grid;
@@ -75,7 +75,8 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
                        : render();
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
-    if (const Status whole = grid->check_whole(); !whole) {  // cut while it was drawn
+    if (const Status whole = grid->check_whole(); !whole) {  // the file was truncated while it was
+                                                             // drawn
         return skip(whole.error());
     }
     if (report.frames == 0) report.from = report.to = frame.time;

@@ -17,12 +17,12 @@ namespace stormcellar::cli {
 struct Drawing {
     render::Scene scene;
     render::FrameCache cache;
-    // The last grid that was made between others, and its time.
+    // The last grid that was made between volumes, and its time.
     std::optional<pipeline::MosaicFrame> made;
     UtcTime made_for{};
 };
 
-// Returns one frame; none if the file of the grid is damaged, which the report records.
+// Returns one frame; none if the file of the grid is damaged, which is added to the report.
 [[nodiscard]] Result<std::optional<render::Image>> draw(
     const LoopFrame& frame, const LoopOptions& options,
     std::optional<pipeline::BetweenGrids>& between, Drawing& drawing, LoopReport& report);

@@ -43,7 +43,7 @@ class Encoding {
     Writers writers_;
     render::Image frame_;
     double encode_s_ = 0;
-    // the last member: waited for before the others are destroyed
+    // declared last, so that its destructor waits before the others are destroyed
     std::vector<std::future<Timed>> running_;
 };
 

@@ -1,5 +1,4 @@
-// cli/loop/loop_grids.h -- the grids from which a loop is drawn: those of a cache, or made from an
-// archive.
+// cli/loop/loop_grids.h -- finds the grids for a loop, in a cache or from an archive.
 #pragma once
 
 #include <memory>
@@ -26,24 +25,25 @@ struct LoopGrids {
     std::optional<cache::StoreReader> store;
     std::string domain;
     TimeRange range;
-    std::vector<LoopFrame> frames;  // ascending in time; empty: nothing matched, which was reported
-    std::size_t frames_there = 0;   // of them; the others are the way back
+    std::vector<LoopFrame> frames;  // ascending in time; empty: nothing matched, which has been
+                                    // reported
+    std::size_t frames_there = 0;   // frames before the way back
     std::filesystem::path sample;   // an existing grid
     std::optional<pipeline::BetweenGrids> between;  // makes the frames that do not exist
-    std::optional<ArchiveCall> call;                // for an archive: the call and its result
+    std::optional<ArchiveCall> call;                // for an archive
     std::optional<ArchiveGrids> archive;
 };
 
-// For the existing grids of a cache.
+// Returns the frames for the existing grids of a cache.
 [[nodiscard]] LoopGrids grids_of(const cache::StoreReader& store, const std::string& domain,
                                  const std::vector<cache::StoreEntry>& entries);
-// Returns the requested grids of a cache as of now: relative times count from the call.
+// Returns the requested grids of a cache at this moment: relative times count from the call.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_now(const cache::StoreReader& store,
                                                                  const LoopOptions& options,
                                                                  level2::Moment moment);
 
-// Errors: bad_argument, naming options that are missing or cannot be combined; those of the cache,
-// the catalog and of filling.
+// Finds the grids. Errors: bad_argument, naming options that are missing or cannot be combined;
+// those of the cache, the catalog and of filling.
 [[nodiscard]] Result<LoopGrids> find_grids(const LoopOptions& options, const render::Scene& scene,
                                            Interrupt& interrupt);
 

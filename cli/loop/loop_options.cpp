@@ -48,9 +48,9 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
     add_loop_settings(loop, options.scene, options);
     add_follow_options(loop, options.follow);
     loop.add_flag("--check", options.only_check, "Check the options, print what is wrong, and end")
-        ->group("");  // not shown: for stormcellard --check-config
+        ->group("");  // hidden: for stormcellard --check-config
     loop.add_option("--panels", options.panels, "For frame alone")
-        ->group("");  // not shown: whoever gives it is told what to give
+        ->group("");  // hidden: its use gets a message with the option to use
     loop.add_flag("--json", options.json,
                   "Print what was done as one JSON document; with --follow, one document per line");
     loop.add_flag("--quiet", options.quiet,
@@ -92,7 +92,7 @@ Status take_sources(LoopOptions& options) {
     for (const std::string& typed : {options.typed_domain, names->domain}) {
         if (!typed.empty()) options.domain = typed;
     }
-    // A scene file may be for a domain of the cache, and is then used for files.
+    // A scene file for a domain of the cache may be used with files; then ignore its domain.
     if (!options.files.empty()) options.domain = options.typed_domain;
     if (!options.files.empty() || options.archive.asked()) {
         options.cache = options.cache_place.directory;

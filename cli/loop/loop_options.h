@@ -26,12 +26,12 @@ class DrawnFrames;
 struct LoopOptions : LoopSettings {
     std::string piped;                 // the output that goes to standard output
     std::vector<std::string> sources;  // files, or a domain
-    std::string typed_domain;          // by --domain; `domain` may be that of a scene file
-    std::vector<std::string> files;    // of these; empty: a domain
-    PlaceOption cache_place;           // as typed; `cache` is what was found
+    std::string typed_domain;          // from --domain; `domain` may be from a scene file
+    std::vector<std::string> files;    // the sources, if they are files
+    PlaceOption cache_place;           // as typed; `cache` is the result
     std::string cache;
     ArchiveOptions archive;
-    std::set<std::filesystem::path> archive_files;  // of files: only these of the catalog
+    std::set<std::filesystem::path> archive_files;  // for files: use only these of the catalog
     SceneFile scene_file;
     FollowOptions follow;
     std::string interval;     // between frames; empty: one frame for each grid
@@ -42,31 +42,31 @@ struct LoopOptions : LoopSettings {
     bool only_check = false;  // nothing is drawn
     SceneOptions scene;
     PicturePlanOptions plan;
-    DrawnFrames* kept = nullptr;                             // for a loop that is followed
-    std::optional<render::FittedView>* kept_view = nullptr;  // the same
+    DrawnFrames* kept = nullptr;                             // for a followed loop
+    std::optional<render::FittedView>* kept_view = nullptr;  // for a followed loop
 };
 
 // Adds to the subcommand the loop's own options and those of the scene and the plan. `options` must
 // outlive the parse.
 void add_loop_options(CLI::App& loop, LoopOptions& options);
 
-// At which times there are frames, and how frames between grids are made.
+// The times of the frames, and how frames between grids are made.
 struct Rhythm {
     std::optional<std::chrono::seconds> interval;
     grid::TimeMethod method = grid::TimeMethod::advected;
 };
-// Errors: bad_argument, naming the option.
+// Parses the times of frames. Errors: bad_argument, naming the option.
 [[nodiscard]] Result<Rhythm> rhythm_of(const LoopOptions& options);
 
 // Sorts the words of the command line into files and a domain, and finds the cache of a domain.
 // Errors: those of tell_apart() and PlaceOption::find(), and of the cache.
 [[nodiscard]] Status take_sources(LoopOptions& options);
 
-// Errors: bad_argument if the source of the grids is missing, or --follow is combined with a source
-// that cannot be followed.
+// Checks the sources. Errors: bad_argument if no source of grids is given, or if --follow is
+// combined with a source that cannot be followed.
 [[nodiscard]] Status check_sources(const LoopOptions& options);
 
-// Errors: bad_argument if two outputs are the same file.
+// Checks the outputs. Errors: bad_argument if two outputs are the same file.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& outputs);
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,4 @@
-// cli/loop/loop_report.h -- what `loop` did, and the metadata of the file that it made.
+// cli/loop/loop_report.h -- reports the result of `loop`, and writes the metadata of its file.
 #pragma once
 
 #include <filesystem>
@@ -24,16 +24,16 @@ struct Skipped {
 struct LoopReport {
     std::size_t frames = 0;
     std::vector<Skipped> skipped;
-    UtcTime from, to;              // of the frames that were drawn
+    UtcTime from, to;              // range of the drawn frames
     std::size_t interpolated = 0;  // number of frames
     double between_s = 0;          // time for making them
     double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
     bool interrupted = false;
 };
 
-void warn_skipped(const Skipped& skipped);  // on stderr
+void warn_skipped(const Skipped& skipped);  // prints to stderr
 
-// Prints the report for people to stderr, or with --json as one document to stdout.
+// Prints the report as text to stderr, or with --json as one document to stdout.
 void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report,
                   const std::optional<ArchiveGrids>& archive = std::nullopt);
 

@@ -32,15 +32,15 @@ namespace {
 
 constexpr double elevations_reach_m = 230e3;
 
-// One volume, and how it is read.
+// One volume, and how to read it.
 struct RawSource {
     std::filesystem::path path;
     std::function<Result<RawVolume>(const catalog::CatalogReader&)> read;
 };
 
 struct SweepSources {
-    std::optional<catalog::CatalogReader> catalog;  // which the others read
-    std::vector<RawSource> volumes;                 // rising in time
+    std::optional<catalog::CatalogReader> catalog;  // for reading volumes that the catalog has
+    std::vector<RawSource> volumes;                 // ascending in time
 };
 
 // One frame: a sweep of a volume.
@@ -48,7 +48,8 @@ struct SweepFrame {
     std::size_t volume = 0;
     double elevation_deg = render::Scene::lowest_sweep;
     UtcTime time;
-    std::optional<UtcTime> nearest_to;  // of several sweeps of the elevation; none: the newest
+    std::optional<UtcTime> nearest_to;  // chooses among several sweeps of the elevation; none: the
+                                        // newest
 };
 
 // State that the frames share, and the volume that was decoded last.
@@ -58,7 +59,7 @@ struct SweepDrawing {
     bool all_elevations = false, repeats = false;
     std::optional<std::size_t> decoded;
     std::optional<SweptVolume> volume;
-    std::optional<grid::GridSpec> plane;  // of the first frame
+    std::optional<grid::GridSpec> plane;  // plane of the first frame
     render::FrameCache cache;
 };
 
@@ -76,7 +77,7 @@ Status check_sweep_loop(const LoopOptions& options) {
     return {};
 }
 
-// The volumes of an archive's catalog, or of files that were cataloged.
+// Returns the volumes in an archive's catalog, or of cataloged files.
 Result<SweepSources> sources_of_archive(const LoopOptions& options) {
     const auto request = parse_archive(options.archive);
     if (!request) return pass_on(request);
@@ -109,7 +110,7 @@ Result<SweepSources> sources_of_archive(const LoopOptions& options) {
     return sources;
 }
 
-// The volumes of which the grids of a domain were made.
+// Returns the volumes from which the grids of a domain were made.
 Result<SweepSources> sources_of_domain(const LoopOptions& options) {
     const auto range = parse_time_range(options.range);
     if (!range) return pass_on(range);
@@ -135,7 +136,7 @@ Result<SweepSources> sources_of_domain(const LoopOptions& options) {
     return sources;
 }
 
-// Decodes the volume, unless it is the last one that was decoded.
+// Returns the decoded volume; decodes it unless it was the last one.
 Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t number,
                                      SweepDrawing& drawing) {
     if (drawing.decoded == number) return &*drawing.volume;
@@ -150,8 +151,8 @@ Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t nu
     return &*drawing.volume;
 }
 
-// High sweeps reach few kilometers, so the plane of a loop through the elevations is no larger than
-// a station's usual grid, unless the options say how large.
+// Limits the plane to a station's usual grid, unless the options set its size. A loop through all
+// elevations needs no more, because high sweeps reach only some kilometers.
 void limit_plane(const SweptVolume& volume, grid::GridSpec& plane) {
     if (volume.request.extent_given) return;
     const auto limited = [](int cells, double width_m) {
@@ -161,7 +162,7 @@ void limit_plane(const SweptVolume& volume, grid::GridSpec& plane) {
     plane.ny = limited(plane.ny, plane.cell_height_m());
 }
 
-// Returns the sweep on the plane of the first.
+// Returns the sweep on the plane of the first frame.
 Result<PictureGrid> sweep_of(SweptVolume volume, const SweepFrame& frame, SweepDrawing& drawing) {
     drawing.scene.elevation_deg = frame.elevation_deg;
     if (frame.nearest_to) volume.request.frame_time = frame.nearest_to;
@@ -174,7 +175,7 @@ Result<PictureGrid> sweep_of(SweptVolume volume, const SweepFrame& frame, SweepD
     return PictureGrid::of_sweep(std::move(volume), drawing.scene, &*drawing.plane);
 }
 
-// Returns the middle of each sweep's time, rising.
+// Returns the middle of each sweep's time, ascending.
 std::vector<UtcTime> times_of_sweeps(const SweptVolume& volume) {
     std::vector<UtcTime> times;
     for (const level2::Sweep& sweep : volume.source().volume.sweeps) {
@@ -186,8 +187,8 @@ std::vector<UtcTime> times_of_sweeps(const SweptVolume& volume) {
     return times;
 }
 
-// Returns the frames that a volume may have. With --repeats each sweep asks for the one of the
-// elevation that is nearest to it in time, which several sweeps may have in common.
+// Returns the frames that a volume may have. With --repeats, each sweep asks for the sweep of the
+// elevation nearest to it in time, so several may ask for the same one.
 std::vector<SweepFrame> frames_to_try(std::size_t number, const SweptVolume& volume,
                                       double asked_deg, const SweepDrawing& drawing) {
     std::vector<SweepFrame> frames;
@@ -203,7 +204,7 @@ std::vector<SweepFrame> frames_to_try(std::size_t number, const SweptVolume& vol
     return frames;
 }
 
-// Finds the frames of each volume; what cannot be read is left out and named.
+// Finds the frames of each volume. Reports and skips volumes that cannot be read.
 std::vector<SweepFrame> frames_of(const SweepSources& sources, const std::atomic<bool>& stop,
                                   SweepDrawing& drawing, LoopReport& report) {
     std::vector<SweepFrame> frames;
@@ -255,7 +256,7 @@ Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const Lo
     return encoding.add(std::move(*picture));
 }
 
-// Writes what the file says of itself. The first frame stands for all of them.
+// Writes the description into the file. The first frame represents all.
 Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>& frames,
                      SweepDrawing& drawing, LoopOptions& options) {
     const auto volume = volume_of(sources, frames.front().volume, drawing);

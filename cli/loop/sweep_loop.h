@@ -1,11 +1,11 @@
-// cli/loop/sweep_loop.h -- loops of a ppi: sweeps as the radar saw them, one of each volume; with
-// --all-elevations each elevation of each volume, from the lowest up; with --repeats each sweep of
-// one elevation.
+// cli/loop/sweep_loop.h -- makes loops of a ppi, sweeps as the radar saw them: one sweep of each
+// volume; with --all-elevations each elevation of each volume, from the lowest up; with --repeats
+// each sweep of one elevation.
 //
-// They are drawn from raw files: those that are named, those of an archive's catalog, or those of
-// which the grids of a domain were made. Of sweeps that come back (SAILS, MRLE) the newest of its
-// volume is shown, or with --repeats each in order of time. All frames have the plane of the first,
-// so that the map stands still.
+// Sweeps are drawn from raw files: the named ones, those of an archive's catalog, or the raw files
+// of a domain's grids. If sweeps repeat in a volume (SAILS, MRLE), the newest is shown, or with
+// --repeats each in order of time. All frames have the plane of the first, so that the map stands
+// still.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -1,9 +1,9 @@
-// cli/picture/drawn_frames.h -- keeps the pictures of a followed loop that will be needed again.
+// cli/picture/drawn_frames.h -- keeps pictures of a followed loop for reuse.
 //
-// When one grid arrives, all frames of the next loop but one are those of the last loop. A frame is
+// When one grid arrives, the next loop shares all frames but one with the last loop. A frame is
 // identified by the file of its grid (path, inode, time and size) and by the parts of the scene
-// that may differ from frame to frame, from plan to plan or with the echo: the camera,
-// exaggeration, opacity, light, slices, integration and rays.
+// that may differ between frames, with the plan, or with the echo: camera, exaggeration, opacity,
+// light, slices, integration and rays.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -28,11 +28,11 @@ class DrawnFrames {
     explicit DrawnFrames(std::size_t limit_bytes = default_limit) : limit_(limit_bytes) {}
 
     using Draw = std::function<Result<render::Image>()>;
-    // Returns the picture of the grid's file. It is drawn if there is none yet, and kept as far as
-    // there is room. All other parts of the scene must be the same in each call.
+    // Returns the picture of the grid's file. Draws it if it is not kept, and keeps it if there is
+    // room. All other parts of the scene must be the same in each call.
     Result<render::Image> frame(const std::filesystem::path& grid, const render::Scene& scene,
                                 const Draw& draw);
-    // Call it between two loops: forgets the pictures that the last loop did not use.
+    // Forgets the pictures that the last loop did not use. Call it between two loops.
     void next_loop();
 
     [[nodiscard]] std::size_t count() const { return frames_.size(); }

@@ -1,4 +1,4 @@
-// cli/picture/frame_options.h -- what the command line of `frame` says.
+// cli/picture/frame_options.h -- the command line of `frame`.
 #pragma once
 
 #include <string>
@@ -19,14 +19,14 @@ struct FrameOptions {
     std::vector<std::string> sources;  // files, or a domain
     std::string domain;
     PlaceOption cache;
-    PlaceOption catalog{Directory::catalog, {}, {}};  // of a ppi of a domain
-    GridOptions grid;                                 // of files
+    PlaceOption catalog{Directory::catalog, {}, {}};  // for a ppi of a domain
+    GridOptions grid;                                 // for files
     std::string time;                                 // empty: the latest
-    std::string output;                               // empty: nothing is drawn, only probed
-    std::string panels;    // moments of a picture with several; empty: one
+    std::string output;                               // empty: draw nothing, only probe
+    std::string panels;    // moments of a picture with several panels; empty: one panel
     std::string probe;     // "X,Y"
-    std::string probe_at;  // a place
-    std::string geotiff;   // what a GeoTIFF holds
+    std::string probe_at;  // the name or coordinates of a place
+    std::string geotiff;   // content of a GeoTIFF
     render::TiffContent tiff = render::TiffContent::values;
     bool json = false;
     SceneFile scene_file;
@@ -34,12 +34,12 @@ struct FrameOptions {
     PicturePlanOptions plan;
 };
 
-// Checks that -o, --probe and --probe-at say something to do. Errors: bad_argument.
+// Checks that one of -o, --probe and --probe-at is given. Errors: bad_argument.
 [[nodiscard]] Status check_frame_options(const FrameOptions& options);
-// Takes the panels of a scene file, unless panels or one moment were typed.
+// Uses the panels of a scene file, unless panels or one moment were typed.
 void take_panels(FrameOptions& options);
-// Checks what -o and --geotiff say together with the product, and takes what a GeoTIFF shall hold.
-// Errors: bad_argument, and those of check_still_output().
+// Checks -o and --geotiff against the product, and reads the content of a GeoTIFF. Errors:
+// bad_argument, and those of check_still_output().
 [[nodiscard]] Status check_frame_output(FrameOptions& options, render::Product product);
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,4 @@
-// cli/picture/frame_panels.h -- frame --panels: one picture of several moments.
+// cli/picture/frame_panels.h -- `frame --panels`: draws several moments in one picture.
 #pragma once
 
 #include "base/steady_time.h"

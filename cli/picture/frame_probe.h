@@ -1,4 +1,5 @@
-// cli/picture/frame_probe.h -- frame --probe and --probe-at: what is at one place of a picture.
+// cli/picture/frame_probe.h -- frame --probe and --probe-at: report what is at one place of a
+// picture.
 #pragma once
 
 #include <optional>
@@ -14,16 +15,16 @@ namespace stormcellar::cli {
 
 using MaybeProbe = std::optional<render::Probe>;
 
-// Returns none if no option asks for it. Errors: bad_argument, naming the option, for a text that
-// is no place of the picture; those of probe_pixel() and probe_place().
+// Probes the grid. Returns none if no option asks for it. Errors: bad_argument, naming the option,
+// for a text that is not a place of the picture; those of probe_pixel() and probe_place().
 [[nodiscard]] Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
                                             const PictureGrid& file);
 
-// Prints a line for the place, one for what is there, and one for how far the column was seen, or
-// which gate it is.
+// Prints a line for the place, one for its value, and one for the heights seen above it or for its
+// gate.
 void print_probe(const render::Probe& probe, const FrameOptions& options,
                  const render::Scene& scene, const cache::GridDescription& grid);
-// The same for --json.
+// Returns the same for --json.
 [[nodiscard]] nlohmann::ordered_json json_of(const render::Probe& probe);
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,4 @@
-// cli/picture/frame_report.h -- what `frame` says when it is done.
+// cli/picture/frame_report.h -- the report of `frame` at its end.
 #pragma once
 
 #include "cli/picture/frame_options.h"
@@ -8,16 +8,16 @@
 namespace stormcellar::cli {
 
 struct FrameTiming {
-    double read_s = 0;    // from the start until there is a grid and a view of it
-    double decode_s = 0;  // a part of it
+    double read_s = 0;    // from the start until the grid and its view are ready
+    double decode_s = 0;  // part of read_s
     double render_s = 0, write_s = 0, total_s = 0;
 };
 
-// Returns the seconds, within those of reading, that it took to read and decode the files; none for
+// Returns how long reading and decoding the files took, which is part of the reading time; none for
 // a grid of the cache.
 [[nodiscard]] double decode_s(const PictureGrid& grid);
 
-// Says on stderr what was written, or with --json prints a document; and what was probed.
+// Reports the written file on stderr, or as a document with --json, and the probe.
 void report_frame(const FrameOptions& options, const render::Scene& scene,
                   const cache::GridDescription& grid, const FrameTiming& timing,
                   const MaybeProbe& probe);

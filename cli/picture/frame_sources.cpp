@@ -17,7 +17,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Returns the time at or before which a grid is looked for; none: now.
+// Returns the latest time at which to look for a grid; none: now.
 Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
     if (options.time.empty()) return std::optional<UtcTime>{};
     const auto time = parse_utc(options.time, now_utc());
@@ -26,7 +26,7 @@ Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
 }
 
 // Returns the newest grid of the domain at or before the time, of this moment or of any; none if
-// there is none.
+// there is no such grid.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
                                                    const FrameOptions& options,
                                                    std::optional<level2::Moment> moment) {
@@ -55,7 +55,7 @@ Status refuse_grid_options(const FrameOptions& options) {
                 "made already");
 }
 
-// Opens the cache and says which domain is meant.
+// Opens the cache and determines the domain.
 Result<cache::StoreReader> open_store(FrameOptions& options) {
     if (Status found = options.cache.find(); !found) {
         if (options.sources.empty()) return pass_on(found);
@@ -71,7 +71,7 @@ Result<cache::StoreReader> open_store(FrameOptions& options) {
     return store;
 }
 
-// Returns none, after it was reported, if no grid matched.
+// Returns the grid; none, after a report, if no grid matched.
 Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
     if (Status none = refuse_grid_options(options); !none) return pass_on(none);
     const auto store = open_store(options);
@@ -87,8 +87,8 @@ Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Mo
     return std::optional{std::move(*grid)};
 }
 
-// Draws from the raw volume of the newest grid, of whichever moment. Returns none, after it was
-// reported, if there is no grid.
+// Reads the sweep from the raw volume of the newest grid of any moment. Returns none, after a
+// report, if there is no grid.
 Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const render::Scene& scene) {
     const auto store = open_store(options);
     if (!store) return pass_on(store);

@@ -1,5 +1,5 @@
-// cli/picture/frame_sources.h -- which grid `frame` draws: one made of the files that its words
-// name, or the newest of a domain of the cache.
+// cli/picture/frame_sources.h -- finds the grid for `frame`: it makes it from the named files, or
+// takes the newest one of a domain in the cache.
 //
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -16,13 +16,13 @@
 
 namespace stormcellar::cli {
 
-// Returns the grid of the scene, and leaves in the options which domain it is of. Returns none,
-// after it was reported, if the cache has no such grid. Errors: bad_argument for words and options
-// that do not fit each other, and those of PictureGrid's functions.
+// Returns the grid of the scene, and sets its domain in the options. Returns none, after a report,
+// if the cache has no such grid. Errors: bad_argument for words and options that do not fit each
+// other, and those of PictureGrid's functions.
 [[nodiscard]] Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
                                                                const render::Scene& scene);
-// The same for several moments of one time, in the order of the panels; returns no grid at all,
-// after it was reported, if the cache has not all of them.
+// Returns the grids of several moments at one time, in the order of the panels; an empty list,
+// after a report, if the cache does not have all of them.
 [[nodiscard]] Result<std::vector<PictureGrid>> grids_of_panels(
     FrameOptions& options, const std::vector<PanelScene>& panels);
 

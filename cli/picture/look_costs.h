@@ -1,6 +1,6 @@
-// cli/picture/look_costs.h -- what the defaults of a picture cost beside its plan: smooth colors
-// and the view that is fitted to the echo. They say what is shown and not how exact it is, so that
-// no tolerance turns them off; `frame --explain` has them below the plan.
+// cli/picture/look_costs.h -- measures the costs of a picture's defaults that are not in its plan:
+// smooth colors, and the view fitted to the echo. They are a choice of appearance, not of accuracy,
+// so no tolerance turns them off; `frame --explain` prints them below the plan.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace stormcellar::cli {
 
-// Draws the volume with its own table and with the classes of its moment, by turns, and compares
-// the two. `fit_s` is the time that it took to fit the view; 0: it was not fitted. Returns two
-// sentences, each on a line of its own.
+// Draws the volume alternately with its own table and with the classes of its moment, and compares
+// the times. `fit_s` is the time for fitting the view; 0 if it was not fitted. Returns two
+// sentences, each on its own line.
 [[nodiscard]] std::string look_costs(const grid::BrickView& view, const render::Scene& scene,
                                      double fit_s, int threads);
 

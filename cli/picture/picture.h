@@ -1,4 +1,4 @@
-// cli/picture/picture.h -- what `frame` and `loop` share besides the scene.
+// cli/picture/picture.h -- code that `frame` and `loop` share besides the scene.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace stormcellar::cli {
 
 // Reports on stderr that no grid of the moment matched, and which domains exist or which moments
-// the domain has. Returns the exit status. `when` is empty or of the form " at or before
+// the domain has. Returns the exit status. `when` is empty or has the form " at or before
 // 2005-08-22".
 int report_no_grid(const cache::StoreReader& store, const std::string& domain,
                    level2::Moment moment, const std::string& when);

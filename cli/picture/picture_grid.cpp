@@ -26,7 +26,7 @@ struct PictureGrid::Made {
 
 struct PictureGrid::Swept {
     std::string name;
-    SweptVolume volume;  // which the sweep is read from
+    SweptVolume volume;  // holds the sweep
     PlacedSweep placed;
 };
 

@@ -1,7 +1,7 @@
-// cli/picture/picture_grid.h -- what a picture is drawn from: a grid of the cache, one that was
-// made in memory from files, or one sweep of a file.
+// cli/picture/picture_grid.h -- the data of a picture: a grid of the cache, a grid made in memory
+// from files, or one sweep of a file.
 //
-// Threads   A PictureGrid may be used by one thread at a time, its view by any.
+// Threads   One thread at a time may use a PictureGrid; any may use its view.
 // Errors    See each function.
 #pragma once
 
@@ -20,21 +20,21 @@
 
 namespace stormcellar::cli {
 
-// The options of a grid that is made for a picture, beside those of the picture itself.
+// Adds the options of a grid that is made for a picture, except those of the picture itself.
 void add_picture_grid_options(CLI::App& app, GridOptions& options);
-// True if one of them was typed, which makes no sense for a grid of the cache.
+// Returns true if one of these was typed, which makes no sense for a grid of the cache.
 [[nodiscard]] bool has_picture_grid_options(const GridOptions& options);
 
 class PictureGrid {
   public:
     // Errors: those of GridFile::open().
     [[nodiscard]] static Result<PictureGrid> open(const std::filesystem::path& file);
-    // Decodes the files and grids their moment, as `stormcellar grid` does. The options say the
+    // Decodes the files and grids their moment, as `stormcellar grid` does. The options give the
     // files, the moment, the place of the grid and the number of threads. Errors name the file or
     // the option.
     [[nodiscard]] static Result<PictureGrid> make(GridOptions options);
-    // The same for several moments, "REF,VEL", of one decoding: a grid each, in the order of their
-    // names. The volumes belong to the first.
+    // Decodes once and grids several moments, "REF,VEL". Returns a grid for each, in their order.
+    // The first grid owns the volumes.
     [[nodiscard]] static Result<std::vector<PictureGrid>> make_each(GridOptions options);
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
@@ -44,13 +44,13 @@ class PictureGrid {
     PictureGrid& operator=(PictureGrid&&) noexcept;
     ~PictureGrid();
 
-    // False once it was moved from.
+    // Returns false once it was moved from.
     [[nodiscard]] bool has_grid() const { return stored_ != nullptr || made_ != nullptr; }
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this object lives
     [[nodiscard]] const cache::GridDescription& description() const;
-    // Returns the domain; for files, the station, or a mosaic's stations with "+" between them.
+    // Returns the domain; for files, the station, or a mosaic's stations joined by "+".
     [[nodiscard]] const std::string& name() const;
-    // The decoded volumes that it was made from; empty for a grid of the cache.
+    // Returns the decoded volumes of the grid; empty for a grid of the cache.
     [[nodiscard]] const std::vector<SourceVolume>& volumes() const;
     // Call after the view was used, because a file of the cache may have been truncated meanwhile.
     [[nodiscard]] Status check_whole() const;
@@ -63,7 +63,7 @@ class PictureGrid {
     explicit PictureGrid(std::unique_ptr<Made> made);
     explicit PictureGrid(std::unique_ptr<Swept> swept);
 
-    std::unique_ptr<Stored> stored_;  // one of the three
+    std::unique_ptr<Stored> stored_;  // one of the three is set
     std::unique_ptr<Made> made_;
     std::unique_ptr<Swept> swept_;
 };

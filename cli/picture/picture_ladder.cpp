@@ -26,7 +26,7 @@ Result<grid::BrickGrid> bricks_for(const SourceVolume& source, const GridRequest
 }
 
 // Runs the ladder without light, and with all kinds of light for the steps of the light. The
-// picture has the colors and the view that `frame` gives it.
+// picture has the default colors and view of `frame`.
 Result<std::vector<accuracy::LadderRow>> run_both(const grid::BrickView& view,
                                                   const GridRequest& request) {
     render::Scene scene;

@@ -1,10 +1,9 @@
-// cli/picture/picture_ladder.h -- measures what the accuracy of a picture of a volume costs in
-// time.
+// cli/picture/picture_ladder.h -- measures the time that the accuracy of a volume's picture costs.
 //
-// The volume is gridded as `stormcellar grid` does by default and drawn as `stormcellar frame`
-// does: 796 x 532 pixels, the default view, the colors of the moment. Rows without light are of the
-// picture without light; the rows of light are of a picture with all kinds of light. Times are the
-// smallest of the rounds; each round makes everything anew.
+// The volume is gridded with the defaults of `stormcellar grid` and drawn with those of
+// `stormcellar frame`: 796 x 532 pixels, the default view, the colors of the moment. The rows of
+// light are for a picture with all kinds of light; the other rows are for one without light. Times
+// are the smallest of the rounds; each round makes everything anew.
 #pragma once
 
 #include <functional>
@@ -17,8 +16,8 @@
 
 namespace stormcellar::cli {
 
-// `progress` is told how many of how many parts are done. Errors: those of gridding; not_found if
-// the grid holds no value at all.
+// Measures the ladder. Calls `progress` with the number of parts done and of all parts. Errors:
+// those of gridding; not_found if the grid has no value.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_picture(
     const SourceVolume& source, const GridRequest& request, const grid::GridSpec& spec, int rounds,
     const std::function<void(std::size_t done, std::size_t total)>& progress);

@@ -1,6 +1,6 @@
-// cli/picture/picture_panels.h -- several moments in one picture: --panels REF,VEL.
+// cli/picture/picture_panels.h -- `--panels REF,VEL`: draws several moments in one picture.
 //
-// Threads   Pure functions but for the files that they read.
+// Threads   Pure functions, except that they read files.
 // Errors    See each function.
 #pragma once
 
@@ -23,21 +23,21 @@ namespace stormcellar::cli {
 using render::PanelScene;
 
 // Returns the panels of a list of moments. Errors: bad_argument for an unknown or repeated moment,
-// for a section, for --moment or --colors beside it, and those of scene_with().
+// for a section, and if --moment or --colors is also given; those of scene_with().
 [[nodiscard]] Result<std::vector<PanelScene>> panel_scenes(const std::string& list,
                                                            const SceneFile& file,
                                                            const SceneOptions& options);
 
 // Returns the grids of one time in the order of the panels: the newest time, at or before `until`,
-// of which the cache has every moment. Returns none, after it was reported, if there is no such
-// time. Errors: those of PictureGrid::open().
+// at which the cache has every moment. Returns none, after a report, if there is no such time.
+// Errors: those of PictureGrid::open().
 [[nodiscard]] Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
                                                              const std::string& domain,
                                                              const std::vector<PanelScene>& panels,
                                                              std::optional<UtcTime> until);
 
-// Grids the moments of the panels from one decoding of the files, in the order of the panels; of a
-// ppi takes the sweep of each moment.
+// Decodes the files once and grids the moments of the panels, in their order. For a ppi it takes
+// the sweep of each moment.
 [[nodiscard]] Result<std::vector<PictureGrid>> gridded_panels(
     GridOptions options, const std::vector<PanelScene>& panels);
 

@@ -47,7 +47,7 @@ bool chooses_slices(const std::string& effect) {
     return effect.starts_with("slices_");
 }
 
-// The requested effects do not concern the number of slices, and no tolerance chooses it.
+// Returns true if no requested effect and no tolerance chooses the number of slices.
 bool keeps_slices(const PicturePlanOptions& options) {
     return options.tolerance.empty() &&
            std::none_of(options.effects.begin(), options.effects.end(), chooses_slices);
@@ -63,7 +63,7 @@ render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scen
     return render::volume_choice(chain, choice);
 }
 
-// Relative to the chain's exact form, for the grid of the plan.
+// Describes the error relative to the chain's exact form, for the grid of the plan.
 std::string error_text(const accuracy::Plan& plan) {
     std::string text = plan.budget.bounds_errors()
                            ? fmt::format("tolerance {}; ", accuracy::format_budget(plan.budget))
@@ -76,8 +76,8 @@ std::string error_text(const accuracy::Plan& plan) {
     return fmt::format("{} ({})", text, plan.description);
 }
 
-// The plan is for volumes. In the file of another product it is an error; if --product replaced the
-// volume of the file, the plan has no effect.
+// Handles a plan for a product other than a volume. It is an error if the product is the file's; if
+// --product replaced the volume of the file, the plan has no effect.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
         return fail(

@@ -1,4 +1,5 @@
-// cli/picture/picture_plan.h -- how exactly a volume is drawn: --tolerance, --effect and --explain.
+// cli/picture/picture_plan.h -- plans how exactly a volume is drawn: --tolerance, --effect and
+// --explain.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@ class App;
 
 namespace stormcellar::cli {
 
-// The [plan] of a scene's file, and whether the picture of the file is a volume.
+// The [plan] of a scene file, and whether the file's picture is a volume.
 struct ScenePlan {
     std::string file;
     std::string tolerance;
@@ -24,7 +25,7 @@ struct ScenePlan {
     bool of_volume = true;
 };
 
-// The options as they were typed, or as a scene's file has them.
+// The options as they were typed, or as in a scene file.
 struct PicturePlanOptions {
     std::string tolerance;
     std::vector<std::string> effects;
@@ -33,7 +34,7 @@ struct PicturePlanOptions {
     std::optional<ScenePlan> scene;  // none: no file was given
 
     [[nodiscard]] bool asked() const { return explain || !tolerance.empty() || !effects.empty(); }
-    // nothing was typed in addition to the file
+    // returns true if nothing was typed in addition to the file
     [[nodiscard]] bool is_scenes() const {
         return scene && !explain && tolerance == scene->tolerance && effects == scene->effects;
     }
@@ -41,17 +42,17 @@ struct PicturePlanOptions {
 
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 
-// A number of slices and a plan that chooses it (a tolerance, an effect slices_...) exclude each
-// other. Typed options override a scene's file, whose option is then left out. Errors:
+// Resolves a conflict between a number of slices and a plan that chooses it (a tolerance, or an
+// effect slices_...). Typed options override those of a scene file, which are then dropped. Errors:
 // bad_argument, naming both, if both were typed or both are in the file.
 [[nodiscard]] Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                                             const SceneOptions& scene);
 
-// Plans for this grid and sets the scene's slices, integration and rays (slices that no tolerance
-// or effect chooses stay). Prints the plan if requested: to stderr with `json`, else to stdout.
-// Returns what the plan knows about the error of the picture, in one line. Does nothing and returns
-// an empty line if nothing was requested. A plan of the scene's file is ignored for a typed product
-// that is no volume. Errors: bad_argument for invalid options, or a product that is no volume;
+// Plans for this grid and sets the scene's slices, integration and rays; the number of slices stays
+// if no tolerance or effect chooses it. Prints the plan if requested: to stderr with `json`, else
+// to stdout. Returns one line about the expected error of the picture. Does nothing and returns an
+// empty line if nothing was requested. A plan of the scene file is ignored if a product other than
+// a volume was typed. Errors: bad_argument for invalid options, or a product that is not a volume;
 // not_found, naming the best plan, if none meets the tolerance.
 [[nodiscard]] Result<std::string> plan_picture(const grid::BrickView& view,
                                                const render::FrameFacts& facts,

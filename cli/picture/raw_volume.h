@@ -1,5 +1,5 @@
-// cli/picture/raw_volume.h -- the raw volume from which a grid of the cache was made, which the
-// catalog finds. A ppi of a domain is drawn from it, because the cache holds grids.
+// cli/picture/raw_volume.h -- finds the raw volume of a grid through the catalog. A ppi of a domain
+// is drawn from it, because the cache holds only grids.
 //
 // Threads   One thread at a time; catalog and cache are only read.
 // Errors    See each function.
@@ -18,28 +18,27 @@
 
 namespace stormcellar::cli {
 
-// A volume as the catalog has it, which may still be growing.
+// A volume as the catalog has it; it may still be growing.
 struct RawVolume {
     std::string file;
     UtcTime start;  // of the volume; the file may hold others
     std::vector<std::byte> bytes;
-    std::vector<std::string> notes;  // such as that chunks are missing
+    std::vector<std::string> notes;  // such as missing chunks
 };
 
-// Returns the grids of a domain of any moment, one for each time, rising. Errors: those of the
+// Returns the grids of a domain of any moment, one for each time, ascending. Errors: those of the
 // cache.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> grids_of_any_moment(
     const cache::StoreReader& store, const std::string& domain, std::optional<UtcTime> from,
     std::optional<UtcTime> to);
 
-// Reads the volume of a grid. Errors: bad_argument for a grid of several sites; not_found, which
-// says so, if the catalog does not have the volume or its file is gone; those of
-// pipeline::read_cataloged_volume().
+// Reads the volume of a grid. Errors: bad_argument for a grid of several sites; not_found if the
+// catalog does not have the volume or its file is gone; those of pipeline::read_cataloged_volume().
 [[nodiscard]] Result<RawVolume> raw_volume_of(const catalog::CatalogReader& catalog,
                                               const std::string& domain,
                                               const cache::GridDescription& grid);
 
-// Reads the volume of a station that starts at a time, from this file if there are several. Errors:
+// Reads the volume of a station that starts at a time, from this file if several have it. Errors:
 // as above.
 [[nodiscard]] Result<RawVolume> raw_volume_at(const catalog::CatalogReader& catalog,
                                               const std::string& station, UtcTime start,

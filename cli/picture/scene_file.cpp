@@ -44,7 +44,7 @@ Status status_of(const Result<T>& result) {
     return {};
 }
 
-// A key of a scene file, and what it sets.
+// A key of a scene file, and the settings that it belongs to.
 struct Place {
     TomlTable& table;
     std::string_view key;
@@ -54,8 +54,8 @@ struct Place {
     void complain(std::string_view why) const { table.complain(key, why); }
 };
 
-// Reads a text that is not empty and in which `problem` finds nothing wrong; else none, or the
-// message of the error.
+// Reads a text. An empty text, or one in which `problem` finds an error, is a complaint and sets
+// nothing.
 template <class Problem>
 void read_text(TomlTable& table, std::string_view key, std::string& value, Problem problem) {
     const auto text = table.text(key);
@@ -86,7 +86,7 @@ void read_value(const NumberValue& value, const Place& at) {
     *value.field(at.to) = *number * value.unit;
 }
 
-// Exactly as many numbers as there are places, each within its range.
+// Reads exactly as many numbers as there are fields, each within its range.
 void read_value(const NumbersValue& value, const Place& at) {
     const auto numbers = at.table.numbers(at.key);
     if (!numbers) return;
@@ -124,7 +124,7 @@ void read_value(const NamesValue& value, const Place& at) {
     if (!known) at.complain(known.error().message);
 }
 
-// The sections of a file, each asked for once, so that a key that nobody knows is found.
+// The sections of a file. Each is asked for once, so that unknown keys are found.
 class Sections {
   public:
     explicit Sections(TomlTable root) : root_(root) {}
@@ -156,7 +156,7 @@ void read_row(const PictureOption& row, TomlTable& table, const std::filesystem:
     }
 }
 
-// The moments of a picture with several. Each has its own colors.
+// Reads the moments of a picture with several panels. Each has its own colors.
 void read_panels(TomlTable& picture, SceneOptions& scene) {
     const auto names = picture.texts("panels");
     if (!names) return;
@@ -188,7 +188,7 @@ void read_plan(TomlTable& plan, PicturePlanOptions& options) {
     }
 }
 
-// Reads the keys that [camera] has too, into `key`. Returns false if one of them is refused.
+// Reads the keys that are also in [camera] into `key`. Returns false if one of them is refused.
 bool read_camera(TomlTable& table, const std::filesystem::path& directory, render::CameraKey& key) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     SceneOptions read;
@@ -213,7 +213,7 @@ bool read_camera(TomlTable& table, const std::filesystem::path& directory, rende
     return taken == read.in_file.size();
 }
 
-// The camera's way, of [[loop.camera]]; what makes no sense together is found by CameraPath.
+// Reads the camera's path from [[loop.camera]]. CameraPath finds invalid combinations.
 void read_camera_keys(TomlTable& loop, const std::filesystem::path& directory,
                       const render::Camera& usual, std::vector<render::CameraKey>& keys) {
     constexpr NumberRange whole_turns{-100, 100}, day_s{0, 86'400};
@@ -235,7 +235,7 @@ void read_camera_keys(TomlTable& loop, const std::filesystem::path& directory,
     }
 }
 
-// Reads the keys of [loop] that have no row in the table: whose grids, which times, and where to.
+// Reads the keys of [loop] that have no row in the table: the domain, the times, and the outputs.
 void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSettings& loop) {
     read_text(table, "domain", loop.domain, [](const std::string& name) -> Status {
         if (cache::is_domain_name(name)) return {};
@@ -259,7 +259,7 @@ void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSet
     }
 }
 
-// Recognizes our other .toml files by a section that only they have.
+// Recognizes the project's other .toml files by a section that only they have.
 Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     constexpr std::array<std::pair<const char*, const char*>, 3> others{
         std::pair{"radar", "this is a simulated scene for stormcellar synth"},
@@ -330,7 +330,7 @@ void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, Picture
             plan.scene = ScenePlan{path, plan.tolerance, plan.effects, scene.product == "volume"};
             if (const auto alone = scene_of(scene); !alone) file.alone = alone.error();
         }
-        // An error in the file comes before anything that the file might have set.
+        // Report an error in the file before missing options that the file might have set.
         if (file.error || (loop != nullptr && !loop->domain.empty())) need_no_more(app, "--domain");
         if (file.error || (loop != nullptr && !loop->outputs.empty())) {
             need_no_more(app, "--output");

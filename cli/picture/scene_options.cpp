@@ -22,12 +22,12 @@ using render::PictureSettings;
 using render::TextValue;
 using render::WholeValue;
 
-// The first problem is the one that is told.
+// Keeps the first problem, which is the one that is reported.
 void note(SceneOptions& options, const Status& status) {
     if (!status && !options.problem) options.problem = status.error();
 }
 
-// Puts one row on the command line, under a name and with a help text.
+// Adds one row of the table as an option, with this name and help text.
 struct ValueAdder {
     CLI::App& app;
     std::string name;
@@ -41,7 +41,7 @@ struct ValueAdder {
     CLI::Option* operator()(const WholeValue& value) const {
         int& field = *value.field(to);
         CLI::Option* option = app.add_option(name, field, help);
-        // A default out of range stands for nothing given.
+        // A default out of range means that nothing was given.
         if (is_within<double>(field, value.range.least, value.range.most)) {
             option->capture_default_str();
         }
@@ -57,7 +57,7 @@ struct ValueAdder {
         const double unit = value.unit;
         CLI::Option* option = app.add_option_function<double>(
             name, [field, unit](const double& number) { *field = number * unit; }, help);
-        // A default out of range stands for nothing given.
+        // A default out of range means that nothing was given.
         const double usual = *field / unit;
         if (value.or_zero || is_within(usual, value.range.least, value.range.most)) {
             option->default_str(fmt::format("{}", usual));
@@ -82,7 +82,7 @@ struct ValueAdder {
         return option->default_str(value.get(to));
     }
 
-    // `value` is a part of the table.
+    // `value` is part of the static table, so the function may refer to it.
     template <class Value>
     [[nodiscard]] std::function<void(const std::string&)> taker(const Value& value) const {
         return [&value, option = name, settings = to](const std::string& text) {

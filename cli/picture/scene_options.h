@@ -1,5 +1,5 @@
-// cli/picture/scene_options.h -- puts the options for the contents of a picture, which `frame` and
-// `loop` share, on the command line.
+// cli/picture/scene_options.h -- adds the options for the contents of a picture, which `frame` and
+// `loop` share, to the command line.
 #pragma once
 
 #include "render/options/option_text.h"
@@ -22,7 +22,7 @@ using render::SceneOptions;
 // Adds the options of product, colors, camera and labels to a subcommand, and --threads. `options`
 // must outlive the parse.
 void add_scene_options(CLI::App& app, SceneOptions& options);
-// Puts those of `loop` alone on it: the rows of [loop]. Both must outlive the parse.
+// Adds the options that only `loop` has: the rows of [loop]. Both arguments must outlive the parse.
 void add_loop_settings(CLI::App& app, SceneOptions& options, LoopChoices& loop);
 
 }  // namespace stormcellar::cli

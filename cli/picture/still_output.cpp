@@ -9,7 +9,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// "-.webp" is standard output in the format of that ending.
+// Returns true for "-", and for "-.webp", which is standard output in the format of that ending.
 bool is_piped(const std::string& output) {
     return is_stdout(output) || output.starts_with("-.");
 }

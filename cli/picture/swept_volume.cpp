@@ -10,7 +10,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// The plane of the sweep itself, but for what the options say.
+// Returns the plane of the sweep, changed by the options.
 Result<grid::GridSpec> plane_of(const SweptVolume& volume, const grid::SweepLookup& sweep) {
     const grid::GridSpec whole = render::plane_of_sweep(sweep);
     GridRequest request = volume.request;

@@ -1,4 +1,4 @@
-// stormcellar cache list|stat|verify|evict|pin|unpin: the grid cache, from outside the daemon.
+// stormcellar cache list|stat|verify|evict|pin|unpin: inspects and changes the grid cache.
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -27,7 +27,7 @@ struct CacheOptions {
     bool json = false;
 };
 
-// Returns every grid that the options name, of one domain or of all, of any moment.
+// Returns every grid that the options select, of one domain or of all, of any moment.
 Result<std::vector<StoreEntry>> matching(const CacheOptions& options) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
@@ -181,7 +181,7 @@ int run_verify(const CacheOptions& options, const std::vector<StoreEntry>& entri
         progress.show(i);
         const auto file = cache::GridFile::open(entries[i].path);
         const Status whole = file ? file->verify() : Status(pass_on(file));
-        // A daemon may have evicted the grid since the list was made; that is no damage.
+        // A daemon may have evicted the grid since it was listed, which is not damage.
         const bool is_gone = !whole && whole.error().code == ErrorCode::not_found;
         checked += is_gone ? 0 : 1;
         if (whole || is_gone) continue;

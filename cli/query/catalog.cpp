@@ -1,4 +1,5 @@
-// stormcellar catalog stations|list|latest|oldest|get|check|rebuild: the shadow directories.
+// stormcellar catalog stations|list|latest|oldest|get|check|rebuild: asks and maintains the
+// catalog.
 #include "stormcellar/catalog/catalog.h"
 
 #include <filesystem>
@@ -35,7 +36,7 @@ struct CatalogOptions {
     GetOptions get;
 };
 
-// Returns the state of the volume: in a file with several, one may be whole though another is not.
+// Returns the state of the volume. In a file with several, one may be complete and another not.
 catalog::FileState state_of(const CatalogEntry& entry) {
     using catalog::FileState;
     const bool settled = entry.state == FileState::complete || entry.state == FileState::partial;
@@ -85,7 +86,7 @@ int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
     return entries.empty() ? report_nothing_matched() : exit_done;
 }
 
-// Reports databases that could not be read. Each affects only its own station; the others were
+// Reports databases that could not be read. Each affects only its own station; all others were
 // read.
 int report_troubles(const CatalogReader& catalog, int status) {
     for (const catalog::Trouble& trouble : catalog.troubles())
@@ -121,13 +122,14 @@ int run_stations(const CatalogOptions& options) {
     return stations->empty() && status == exit_done ? report_nothing_matched() : status;
 }
 
-// All chunks of a volume but the first, whose row has the volume, have no volume of their own.
+// Returns true for all chunks of a volume but the first; only the first one's row has the volume.
 bool is_part_of_a_volume(const CatalogEntry& entry) {
     return !entry.volume.start_time && entry.state != catalog::FileState::rejected &&
            level2::parse_chunk_name(entry.path.filename().native()).has_value();
 }
 
-// Returns the entries that the options name, of one station or of all whose databases can be read.
+// Returns the entries that the options select, of one station or of all whose databases can be
+// read.
 Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
                                            const CatalogReader& catalog) {
     const auto range = parse_time_range(options.times);
@@ -150,7 +152,8 @@ Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
     return all;
 }
 
-// For a station that the catalog does not know, nothing matched; a missing catalog is a failure.
+// Reports an error. For a station that the catalog does not know, nothing matched; a missing
+// catalog is a failure.
 int report_query_error(const Error& error, const CatalogOptions& options) {
     const int status = report_error(error);
     const bool unknown =
@@ -170,7 +173,8 @@ int run_list(const CatalogOptions& options) {
     return print_entries(*entries, options.json);
 }
 
-// A file that may not be looked at is not gone. A member of an archive is there if its archive is.
+// Returns true if the file is gone. A file that may not be examined is not gone. A member of an
+// archive exists if its archive does.
 bool is_gone(const fs::path& path) {
     std::error_code error;
     const bool is_there = fs::exists(path, error) || archive::member_path_of(path);
@@ -205,7 +209,7 @@ int run_get(const CatalogOptions& options) {
     return get_files(*opened, *entries, options.get);
 }
 
-// Looks the drop directory up if it was not typed.
+// Finds the drop directory if it was not typed.
 Status find_drop(CatalogOptions& options) {
     if (!options.drop.empty()) return {};
     const auto places = service_places(options.place.config);
@@ -284,7 +288,7 @@ Run set_up_catalog(CLI::App& command) {
         one->add_flag("--json", options->json, "Print one JSON document");
 
     return [=] {
-        // Whoever names both makes a catalog of files of their own, not that of the service.
+        // A user who names both makes a private catalog, not the service's.
         const bool is_own =
             rebuild->parsed() && !options->place.directory.empty() && !options->drop.empty();
         if (options->stations.empty()) options->stations = is_own ? "any" : "known";

@@ -1,4 +1,4 @@
-// stormcellar catalog check|rebuild: checks whether the catalog is sound, and makes it so.
+// stormcellar catalog check|rebuild: checks whether the catalog is sound, and repairs it.
 #include "cli/query/catalog_care.h"
 
 #include <algorithm>
@@ -30,7 +30,8 @@ using catalog::Repair;
 using catalog::StationCheck;
 using catalog::Trouble;
 
-// Follows the text of --stations. For `any`, the stations that have a database are admitted.
+// Returns the rule that --stations describes. For `any`, it admits the stations that have a
+// database.
 Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
     if (options.stations == "known") return std::make_shared<StationRule>();
     if (options.stations == "any") {
@@ -56,7 +57,7 @@ Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
     return std::make_shared<StationRule>(StationRule::listed(listed));
 }
 
-// state/catalog is in the directory that a daemon has locked.
+// Returns the state directory, which a daemon locks; its catalog is state/catalog.
 fs::path state_of(const std::string& catalog) {
     fs::path directory = fs::absolute(catalog).lexically_normal();
     if (!directory.has_filename()) directory = directory.parent_path();
@@ -140,7 +141,7 @@ void print_cleared(const ClearReport& report) {
     }
 }
 
-// Runs while nobody else writes the catalog.
+// Removes databases of unknown stations while no other process writes the catalog.
 Result<ClearReport> clear_unknown(const CareOptions& options, const StationRule& stations) {
     const auto lock = pipeline::InstanceLock::acquire(state_of(options.directory));
     if (!lock) {

@@ -7,16 +7,16 @@ namespace stormcellar::cli {
 
 struct CareOptions {
     std::string directory;  // state/catalog
-    std::string drop;       // of rebuild
+    std::string drop;       // for rebuild
     std::string station;    // empty: all
     // The known stations: "known" (the table), "any", or a list of names and "known".
     std::string stations = "known";
-    bool clear_unknown = false;  // of check: first removes the databases of unknown stations
+    bool clear_unknown = false;  // for check: first remove the databases of unknown stations
     bool json = false;
 };
 
-// Both print what they found and return the exit status: 0 if nothing is wrong (check) or nothing
-// is wrong any more (rebuild). Lost rows are reported and are no failure.
+// Both print their findings and return the exit status: 0 if nothing is wrong (check), or nothing
+// is wrong any more (rebuild). Lost rows are reported but are not a failure.
 int check_catalog(const CareOptions& options);
 int rebuild_catalog(const CareOptions& options);
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using catalog::CatalogEntry;
 
-// A file of the archive, and the start times of those of its volumes that matched.
+// A file of the archive, and the start times of its volumes that matched.
 struct MatchedFile {
     CatalogEntry entry;
     std::vector<std::optional<UtcTime>> starts;
@@ -38,12 +38,12 @@ std::vector<MatchedFile> files_of(const std::vector<CatalogEntry>& entries) {
     return files;
 }
 
-// The files that a run has written, so that it never replaces one by another.
+// The files written in this run, so that it never replaces its own output.
 class Targets {
   public:
     explicit Targets(const GetOptions& options) : options_(options) {}
 
-    // Returns the path of this name in the output directory if it may be written.
+    // Returns the path of this name in the output directory, if it may be written.
     Result<fs::path> claim(const std::string& name) {
         fs::path to = fs::path{options_.output} / name;
         // If two files have one name, the second gets a number.
@@ -64,10 +64,10 @@ class Targets {
     std::set<fs::path> taken_;
 };
 
-// Returns the name that the archives give to a volume's file: "KLOT20220317_000842".
+// Returns the usual archive name of a volume's file: "KLOT20220317_000842".
 std::string name_of_file(const CatalogEntry& entry) {
     if (!pipeline::is_of_chunks(entry)) {
-        // For a member of an archive its own name.
+        // A member of an archive keeps its own name.
         const auto member = archive::member_path_of(entry.path);
         return (member ? fs::path{member->member} : entry.path).filename().string();
     }
@@ -81,7 +81,7 @@ std::string name_of_file(const CatalogEntry& entry) {
     return name;
 }
 
-// Prints remarks about it on stderr.
+// Reads the raw file of an entry. Prints remarks on stderr.
 Result<std::vector<std::byte>> read_raw(const catalog::CatalogReader& catalog,
                                         const CatalogEntry& entry) {
     auto volume = pipeline::read_cataloged_volume(catalog, entry);
@@ -176,7 +176,7 @@ Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile
     return written ? output->finish() : written;
 }
 
-// For the one file that matched.
+// Writes the one file that matched to standard output.
 Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<MatchedFile>& files,
                      const GetOptions& options) {
     if (files.size() != 1) {

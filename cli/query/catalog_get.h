@@ -1,4 +1,4 @@
-// cli/query/catalog_get.h -- what `stormcellar catalog get` does with the entries that matched.
+// cli/query/catalog_get.h -- `stormcellar catalog get`: copies or decodes the entries that matched.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ struct GetOptions {
     std::string output;       // a directory, made if it is missing; "-": standard output
     bool force = false;       // replaces existing files
     bool decode = false;      // writes volumes as CfRadial instead of copying files
-    bool own_ranges = false;  // of CfRadial: an axis for each gate geometry
+    bool own_ranges = false;  // for CfRadial: an axis for each gate geometry
 };
 
-// Copies each file once under its own name; or writes each volume as NAME.nc, without the ending of
-// a compression, and as NAME_volumeN.nc if the file has several. Prints the path of each. Continues
-// after a failure and returns the exit status of the last one. A file that is no longer the one
-// that was cataloged is not copied and is a failure.
+// Copies each file once under its own name, or writes each volume as NAME.nc, without the ending of
+// a compression (NAME_volumeN.nc if the file has several). Prints the path of each. Continues after
+// a failure and returns the exit status of the last one. A file that is no longer the cataloged one
+// is not copied and counts as a failure.
 [[nodiscard]] int get_files(const catalog::CatalogReader& catalog,
                             const std::vector<catalog::CatalogEntry>& entries,
                             const GetOptions& options);

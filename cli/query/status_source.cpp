@@ -42,7 +42,7 @@ Error system_error(const fs::path& path, int error_number) {
             fmt::format("{}: {}", path.native(), std::system_category().message(error_number))};
 }
 
-// Returns false when the time is over.
+// Waits until the descriptor is ready. Returns false if the time is over.
 bool wait_for(int descriptor, short what, Clock::time_point end) {
     while (true) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -70,7 +70,7 @@ Result<std::string> read_answer(const Descriptor& socket, const fs::path& path,
     return fail(ErrorCode::corrupt, "{}: the answer of the daemon is too long", path.native());
 }
 
-// Returns an object, or none.
+// Returns the object in the text; none if it is not a JSON object.
 std::optional<nlohmann::json> parse_object(std::string_view text) {
     auto document = nlohmann::json::parse(text, nullptr, false);
     if (!document.is_object()) return std::nullopt;
@@ -96,20 +96,20 @@ std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
     return loops;
 }
 
-// Returns true if the daemon says this of its loops.
+// Returns true if the daemon says that another process keeps its loops.
 bool are_elsewhere(const nlohmann::json& document) {
     const auto& loops = document.at("loops");
     return loops.contains("elsewhere") && loops["elsewhere"] == true;
 }
 
-// We may not signal another user's process, but it exists.
+// Returns true if the process exists, even if it is another user's and we may not signal it.
 bool is_alive(const nlohmann::json& keeper) {
     const auto pid = keeper.find("pid");
     return pid != keeper.end() && pid->is_number_integer() && pid->get<std::int64_t>() > 0 &&
            (::kill(pid->get<pid_t>(), 0) == 0 || errno != ESRCH);
 }
 
-// Their process was killed, so its last report is no longer true.
+// Marks the loops as stopped: their process was killed, so its last report is no longer true.
 void stop_all(nlohmann::json& loops) {
     loops["running"] = 0;
     if (!loops.contains("each") || !loops["each"].is_array()) return;
@@ -117,7 +117,8 @@ void stop_all(nlohmann::json& loops) {
         if (loop.is_object()) loop["running"] = false;
 }
 
-// Adds loops that the daemon knows and their process does not, for example because it has ended.
+// Adds loops that the daemon knows and the loops' process does not report, for example because it
+// has ended.
 void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json>& configured) {
     nlohmann::json& each = loops["each"];
     if (!each.is_array()) each = nlohmann::json::array();
@@ -130,7 +131,7 @@ void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json
         if (loop.contains("name") && !has(loop["name"])) each.push_back(loop);
 }
 
-// A daemon may serve another socket: its file says which.
+// Uses another socket if the status file names one.
 void add_named_socket(StatusPlaces& places) {
     const auto document = read_status_file(places.file);
     if (!document) return;
@@ -150,7 +151,7 @@ StatusPlaces places_in(const ServicePlaces& service) {
         return places;
     }
     places.sockets = {service.state / socket_name};
-    // The runtime directory of a service is that of systemd, where its state is the usual one.
+    // The runtime directory is systemd's if the state is in its usual place.
     if (service.state == usual_state) {
         places.sockets.insert(places.sockets.begin(), fs::path{usual_runtime} / socket_name);
     }

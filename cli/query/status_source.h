@@ -1,8 +1,7 @@
-// cli/query/status_source.h -- where `stormcellar status` gets the status: from the running daemon,
-// else from its file.
+// cli/query/status_source.h -- gets the status from the running daemon, or else from its file.
 //
 // A daemon answers on its Unix socket (GET /status.json). If none answers, state/status.json has
-// the last status that was written.
+// the last status.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -29,7 +28,7 @@ struct StatusPlaces {
     std::filesystem::path file;                  // empty: none
     std::filesystem::path loops;                 // of a process that only keeps loops; empty: none
 };
-// Errors: bad_argument, and those of reading the configuration.
+// Returns where to look. Errors: bad_argument, and those of reading the configuration.
 [[nodiscard]] Result<StatusPlaces> places_of(const StatusOptions& options);
 
 struct StatusAnswer {
@@ -37,21 +36,22 @@ struct StatusAnswer {
     std::filesystem::path from;  // the socket or the file
     std::string silent;          // why no daemon answered; empty: one did
 };
-// Errors: not_found if neither answers; the message gives the reason for each place.
+// Gets the status. Errors: not_found if neither answers; the message gives the reason for each
+// place.
 [[nodiscard]] Result<StatusAnswer> find_status(const StatusPlaces& places);
 
-// If the daemon keeps no loops itself but another process does or did, adds two members to the
-// document. "loops": the loops of that process, none of them running if it is gone, and those that
-// only the daemon's configuration names. "loops_service": what the process reports about itself
-// ("state","pid","version","started","updated"), and "alive", whether it exists.
+// Adds two members if another process than the daemon keeps or kept the loops. "loops" has the
+// loops of that process, all stopped if the process is gone, and further loops that the daemon's
+// configuration names. "loops_service" has what the process reports about itself ("state", "pid",
+// "version", "started", "updated"), and "alive", whether it exists.
 void add_loops(nlohmann::json& document, const std::filesystem::path& loops);
 
-// Returns what to do if a socket may not be opened: "; members of the group GROUP may ask: sudo
-// usermod -aG GROUP USER, then log in again". Empty if the group is not known.
+// Returns advice for a socket that may not be opened: "; members of the group GROUP may ask: sudo
+// usermod -aG GROUP USER, then log in again". Empty if the group is unknown.
 [[nodiscard]] std::string how_to_be_let_in(const std::filesystem::path& socket);
 
-// Returns the document of the process that listens at the path. Waits 5 s at most and reads 16 MiB
-// at most. Errors: io with the system's reason; corrupt if it is no status.
+// Returns the document of the process that listens at the path. Waits at most 5 s and reads at most
+// 16 MiB. Errors: io with the system's reason; corrupt if the answer is not a status.
 [[nodiscard]] Result<nlohmann::json> ask_socket(const std::filesystem::path& path);
 
 }  // namespace stormcellar::cli

@@ -127,13 +127,13 @@ std::string with_kinds(const json& status, const char* key, const char* by, Pain
     return in_yellow(line + fmt::format(" ({})", fmt::join(each, ", ")), paint);
 }
 
-// Returns how long the first of them has left, if it is long.
+// Returns how long the first pending file still has to wait, if that is long.
 std::string wait_of(const json& pending) {
     const double wait_s = number(pending, "longest_wait_s").value_or(0);
     return wait_s < 1 ? std::string{} : fmt::format(" (for up to {:.0f} s)", wait_s);
 }
 
-// Returns the number of those that failed, if there are any.
+// Returns the number of files that are retried, if there are any.
 std::string retrying_of(const json& pending, Paint paint) {
     const auto retrying = count(pending, "retrying");
     if (retrying == 0) return {};
@@ -191,7 +191,7 @@ std::string counts_lines(const json& status, Paint paint) {
 
 using Row = std::vector<std::string>;
 
-// Aligns columns to the widest cell, the first one to the left and the others to the right.
+// Aligns columns to their widest cell, the first one to the left and the others to the right.
 std::string aligned(const std::vector<Row>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const Row& row : rows)
@@ -208,7 +208,7 @@ std::string aligned(const std::vector<Row>& rows) {
     return lines;
 }
 
-// Returns the live values; if there are none, the last one, marked as old.
+// Returns the current values of the antenna; if there are none, the last ones, marked as old.
 std::string antenna_of(const json& antenna) {
     if (number(antenna, "median")) return short_duration(number(antenna, "median"));
     const auto last = number(antenna, "last");
@@ -283,7 +283,8 @@ std::string rejected_lines(const json& status, Paint paint) {
     return lines;
 }
 
-// Returns for example "; kept by process 17: running" if the daemon does not keep them itself.
+// Returns, for example, "; kept by process 17: running" if the daemon does not keep the loops
+// itself.
 std::string loops_keeper(const json& status, Paint paint) {
     const json& service = at(status, "loops_service");
     if (!service.is_object()) {

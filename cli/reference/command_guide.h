@@ -1,4 +1,4 @@
-// cli/reference/command_guide.h -- what help shows first: examples, and the options that are usual.
+// cli/reference/command_guide.h -- the first part of a command's help: examples and usual options.
 //
 // Thread contract: the table is constant.
 #pragma once
@@ -10,21 +10,21 @@
 namespace stormcellar::cli {
 
 struct CommandExample {
-    std::string_view line;  // as it is typed
+    std::string_view line;  // as typed
     std::string_view what;  // a sentence
 };
 
 struct CommandGuide {
     std::string_view command;  // "catalog get"; empty: the program itself
     std::vector<CommandExample> examples;
-    // At most ten, in the order of help; the rest are in --help-all. None: all options are usual.
+    // At most ten, in the order of help; the others are only in --help-all. Empty: all are usual.
     std::vector<std::string_view> usual = {};
 };
 
 inline constexpr std::size_t most_usual_options = 10;
 
 [[nodiscard]] const std::vector<CommandGuide>& command_guides();
-// Null: there is no guide to this command.
+// Returns null if there is no guide to this command.
 [[nodiscard]] const CommandGuide* find_guide(std::string_view command);
 
 }  // namespace stormcellar::cli

@@ -17,15 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A leading ~ reaches the program as it was typed.
+// Returns the path that was typed. A shell passes a leading ~ on without expanding it.
 fs::path typed_path(const std::string& text) {
     const char* const home = std::getenv("HOME");
     if (home == nullptr || !text.starts_with("~/")) return text;
     return fs::path(home) / text.substr(2);
 }
 
-// Returns the value of this option, empty if it has none. Bash splits "--cache=x" into "--cache",
-// "=" and "x".
+// Returns the value of this option, or an empty text. Bash splits "--cache=x" into "--cache", "="
+// and "x".
 std::string value_behind(std::string_view option, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (words[i].starts_with(option) && words[i].size() > option.size() &&
@@ -38,7 +38,7 @@ std::string value_behind(std::string_view option, const std::vector<std::string>
     return {};
 }
 
-// A directory of the service; empty: no configuration that can be read says where it is.
+// Returns a directory of the service; empty if no readable configuration names it.
 fs::path configured(Directory which, const std::vector<std::string>& words) {
     const std::string file = value_behind("--config", words);
     const auto places = service_places(file.empty() ? file : typed_path(file).native());
@@ -83,7 +83,7 @@ std::vector<std::string> completed_names(std::string_view kind,
     std::vector<std::string> names;
     if (kind == "domains") names = domains_of(words);
     if (kind == "stations") names = stations_of(words);
-    // A name that a shell would take apart cannot be offered.
+    // Leave out names that a shell would split.
     std::erase_if(names, [](const std::string& name) {
         return name.empty() || name.find_first_of(" \t\n\\'\"$`:") != std::string::npos;
     });

@@ -11,7 +11,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// "1 - 1e+06" as a person writes it.
+// Returns "1 - 1e+06" as a person writes it.
 std::string range_in_words(const std::string& range) {
     const std::size_t dash = range.find(" - ");
     if (dash == std::string::npos) return range;
@@ -23,7 +23,7 @@ std::string range_in_words(const std::string& range) {
     return fmt::format("{} to {}", number(range.substr(0, dash)), number(range.substr(dash + 3)));
 }
 
-// The parser's names of types are none that a person would use.
+// Returns a word for a type; the parser's names of types are not meant for users.
 std::string word_of_type(const std::string& type) {
     if (type == "INT" || type == "UINT") return "N";
     return type == "FLOAT" ? "NUMBER" : type;
@@ -49,7 +49,7 @@ void take_type(const std::string& type, OptionReference& option) {
     }
 }
 
-// Takes what the table says of a value; its row may be that of any name of the option.
+// Sets the words for a value from the table, whose row may have any name of the option.
 void take_words(const std::string& command, OptionReference& option) {
     std::vector<std::string> names = option.names;
     if (!option.place.empty()) names.push_back(option.place);

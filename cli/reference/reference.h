@@ -1,10 +1,10 @@
-// cli/reference/reference.h -- the options of `stormcellar` as a manual page and as completions for
-// shells.
+// cli/reference/reference.h -- the options of `stormcellar` as help, a manual page, and completions
+// for shells.
 //
-// They are read from the parser itself, so that they are the options that the program really has.
-// The package is built with `stormcellar --reference man|bash|zsh|fish`, which --help does not
-// show; packaging/man contains the pages around this part. Hidden options (of an empty group) are
-// left out. -h,--help and --help-all are not repeated for each command.
+// All are generated from the parser itself, so they match the program's real options. The build of
+// the package calls `stormcellar --reference man|bash|zsh|fish`, which --help does not show;
+// packaging/man contains the pages around the generated part. Hidden options (with an empty group)
+// are left out. -h,--help and --help-all are not repeated for each command.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -24,13 +24,14 @@ class App;
 namespace stormcellar::cli {
 
 struct OptionReference {
-    std::vector<std::string> names;    // "-o", "--output"; none: given only by position
-    std::string place;                 // "DOMAIN"; empty: given only by name
-    std::string usage;                 // how the place stands in a command line: "FILE...|DOMAIN"
+    std::vector<std::string> names;    // "-o", "--output"; empty: positional only
+    std::string place;                 // "DOMAIN"; empty: named only
+    std::string usage;                 // how the position appears in a command line:
+                                       // "FILE...|DOMAIN"
     std::string value;                 // "FILE" (value_words.h); empty: a flag
     std::vector<std::string> choices;  // the allowed values; none: any
-    std::vector<std::string> offers;   // values that are usual, where others are allowed too
-    Kept kept = Kept::files;           // where to look for values that are not in a list
+    std::vector<std::string> offers;   // usual values, where others are allowed too
+    Kept kept = Kept::files;           // where to look for values that are not listed
     std::string range;                 // "1 to 1000000"; empty: none
     std::string initial;               // the default; empty: none, or given in the description
     std::string description;
@@ -50,21 +51,21 @@ struct CommandReference {
 };
 
 [[nodiscard]] CommandReference reference_of(const CLI::App& app);
-// The command "catalog get" of the program; null: there is none.
+// Returns the command "catalog get" of the program; null if there is none.
 [[nodiscard]] const CommandReference* find_command(const CommandReference& program,
                                                    std::string_view name);
 
-// Returns what help and manual say of an option: its description, its range, its default, and the
-// options with which it may and may not be used. Each is a sentence with its period.
+// Returns the text about an option in help and manual: its description, range, default, and the
+// options that it needs or excludes. Each is a sentence with its period.
 [[nodiscard]] std::vector<std::string> sentences_of(const OptionReference& option);
 
 enum class HelpExtent { usual, all };
 // Returns the text of --help or --help-all: at most 80 columns, ends with a line end.
 [[nodiscard]] std::string help_of(const CommandReference& command, HelpExtent extent);
 
-// Uses headings and lists of man(7), one heading for each command that does something.
+// Returns the manual, with headings and lists of man(7), one heading for each command that can run.
 [[nodiscard]] std::string manual_of(const CommandReference& program);
-// Files to be sourced, or put where the shell looks for completions.
+// Return files to be sourced, or installed where the shell looks for completions.
 [[nodiscard]] std::string bash_completion_of(const CommandReference& program);
 [[nodiscard]] std::string zsh_completion_of(const CommandReference& program);
 [[nodiscard]] std::string fish_completion_of(const CommandReference& program);

@@ -1,5 +1,5 @@
-// The commands and options for bash, zsh and fish. Where a value is expected, its allowed or usual
-// values, files, directories, or the domains and stations that the program finds are offered
+// Writes completions for bash, zsh and fish. Where a value is expected, they offer its allowed or
+// usual values, files, directories, or the domains and stations that the program finds
 // (completed_names.h).
 #include <algorithm>
 
@@ -42,7 +42,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
     return text;
 }
 
-// Returns the beginning of a description, for one line of a menu.
+// Returns the start of a description, for one line of a menu.
 std::string brief(const std::string& description) {
     std::size_t end = description.size();
     for (const char* stop : {". ", "; ", ": ", " ("})
@@ -73,12 +73,12 @@ std::string zsh_function(const std::string& name) {
     return name.empty() ? "_stormcellar" : "_stormcellar_" + replaced(name, " ", "_");
 }
 
-// The values that can be listed: the only ones, or those that are usual.
+// Returns the values that can be listed: the only allowed ones, or the usual ones.
 const Words& listed(const OptionReference& option) {
     return option.choices.empty() ? option.offers : option.choices;
 }
 
-// Every command below the program, as words: what may stand behind `help`.
+// Returns every command below the program, as the words that may follow `help`.
 Words names_of_all(const CommandReference& program) {
     Words names;
     for (const CommandReference* command : all_commands(program)) {
@@ -89,7 +89,7 @@ Words names_of_all(const CommandReference& program) {
     return names;
 }
 
-// Returns what an argument without a name may be: files, unless the table of words says more.
+// Returns what positional arguments may be: files, unless the table of words says otherwise.
 Kept kept_of_arguments(const CommandReference& command) {
     for (const OptionReference& option : command.options) {
         if (!option.place.empty() && option.kept != Kept::nowhere) return option.kept;
@@ -97,7 +97,7 @@ Kept kept_of_arguments(const CommandReference& command) {
     return Kept::files;
 }
 
-// An action with a blank before it is called as it is.
+// Returns the action. zsh calls an action with a leading blank as it is.
 std::string zsh_action(const OptionReference& option) {
     const Words& values = listed(option);
     const std::string joined = fmt::format("{}", fmt::join(values, " "));
@@ -133,8 +133,8 @@ std::string zsh_arguments(const CommandReference& command, const Words& all_name
     return "'*:file:_files'";
 }
 
-// Each name of an option gets a line of its own, so that the exclusive lists of _arguments are not
-// needed.
+// Writes an option. Each of its names gets its own line, so that no exclusive lists of _arguments
+// are needed.
 void write_zsh_option(const OptionReference& option, std::string& out) {
     for (const std::string& name : option.names) {
         const bool is_long = name.starts_with("--");
@@ -176,7 +176,7 @@ void write_zsh_command(const CommandReference& command, const Words& all_names, 
     out += "      esac ;;\n  esac\n}\n";
 }
 
-// Returns the flags that tell fish if a value follows, and which values to offer.
+// Returns the flags that tell fish whether a value follows, and which values to offer.
 std::string fish_values(const OptionReference& option) {
     if (option.value.empty()) return "";
     const Words& values = listed(option);
@@ -199,7 +199,7 @@ std::string fish_values(const OptionReference& option) {
     return " -x" + offered;
 }
 
-// Writes what arguments without a name may be besides files: domains or commands.
+// Writes what positional arguments may be besides files: domains or commands.
 void write_fish_arguments(const CommandReference& command, const Words& all_names,
                           std::string& out) {
     const Kept kept = kept_of_arguments(command);
@@ -239,7 +239,7 @@ std::string_view bash_word(Kept kept) {
     return "";
 }
 
-// Sets the options that take a value, and what the value of the previous word may be.
+// Writes the options that take a value, and what the value after each may be.
 std::string bash_values_of(const CommandReference& command) {
     std::string values;
     std::string cases;
@@ -259,7 +259,7 @@ std::string bash_values_of(const CommandReference& command) {
     return out;
 }
 
-// The names of all commands go into the first gap, and what each of them offers into the second.
+// The first gap takes the names of all commands, the second what each of them offers.
 constexpr std::string_view bash_script =
     R"bash(# bash completion of stormcellar; made by stormcellar --reference bash.
 # Adds files, directories, or the names that the program knows, to what is offered.

@@ -1,4 +1,4 @@
-// The text of --help and --help-all: examples first, then what is usual, then the rest.
+// Writes the text of --help and --help-all: examples, then usual options, then the others.
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -15,11 +15,10 @@ namespace stormcellar::cli {
 namespace {
 
 constexpr std::size_t usual_width = 80, least_width = 60, most_width = 160;
-constexpr std::size_t text_column = 26;  // where the words beside an option begin
+constexpr std::size_t text_column = 26;  // where the text beside an option begins
 constexpr std::size_t margin = 2;
 
-// Returns the number of columns of a page: $COLUMNS, by which a reader asks for another, within
-// what can be read.
+// Returns the width of a page: $COLUMNS, which a user may set, limited to readable widths.
 std::size_t page_width() {
     const char* const asked = std::getenv("COLUMNS");
     if (asked == nullptr) return usual_width;
@@ -30,7 +29,7 @@ std::size_t page_width() {
     return std::clamp(width, least_width, most_width);
 }
 
-// Breaks a text at its blanks; the lines after the first begin at this column.
+// Breaks a text at blanks; the lines after the first begin at this column.
 std::string wrapped(const std::string& text, std::size_t column) {
     const std::size_t width = page_width();
     std::string out;
@@ -39,7 +38,7 @@ std::string wrapped(const std::string& text, std::size_t column) {
         const std::size_t end = std::min(text.find(' ', begin), text.size());
         std::string word = text.substr(begin, end - begin);
         begin = end + 1;
-        // A list without blanks may be longer than a line.
+        // A list without blanks may be longer than a line, so break it at a comma.
         while (column + word.size() > width) {
             const std::size_t comma = word.rfind(',', width - column - 1);
             if (comma == std::string::npos) break;
@@ -72,7 +71,7 @@ void write_row(const std::string& head, const std::string& text, std::string& ou
     out += wrapped(text, text_column) + '\n';
 }
 
-// "-o, --output FILE", or "DOMAIN" for one that is given by its place.
+// Returns "-o, --output FILE", or "DOMAIN" for a positional option.
 std::string head_of(const OptionReference& option) {
     std::string head = option.place;
     if (!option.names.empty()) {
@@ -102,7 +101,7 @@ std::string usage_of(const CommandReference& command) {
     return line + " [OPTIONS]";
 }
 
-// The options of the short help: arguments first, then those that the guide calls usual.
+// Returns the options of the short help: arguments first, then those that the guide calls usual.
 std::vector<const OptionReference*> usual_options(const CommandReference& command) {
     std::vector<const OptionReference*> usual;
     const CommandGuide* const guide = find_guide(command.name);
@@ -120,7 +119,7 @@ std::vector<const OptionReference*> usual_options(const CommandReference& comman
     return usual;
 }
 
-// Breaks a long command line before an option, as a shell takes it.
+// Breaks a long command line before an option, in a form that a shell accepts.
 std::string example_line(std::string_view line) {
     std::string out;
     std::size_t begin = 0;
@@ -162,7 +161,7 @@ void write_option_row(const OptionReference& option, std::string& out) {
     write_row(head_of(option), fmt::format("{}", fmt::join(sentences, " ")), out);
 }
 
-// Returns how many options were left out.
+// Writes the options. Returns how many were left out.
 std::size_t write_options(const CommandReference& command, HelpExtent extent, std::string& out) {
     out += "\nOptions:\n";
     if (extent == HelpExtent::usual) {

@@ -1,4 +1,4 @@
-// The commands and options in the format of man(7).
+// Writes the commands and options in the format of man(7).
 #include <fmt/format.h>
 
 #include "cli/reference/reference.h"

@@ -100,7 +100,7 @@ Names tiff_contents() {
     return row_names(render::tiff_contents);
 }
 
-// Each effect of the chains, once, with what it can be set to.
+// Returns each effect of the chains once, with its possible settings.
 Names settings_of(const std::vector<accuracy::Chain>& chains) {
     Names names;
     for (const accuracy::Chain& chain : chains) {
@@ -129,10 +129,10 @@ Names effects_of_pictures() {
 }  // namespace offered
 
 constexpr auto value_word_rows = std::to_array<ValueWord>({
-    // what an option names
+    // options and arguments that name something
     {"DOMAIN", "DOMAIN", Kept::domains},
     {"--domain", "DOMAIN", Kept::domains},
-    // Files are offered beside domains.
+    // Files are offered in addition to domains.
     {"FILE", "FILE", Kept::domains, nullptr, "frame"},
     {"FILE", "FILE", Kept::domains, nullptr, "loop"},
     {"--station", "STATION", Kept::stations},

@@ -1,7 +1,7 @@
-// cli/reference/value_words.h -- what a person reads and types where an option takes a value.
+// cli/reference/value_words.h -- names the kind of value that each option takes.
 //
-// The parser knows that a value is a text; this table knows that it is a file, a moment or a
-// station. Help, the manual and the completions of shells take it from here.
+// The parser only knows that a value is a text; this table knows that it is a file, a moment or a
+// station. Help, the manual and the completions of shells use it.
 // Thread contract: the table is constant.
 #pragma once
 
@@ -12,18 +12,19 @@
 
 namespace stormcellar::cli {
 
-// Where the values are that no list can name.
+// Where to find values that no list can name.
 enum class Kept { nowhere, files, directories, domains, stations, commands };
 
 struct ValueWord {
-    std::string_view option;  // "--scene", or the place of an argument: "DOMAIN"
+    std::string_view option;  // "--scene", or the name of an argument: "DOMAIN"
     std::string_view word;    // "FILE"
     Kept kept = Kept::nowhere;
-    std::vector<std::string> (*values)() = nullptr;  // those that completions offer; null: none
+    std::vector<std::string> (*values)() = nullptr;  // values that completions offer; null: none
     std::string_view command = {};                   // "catalog get"; empty: every command
 };
 
-// Null: there is no row. A row of this command goes before one of every command.
+// Returns null if there is no row. A row for this command takes precedence over one for every
+// command.
 [[nodiscard]] const ValueWord* find_value_word(std::string_view option, std::string_view command);
 [[nodiscard]] std::span<const ValueWord> value_words();
 

@@ -28,7 +28,7 @@ std::vector<std::string> option_names_of(const CommandReference& command) {
     return names;
 }
 
-// Null: the command has no such option.
+// Returns null if the command has no such option.
 const OptionReference* find_option(const std::string& name, const CommandReference& command) {
     for (const OptionReference& one : command.options) {
         const bool is_named = std::ranges::find(one.names, name) != one.names.end();
@@ -42,7 +42,7 @@ std::string value_of(const std::string& name, const CommandReference& command) {
     return option == nullptr ? std::string{} : option->value;
 }
 
-// "Could not convert: --width = abc".
+// Rewrites "Could not convert: --width = abc".
 std::string not_a_number(std::string_view said, const CommandReference& command) {
     const std::size_t equals = said.find(" = ");
     const std::string option(said.substr(0, equals));
@@ -52,7 +52,7 @@ std::string not_a_number(std::string_view said, const CommandReference& command)
                        found != nullptr && found->is_whole ? "whole " : "", text);
 }
 
-// Makes a sentence of the parser's message, which may be "--last: Value 0 not in range 1 to 9" or
+// Makes a sentence from the parser's message, which may be "--last: Value 0 not in range 1 to 9" or
 // "--last: 1 required INT missing".
 std::string sentence_of(const std::string& said, const CommandReference& command) {
     constexpr std::string_view value = ": Value ", range = " not in range ";
@@ -84,7 +84,7 @@ std::string sentence_of(const std::string& said, const CommandReference& command
 }  // namespace
 
 std::string no_command(const std::string& name, const CommandReference& program) {
-    // The command above it, as far as it is known, has the names that may be meant.
+    // Suggest names from the known part of the command.
     const std::size_t space = name.rfind(' ');
     const CommandReference* above =
         space == std::string::npos ? &program : find_command(program, name.substr(0, space));
@@ -96,11 +96,11 @@ std::string no_command(const std::string& name, const CommandReference& program)
                        above->name.empty() ? "" : above->name + " ", *nearest);
 }
 
-// A misspelled option is also the cause if a required one is missing; CLI11 would report the
-// latter.
+// Returns the reason. If a required option is missing because it was misspelled, report the
+// misspelling; CLI11 would report the missing option.
 std::string reason_of(const CLI::ParseError& error, std::vector<std::string> left,
                       const CommandReference& command) {
-    // For "--prodct volume" the option, and not what follows it.
+    // For "--prodct volume", report the option, not the word after it.
     std::stable_partition(left.begin(), left.end(),
                           [](const std::string& word) { return word.starts_with('-'); });
     const int code = error.get_exit_code();

@@ -1,4 +1,4 @@
-// cli/reference/wrong_words.h -- what a command line that the parser refused says, in one line.
+// cli/reference/wrong_words.h -- explains in one line why the parser refused a command line.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -15,10 +15,11 @@ class ParseError;
 
 namespace stormcellar::cli {
 
-// "there is no command 'fram'; did you mean 'frame'?", also for "catalog lits".
+// Returns "there is no command 'fram'; did you mean 'frame'?", also for "catalog lits".
 [[nodiscard]] std::string no_command(const std::string& name, const CommandReference& program);
 
-// Why the parser refused the words behind this command. `left` are the words that it did not take.
+// Returns why the parser refused the words after this command. `left` are the words that it did not
+// accept.
 [[nodiscard]] std::string reason_of(const CLI::ParseError& error, std::vector<std::string> left,
                                     const CommandReference& command);
 

@@ -1,9 +1,9 @@
-// cli/serve/scratch_cellar.h -- a catalog and a cache in a temporary directory, made of the files
-// that a command line names, as stormcellard would make them.
+// cli/serve/scratch_cellar.h -- makes a catalog and a cache in a temporary directory from the files
+// of a command line, as stormcellard would make them.
 //
-// The raw files are read where they are. The directory is removed with the object.
+// The raw files are read in place. The destructor removes the directory.
 //
-// Threads   One thread at a time; catalog and cache may be read by others meanwhile.
+// Threads   One thread at a time; others may read catalog and cache meanwhile.
 // Errors    See each function.
 #pragma once
 
@@ -21,21 +21,22 @@
 
 namespace stormcellar::cli {
 
-// Returns the files of these names, of directories and chunks all in them, sorted: absolute paths
-// without links. What is no volume is named on stderr and left out. Errors: those of
-// InputFiles::find(); bad_argument for standard input.
+// Returns the named files, and all files in named directories and sets of chunks, sorted, as
+// absolute paths without links. Files that are not volumes are reported on stderr and left out.
+// Errors: those of InputFiles::find(); bad_argument for standard input.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> files_to_serve(
     const std::vector<std::string>& names);
 
 class ScratchCellar {
   public:
-    // Grids the volumes with all of their moments. Errors: io if the directory cannot be made.
+    // Makes the directory. All moments of the volumes will be gridded. Errors: io if it cannot be
+    // made.
     static Result<std::unique_ptr<ScratchCellar>> make(int threads);
 
     [[nodiscard]] std::filesystem::path catalog() const { return scratch_.path() / "catalog"; }
     [[nodiscard]] std::filesystem::path cache() const { return scratch_.path() / "cache"; }
-    // Takes in one file. Returns the number of its grids; 0 with a note on stderr if nothing can be
-    // made of it. Errors: those of a full disk.
+    // Ingests one file. Returns the number of its grids; 0, with a note on stderr, if the file
+    // gives none. Errors: those of a full disk.
     Result<std::size_t> take(const std::filesystem::path& file);
 
   private:

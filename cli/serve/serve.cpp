@@ -64,7 +64,7 @@ Status take_addresses(const ServeOptions& options, web::WebSetup& setup) {
     return {};
 }
 
-// Errors: bad_argument, and those of a configuration.
+// Returns the setup of the server. Errors: bad_argument, and those of a configuration.
 Result<web::WebSetup> setup_of(const ServeOptions& options) {
     auto setup = setup_by_config(options);
     if (!setup) return setup;
@@ -87,7 +87,7 @@ int run_serve(const ServeOptions& options) {
     if (!setup) return report_error(setup.error());
     set_added_stations(setup->added_stations);
     set_log_level(options.verbose ? "debug" : "warning");
-    // From here on Ctrl-C waits until somebody asks for it, so nothing is left behind.
+    // From here on the program itself handles Ctrl-C, so that it leaves nothing behind.
     const auto signals = Signals::open();
     if (!signals) return report_error(signals.error());
     std::unique_ptr<ServedFiles> files;

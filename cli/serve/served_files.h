@@ -1,4 +1,4 @@
-// cli/serve/served_files.h -- the files that a command line names, gridded and served until Ctrl-C.
+// cli/serve/served_files.h -- grids the files of a command line and serves them until Ctrl-C.
 //
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -19,19 +19,19 @@
 
 namespace stormcellar::cli {
 
-// The files are taken in one after another.
+// Ingests the files one after another.
 class ServedFiles {
   public:
-    // Takes in files until one gave grids, so that there is something to see from the start.
-    // `threads` decode and grid; 0: one for each processor. Errors: those of files_to_serve() and
-    // ScratchCellar; not_found if no file gave grids.
+    // Ingests files until one has given grids, so that there is something to see from the start.
+    // Decoding and gridding use `threads` threads; 0: one for each processor. Errors: those of
+    // files_to_serve() and ScratchCellar; not_found if no file gives grids.
     static Result<std::unique_ptr<ServedFiles>> take(const std::vector<std::string>& names,
                                                      int threads);
     ServedFiles(const ServedFiles&) = delete;
     ServedFiles& operator=(const ServedFiles&) = delete;
     ~ServedFiles();
 
-    // Takes in the rest beside what the caller does.
+    // Ingests the rest on another thread.
     void take_rest();
     [[nodiscard]] const ScratchCellar& cellar() const { return *cellar_; }
 
@@ -47,7 +47,7 @@ class ServedFiles {
     std::thread thread_;
 };
 
-// Makes a server one of these files: no further ones come, so no station is silent.
+// Sets up a server of these files. No further volumes come, so no station counts as silent.
 void serve_files(const ServedFiles& files, web::WebSetup& setup);
 
 // Returns when a signal asks the program to end.

@@ -1,4 +1,5 @@
-// stormcellar view: one's own files in the viewer, without a service and without a network.
+// stormcellar view: shows the user's own files in the viewer, without a service and without a
+// network.
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ struct ViewOptions {
     int threads = 0;
 };
 
-// Only this machine reaches it, at any port that is free.
+// Returns a setup that only this machine can reach, at any free port.
 Result<web::WebSetup> setup_of_files(const ServedFiles& files) {
     web::WebSetup setup;
     setup.state.clear();
@@ -40,7 +41,7 @@ int run_view(const ViewOptions& options) {
                              "this program was built without the viewer (STORMCELLAR_VIEWER=OFF)"});
     }
     set_log_level("warning");
-    // From here on Ctrl-C waits until somebody asks for it, so nothing is left behind.
+    // From here on the program itself handles Ctrl-C, so that it leaves nothing behind.
     const auto signals = Signals::open();
     if (!signals) return report_error(signals.error());
     auto files = ServedFiles::take(options.files, options.threads);

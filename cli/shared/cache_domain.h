@@ -1,6 +1,6 @@
-// cli/shared/cache_domain.h -- which domain of a cache the words of a command line mean.
+// cli/shared/cache_domain.h -- finds which domain of a cache a command line means.
 //
-// Threads   Pure functions, which look at the cache.
+// Threads   Pure functions, except that they read the cache.
 // Errors    See each function.
 #pragma once
 
@@ -14,14 +14,14 @@
 
 namespace stormcellar::cli {
 
-// Sorts words into files and a domain, see tell_apart(); the domains are those of the cache that is
-// given, or of the service.
+// Sorts words into files and a domain as tell_apart() does. Domains are those of the given cache,
+// or else of the service's.
 [[nodiscard]] Result<SourceNames> tell_apart_from_cache(const std::vector<std::string>& words,
                                                         const std::string& domain,
                                                         const PlaceOption& cache);
 
-// Names the domain that is meant where none is named: the only one of the cache. Errors: not_found
-// for a cache without one, bad_argument, naming them, for one with several.
+// If no domain is named, takes the only one of the cache. Errors: not_found for a cache without
+// domains; bad_argument, naming them, for several.
 [[nodiscard]] Status take_only_domain(const cache::StoreReader& store, std::string& domain);
 
 }  // namespace stormcellar::cli

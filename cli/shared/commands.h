@@ -1,4 +1,4 @@
-// cli/shared/commands.h -- what the subcommands of `stormcellar` share.
+// cli/shared/commands.h -- code that the subcommands of `stormcellar` share.
 //
 // Each add_*() adds its subcommand and options to the app and returns the function to run if that
 // subcommand is chosen. A command parses its arguments, calls the library and prints; nothing else.
@@ -30,7 +30,7 @@ enum ExitStatus : int {
     exit_nothing_matched = 3  // a query with an empty answer
 };
 
-// Does the work of a subcommand whose options were parsed, and gives the exit status.
+// Does the work of a subcommand whose options were parsed. Returns the exit status.
 using Run = std::function<int()>;
 
 struct Command {
@@ -39,12 +39,12 @@ struct Command {
 };
 using Commands = std::vector<Command>;
 
-// Prints "stormcellar: MESSAGE" on stderr, with control characters escaped, and returns the exit
-// status of the code: bad_argument is bad usage, everything else is failed work.
+// Prints "stormcellar: MESSAGE" on stderr, with control characters escaped. Returns the exit status
+// for the code: bad_argument is bad usage, everything else is failed work.
 int report_error(const Error& error);
 
-// Prints "stormcellar: note: TEXT" on stderr, with control characters escaped: the work succeeded,
-// but may not be what was intended.
+// Prints "stormcellar: note: TEXT" on stderr, with control characters escaped. A note says that the
+// work succeeded but may differ from what was intended.
 void print_note(const std::string& text);
 
 // Returns "grid" for one, "grids" for any other number.

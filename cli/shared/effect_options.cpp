@@ -19,7 +19,7 @@ using accuracy::Setting;
 
 constexpr std::string_view standard_profile = "standard";
 
-// The settings that a method name represents.
+// The settings that the name of a method stands for.
 using Settings = std::vector<EffectOverride>;
 const std::map<std::string, Settings>& methods() {
     static const std::map<std::string, Settings> known = {
@@ -68,7 +68,7 @@ Result<Settings> settings_of_methods(const EffectOptions& options) {
     return settings;
 }
 
-// For example "column_interpolation on, cell_size off".
+// Returns, for example, "column_interpolation on, cell_size off".
 std::string text_of(const Settings& settings) {
     std::vector<std::string> parts;
     parts.reserve(settings.size());
@@ -89,7 +89,7 @@ Status set_effects(const EffectOptions& options, accuracy::Chain& chain) {
     }
     accuracy::Chain by_name = chain;
     if (auto set = accuracy::apply_overrides(by_name, settings); !set) return set;
-    // A setting of an effect itself overrides that of a method.
+    // An explicit setting of an effect overrides the method's.
     std::erase_if(*by_method, [&](const EffectOverride& set) {
         return std::any_of(settings.begin(), settings.end(),
                            [&](const EffectOverride& named) { return named.name == set.name; });
@@ -121,7 +121,7 @@ Result<grid::RefractivityProfile> parse_profile(const std::string& text) {
     if (text == standard_profile) return grid::RefractivityProfile::standard(45);
     auto sounding = grid::read_sounding(text);
     if (sounding) return sounding;
-    // An unknown name and a file without a sounding are both bad usage.
+    // An unknown name, or a file without a sounding, is bad usage.
     const ErrorCode code = sounding.error().code;
     const bool unreadable = code == ErrorCode::io || code == ErrorCode::permission;
     return fail(unreadable ? code : ErrorCode::bad_argument,
@@ -129,7 +129,7 @@ Result<grid::RefractivityProfile> parse_profile(const std::string& text) {
                 sounding.error().message);
 }
 
-// Whoever gives a profile wants beams that bend by it, unless another option says otherwise.
+// A user who gives a profile wants beams that bend by it, unless another option says otherwise.
 void bend_by_profile(EffectRequest& request) {
     for (accuracy::Step& step : request.chain.steps) {
         for (accuracy::Effect& effect : step.effects) {

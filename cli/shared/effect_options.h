@@ -1,5 +1,5 @@
-// cli/shared/effect_options.h -- the options that say how exactly to grid, and the request that
-// they give.
+// cli/shared/effect_options.h -- the options for how exactly to grid, and the request made from
+// them.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,7 @@ struct EffectOptions {
     std::vector<std::string> effects;
     std::string tolerance;
     std::string profile{default_profile};
-    std::string time_method;  // of several volumes; add_mosaic_options() adds it
+    std::string time_method;  // for several volumes; add_mosaic_options() adds it
     bool explain = false;
 };
 
@@ -41,17 +41,17 @@ struct EffectRequest {
     std::optional<accuracy::Budget> budget;
     grid::RefractivityProfile profile = grid::RefractivityProfile::reference();
     std::optional<double> sounding_from_m;  // the first level if the profile is a sounding
-    bool profile_bends_nothing = false;     // a profile was given although refraction is off
+    bool profile_bends_nothing = false;     // a profile was given, but refraction is off
     bool explain = false;
 
-    // Returns true if something must be predicted for the scene.
+    // Returns true if errors and times must be predicted for the scene.
     [[nodiscard]] bool needs_plan() const { return budget.has_value() || explain; }
 };
 
-// A profile other than the default turns refraction on, unless refraction is set already or a
-// tolerance leaves it to the planner. For several volumes, which overlap by this rule, the chain is
-// that of their mosaic (pipeline/mosaic/mosaic_effects.h). Errors: bad_argument, naming the option;
-// io and permission for a sounding that cannot be read.
+// Parses the options. A profile other than the default turns refraction on, unless refraction is
+// set explicitly or a tolerance leaves it to the planner. For several volumes, which overlap by
+// this rule, the chain is that of their mosaic (pipeline/mosaic/mosaic_effects.h). Errors:
+// bad_argument, naming the option; io and permission for a sounding that cannot be read.
 [[nodiscard]] Result<EffectRequest> parse_effects(
     const EffectOptions& options, level2::Moment moment,
     std::optional<grid::Overlap> overlap = std::nullopt);

@@ -25,7 +25,7 @@ constexpr std::chrono::milliseconds between_looks{200};
 constexpr std::chrono::milliseconds quiet_time{250};
 constexpr std::chrono::seconds longest_burst{3};
 
-// The values that change with a file or directory; all zero if it does not exist.
+// Values that change with a file or directory; all zero if it does not exist.
 struct Stamp {
     std::string path;
     std::uint64_t inode = 0;
@@ -40,7 +40,7 @@ Stamp stamp_of(const std::filesystem::path& path) {
             found.st_size};
 }
 
-// Returns the directories of the domain, of the moment and of its days.
+// Returns the stamps of the directories of the domain, the moment and its days.
 std::vector<Stamp> directories_of(const Following& following) {
     const auto domain = following.cache / following.domain;
     const auto moment = domain / std::string(level2::moment_name(following.moment));
@@ -61,12 +61,12 @@ std::vector<Stamp> stamps_of(const std::vector<cache::StoreEntry>& grids) {
     return stamps;
 }
 
-// Finds changes of the directories.
+// Detects changes of the directories.
 class Changes {
   public:
     explicit Changes(const Following& following) : following_(following) {}
 
-    // Waits for a change and for the quiet after it; the first call waits only for the quiet.
+    // Waits for a change and then for a pause in changes; the first call waits only for the pause.
     // Returns false if the flag was set.
     bool wait(const std::atomic<bool>& stop) {
         std::optional<SteadyClock::time_point> began;
@@ -80,7 +80,8 @@ class Changes {
             }
             if (began && now - last >= quiet_time) return true;
             if (began && now - *began >= longest_burst) {
-                // A change within the same tick of the file system's clock would not be seen.
+                // A change within the same tick of the file system's clock would be missed, so look
+                // again.
                 known_.reset();
                 return true;
             }
@@ -105,7 +106,7 @@ bool end_with(pid_t parent) {
 void add_follow_options(CLI::App& app, FollowOptions& options) {
     app.add_flag("--follow", options.wanted,
                  "Keep running, and make the loop again whenever its grids change");
-    // for stormcellard, with which this process must end; of no use to people
+    // hidden: stormcellard uses it for processes that must end with it
     app.add_option("--with-parent", options.parent, "End when the process of this number ends")
         ->group("");
 }

@@ -2,9 +2,9 @@
 //
 // The directories of the domain in the cache are checked five times a second. This takes a few
 // stat() calls: the times of directories change with every grid that is added, removed or replaced,
-// on network file systems, too. After a change it waits until nothing has changed for a quarter of
-// a second, three seconds at most. Then the grids are listed again, and the loop is made if they
-// differ from those of the last loop.
+// also on network file systems. After a change, the program waits until nothing has changed for a
+// quarter of a second, but at most three seconds. Then it lists the grids again and makes the loop
+// if they differ from those of the last loop.
 //
 // Threads   One thread at a time; see cli/shared/interrupt.h for the flag.
 #pragma once
@@ -36,17 +36,17 @@ struct Following {
     std::filesystem::path cache;
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
-    // Returns the grids of which the loop is to be made now. Relative times count from the call.
+    // Returns the grids for the loop at this moment. Relative times count from the call.
     std::function<Result<std::vector<cache::StoreEntry>>()> find;
     // Makes the loop, reports errors, and returns the exit status.
     std::function<int(const std::vector<cache::StoreEntry>&)> make;
     bool quiet = false;
 };
 
-// Runs until the flag is set, and then returns exit_done. What cannot be listed or made is reported
-// once and tried again after the next change. It waits if there is no grid or no cache. It ends
-// with another status (exit_bad_usage) only if the request turns out to be invalid before a first
-// loop was made.
+// Runs until the flag is set, and then returns exit_done. A failure to list the grids or make the
+// loop is reported once, and tried again after the next change. It waits if there is no grid or no
+// cache. It returns another status (exit_bad_usage) only if the request turns out to be invalid
+// before a first loop was made.
 int follow(const Following& following, const FollowOptions& options, const std::atomic<bool>& stop);
 
 // Prints the document on one line of stdout and flushes it.

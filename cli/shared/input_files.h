@@ -1,10 +1,10 @@
-// cli/shared/input_files.h -- the raw files that a command line names.
+// cli/shared/input_files.h -- finds and reads the raw files that a command line names.
 //
-// A name may be that of one file, of a tar or zip archive (its members), of a directory (the files
-// in it and below it, or one volume if it holds chunks) or "-" for standard input. Chunks of one
-// volume that are named one by one, as by the shell's pattern, are one volume. Members are written
-// ARCHIVE!MEMBER. Entries of a directory or an archive that are not
-// Level II are left out and reported; a file that is named itself must be Level II.
+// A name may be a file, a tar or zip archive (its members), a directory (the files in it and below
+// it, or one volume if it holds chunks) or "-" for standard input. If chunks of one volume are
+// named one by one, as by a shell's pattern, they form one volume. Members are written
+// ARCHIVE!MEMBER. Entries of a directory or an archive that are not Level II are left out and
+// reported; a named file must be Level II.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -22,25 +22,25 @@ namespace stormcellar::cli {
 
 struct InputFile {
     std::string label;           // the name in messages and results
-    std::filesystem::path path;  // of the file, or of its archive; empty: standard input
-    std::string member;          // of the archive; empty: the file itself
-    bool was_found = false;      // found in a directory or an archive, and not named itself
+    std::filesystem::path path;  // path of the file or its archive; empty: standard input
+    std::string member;          // member of the archive; empty: the file itself
+    bool was_found = false;      // found in a directory or an archive, not named directly
     // The files of a volume that came as one file for each chunk, in order; else empty.
     std::vector<std::filesystem::path> chunks = {};
 
-    // Returns the last part of its name, which shows the station and appears in results.
+    // Returns the last part of its name, which contains the station and appears in results.
     [[nodiscard]] std::string file_name() const;
 };
 
 class InputFiles {
   public:
-    // Chooses among the volumes of a directory of chunks: a number from 1 in order of time, or one
+    // Selects among the volumes of a directory of chunks: a number from 1 in order of time, or one
     // of these.
     enum OfChunks : int { newest = 0, all = -1 };
-    // Files are in the order of the names, behind volumes whose chunks were named one by one; those
-    // of a directory are sorted by path. Errors:
-    // not_found, permission and io of the names; bad_argument if "-" is named twice, or a directory
-    // has not so many volumes; not_found if nothing is left.
+    // Finds the files. Volumes whose chunks were named one by one come first, then files in the
+    // order of the names; those of a directory are sorted by path. Errors: not_found, permission
+    // and io for the names; bad_argument if "-" is named twice, or a directory has fewer volumes;
+    // not_found if nothing is left.
     [[nodiscard]] static Result<InputFiles> find(std::vector<std::string> names,
                                                  int volume = newest);
     InputFiles(InputFiles&&) noexcept;
@@ -49,16 +49,17 @@ class InputFiles {
 
     [[nodiscard]] const std::vector<InputFile>& files() const;
     [[nodiscard]] std::vector<std::string> labels() const;
-    // Returns true if the file of this label was found and not named itself.
+    // Returns true if the file of this label was found in a directory or an archive.
     [[nodiscard]] bool is_found(const std::string& label) const;
-    // Returns what was found but cannot be read as a file, with the reason.
+    // Returns the entries that cannot be read as a file, with the reasons.
     [[nodiscard]] const std::vector<std::string>& left_out() const;
 
-    // Reading members is fastest in their order. Errors: those of read_file(); corrupt if the
-    // archive no longer has the member.
+    // Reads a file. Reading members is fastest in their order. Errors: those of read_file();
+    // corrupt if the archive no longer has the member.
     [[nodiscard]] Result<std::vector<std::byte>> read(const InputFile& file);
-    // Returns the whole file, or the chunks of a directory, decoded. If the file names no station,
-    // that of the file name is used. `bytes`: the number of bytes read. Errors name the file.
+    // Returns the decoded file, or the decoded chunks of a directory. If the data name no station,
+    // the station in the file's name is used. `bytes` receives the number of bytes read. Errors
+    // name the file.
     [[nodiscard]] Result<level2::Decoded> decode(const InputFile& file,
                                                  level2::DecodeOptions options,
                                                  std::uint64_t* bytes = nullptr);
@@ -69,8 +70,8 @@ class InputFiles {
     std::unique_ptr<Impl> impl_;
 };
 
-// Returns true if a file that was found, and not named itself, is left out for this error because
-// it is no volume.
+// Returns true if the error means that a file is not a volume, so that it is left out if it was
+// found in a directory or an archive.
 [[nodiscard]] bool is_no_volume(const Error& error);
 
 }  // namespace stormcellar::cli

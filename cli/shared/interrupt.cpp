@@ -16,7 +16,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
 std::array<struct sigaction, watched.size()> actions_before{};
 
-// Restores what the signal did before, so that a second one ends the program.
+// Sets the flag, and restores the previous handler, so that a second signal ends the program.
 void note_signal(int number) {
     for (std::size_t i = 0; i < watched.size(); ++i) {
         if (watched[i] == number) ::sigaction(number, &actions_before[i], nullptr);

@@ -1,8 +1,8 @@
 // cli/shared/interrupt.h -- Ctrl-C as a flag that long work checks between its steps.
 //
-// As long as an Interrupt exists, the first SIGINT, SIGTERM or SIGHUP sets the flag instead of
-// ending the program (a signal that was ignored stays ignored). A second signal ends the program at
-// once. The work checks the flag, discards what it has half done, and calls end_by_signal().
+// While an Interrupt exists, the first SIGINT, SIGTERM or SIGHUP sets the flag instead of ending
+// the program (a signal that was ignored stays ignored). A second signal ends the program at once.
+// The work checks the flag, discards what it has half done, and calls end_by_signal().
 //
 // Threads   One Interrupt at a time; the flag may be read from any thread.
 #pragma once
@@ -19,8 +19,8 @@ class Interrupt {
     ~Interrupt();
 
     [[nodiscard]] const std::atomic<bool>& flag() const;
-    // Ends the program by the signal that arrived, so that a shell sees why it ended. Returns if
-    // none arrived.
+    // Ends the program by the signal that arrived, so that a shell sees the cause. Returns if none
+    // arrived.
     void end_by_signal();
 
   private:

@@ -1,8 +1,8 @@
-// cli/shared/output_file.h -- the one file that a command writes, which may be standard output.
+// cli/shared/output_file.h -- the one file that a command writes, or standard output.
 //
 // "-" means standard output. The file is then made in a temporary place, because its format may
-// need to seek, and is copied when it is complete: a reader gets all of it or nothing. A signal
-// that ends the program leaves nothing of it.
+// need to seek, and is copied when it is complete, so that a reader gets all of it or nothing. If a
+// signal ends the program, the temporary file is removed.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -23,23 +23,24 @@ namespace stormcellar::cli {
 
 [[nodiscard]] bool is_stdout(std::string_view output);
 
-// Checks before long work that the file can be written and that its ending is one of these; with
-// `json`, which also goes to standard output, that it is not standard output. `what` describes the
-// output, as in "a grid is netCDF". Errors: bad_argument, and those of check_target().
+// Checks, before long work, that the file can be written and has one of these endings. With `json`,
+// which uses standard output, the file must not be standard output. `what` describes the output, as
+// in "a grid is netCDF". Errors: bad_argument, and those of check_target().
 [[nodiscard]] Status check_output_file(const std::string& output,
                                        const std::vector<std::string_view>& endings,
                                        std::string_view what, bool json);
 
 class OutputFile {
   public:
-    // `ending` is that of the temporary file, for writers that depend on it. Errors: those of
+    // `ending` is the ending of the temporary file, for writers that depend on it. Errors: those of
     // making a temporary directory.
     [[nodiscard]] static Result<OutputFile> open(const std::string& output,
                                                  std::string_view ending = {});
 
     // the path to write to
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    // Call it when the file is written. Errors: io if standard output does not accept it.
+    // Copies a temporary file to standard output. Call it when the file is written. Errors: io if
+    // standard output does not accept it.
     [[nodiscard]] Status finish();
 
   private:
@@ -50,7 +51,7 @@ class OutputFile {
     std::optional<ScratchDirectory> scratch_;  // none: written in place
 };
 
-// For bytes that are already in memory. Errors: those of writing.
+// Writes bytes that are already in memory. Errors: those of writing.
 [[nodiscard]] Status write_output(const std::string& output, std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::cli

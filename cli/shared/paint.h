@@ -10,12 +10,12 @@ namespace stormcellar::cli {
 
 enum class Paint { plain, colors };
 
-// Colors are for a terminal alone: not if the descriptor is anything else, if NO_COLOR is set to
-// anything (no-color.org), or if TERM is missing or "dumb".
+// Returns color only for a terminal, and not if NO_COLOR is set to anything (no-color.org), or if
+// TERM is missing or "dumb".
 [[nodiscard]] Paint paint_for(int descriptor);
 
-// Color texts: bold red is for what has gone wrong, yellow for what may need a look. With
-// Paint::plain a text stays as it is, and so does an empty one.
+// These color a text: bold red for errors, yellow for warnings. Paint::plain and an empty text
+// change nothing.
 [[nodiscard]] std::string in_red(std::string_view text, Paint paint);
 [[nodiscard]] std::string in_yellow(std::string_view text, Paint paint);
 

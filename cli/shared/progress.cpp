@@ -13,7 +13,7 @@ namespace stormcellar::cli {
 namespace {
 
 constexpr std::size_t bar_width = 24;
-constexpr double soonest_s = 1;  // an earlier guess would only flicker
+constexpr double soonest_s = 1;  // earlier estimates would only flicker
 
 std::string rate_text(double per_second) {
     if (per_second >= 100) return fmt::format("{:.0f} a second", per_second);

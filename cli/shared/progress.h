@@ -1,5 +1,5 @@
-// cli/shared/progress.h -- a progress bar on stderr with the rate and the time left, if stderr is a
-// terminal and a bar is wanted.
+// cli/shared/progress.h -- a progress bar on stderr with the rate and the time left. It is shown if
+// stderr is a terminal and a bar is wanted.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace stormcellar::cli {
 
 class Progress {
   public:
-    // With a total of 0 nothing is shown until show() says one.
+    // With a total of 0 nothing is shown until show() gives a total.
     Progress(std::string what, std::size_t total, bool wanted);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress();  // removes the bar
 
     void show(std::size_t done);
-    // The total may differ from call to call, for example while it is still being determined.
+    // The total may change between calls, for example while it is still being counted.
     void show(std::size_t done, std::size_t total);
     void clear();  // call it before printing another message
 
@@ -29,9 +29,8 @@ class Progress {
     bool shown_;
 };
 
-// Returns "frames [#####.....]  6/12, 2.5 a second, 3 s left" for work that has taken so long.
-// Without the end of it while that is not known: in the first second, before anything is done, and
-// after all.
+// Returns "frames [#####.....]  6/12, 2.5 a second, 3 s left". It leaves out the rate and the time
+// left while they are unknown: in the first second, before anything is done, and at the end.
 [[nodiscard]] std::string progress_line(const std::string& what, std::size_t done,
                                         std::size_t total, double elapsed_s = 0);
 

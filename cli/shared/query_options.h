@@ -1,5 +1,5 @@
-// cli/shared/query_options.h -- times, JSON and other small things that several query commands
-// share.
+// cli/shared/query_options.h -- options and output that several query commands share: times, JSON,
+// stations.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class App;
 
 namespace stormcellar::cli {
 
-// --from and --to as they were typed; both inclusive, empty: open.
+// --from and --to as typed; both inclusive; empty: open.
 struct TimeRangeOptions {
     std::string from;
     std::string to;
@@ -27,7 +27,8 @@ void add_time_range(CLI::App& app, TimeRangeOptions& options);
 struct TimeRange {
     std::optional<UtcTime> from, to;
 };
-// Errors: bad_argument if one of them is no time, or they are in the wrong order.
+// Parses the range. Errors: bad_argument if one of the texts is not a time, or if they are in the
+// wrong order.
 [[nodiscard]] Result<TimeRange> parse_time_range(const TimeRangeOptions& options);
 
 // Prints the document on stdout, indented by two spaces. Characters beyond ASCII are written as
@@ -35,10 +36,10 @@ struct TimeRange {
 // are not UTF-8 become U+FFFD.
 void print_json(const nlohmann::json& document);
 
-// Warns on stderr about a time that is shown as the newest and lies in the future (is_believed()).
+// Warns on stderr if a time that is shown as the newest is in the future (is_believed()).
 void warn_of_future(UtcTime newest);
 
-// Reports it on stderr. Returns the exit status.
+// Reports on stderr that nothing matched. Returns the exit status.
 int report_nothing_matched();
 
 [[nodiscard]] nlohmann::json json_time(const std::optional<UtcTime>& time);  // null for none

@@ -19,14 +19,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
-// A thread that is still writing may make a file again while the directory is emptied.
+// A thread that is still writing may create files again while the directory is emptied, so repeat.
 constexpr int most_rounds = 5;
 
-// Written before the handlers are installed.
+// The path; set before the handlers are installed.
 std::array<char, 4096> place{};
 std::array<struct sigaction, ending_signals.size()> before{};
 
-// Calls only what a signal handler may call; opendir() may allocate memory.
+// Empties a directory. A signal handler calls this, so it must not allocate memory, as opendir()
+// may.
 void empty_directory(int directory) {
     alignas(dirent64) std::array<char, 4096> entries{};
     for (;;) {
@@ -52,7 +53,7 @@ void remove_and_end(int number) {
         ::close(directory);
         if (::rmdir(place.data()) == 0) break;
     }
-    ::raise(number);  // SA_RESETHAND has restored its usual effect
+    ::raise(number);  // SA_RESETHAND has restored the default action
 }
 
 void watch_signals() {
@@ -72,7 +73,7 @@ void leave_signals() {
     }
 }
 
-// Signals that would end the program wait, in this thread, as long as the object exists.
+// Blocks signals that would end the program, in this thread, while the object exists.
 class BlockedSignals {
   public:
     BlockedSignals() {
@@ -116,7 +117,7 @@ Result<ScratchDirectory> ScratchDirectory::make() {
         return fail(ErrorCode::io, "{}: the name is too long for a temporary directory", name);
     }
     place.fill('\0');
-    // A signal that comes in between finds the directory made and watched, or neither.
+    // A signal in between must find the directory both made and watched, or neither.
     const BlockedSignals blocked;
     if (::mkdtemp(name.data()) == nullptr) {
         return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));

@@ -1,8 +1,8 @@
 // cli/shared/scratch_directory.h -- a temporary directory that does not outlive the program.
 //
-// It is removed when the object is destroyed, and also when SIGINT, SIGTERM, SIGHUP or SIGPIPE ends
-// the program while the object exists (a signal that is ignored stays so). An Interrupt
-// (cli/shared/interrupt.h) that is made later takes the signal first and passes it on.
+// The destructor removes it. It is also removed if SIGINT, SIGTERM, SIGHUP or SIGPIPE ends the
+// program while the object exists (an ignored signal stays ignored). An Interrupt
+// (cli/shared/interrupt.h) that is made later gets the signal first and passes it on.
 //
 // Threads   One object at a time.
 #pragma once
@@ -28,7 +28,7 @@ class ScratchDirectory {
   private:
     explicit ScratchDirectory(std::filesystem::path path);
 
-    std::filesystem::path path_;  // empty: moved away
+    std::filesystem::path path_;  // empty: moved from
 };
 
 }  // namespace stormcellar::cli

@@ -1,9 +1,8 @@
-// cli/shared/service_places.h -- where a service keeps its cache and its catalog, as its
-// configuration says.
+// cli/shared/service_places.h -- finds a service's cache and catalog from its configuration.
 //
-// --config FILE names the configuration, else the environment variable STORMCELLAR_CONFIG, else it
-// is /etc/stormcellar/stormcellard.toml if that can be read. A directory that is given as an option
-// wins.
+// The configuration is the file of --config FILE, else of the environment variable
+// STORMCELLAR_CONFIG, else /etc/stormcellar/stormcellard.toml if that can be read. A directory
+// given as an option takes precedence.
 //
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -21,13 +20,13 @@ class App;
 
 namespace stormcellar::cli {
 
-// Where a service keeps things that does not say otherwise.
+// Default state directory of a service.
 inline constexpr const char* usual_state = "/var/lib/stormcellar";
 inline constexpr const char* usual_cache = "/var/cache/stormcellar";
 
 struct ServicePlaces {
-    std::filesystem::path config;  // the file that says the others
-    std::filesystem::path drop;    // empty: it does not say
+    std::filesystem::path config;  // the file that names the others
+    std::filesystem::path drop;    // empty: the file does not name it
     std::filesystem::path state = usual_state;
     std::filesystem::path cache = usual_cache;
     std::optional<std::filesystem::path> socket = std::nullopt;
@@ -35,8 +34,8 @@ struct ServicePlaces {
     [[nodiscard]] std::filesystem::path catalog() const { return state / "catalog"; }
 };
 
-// Returns none if no configuration is named and none is in the usual place. Errors: those of
-// reading a file that was named, and bad_argument for its contents.
+// Returns the places; none if no configuration is named and none is in the usual place. Errors:
+// those of reading a named file, and bad_argument for its contents.
 [[nodiscard]] Result<std::optional<ServicePlaces>> service_places(const std::string& config);
 
 enum class Directory { cache, catalog };
@@ -44,14 +43,14 @@ enum class Directory { cache, catalog };
 // A directory of the service, as an option (--cache, --catalog) or by --config.
 struct PlaceOption {
     Directory which = Directory::cache;
-    std::string directory;  // as typed, and after find() as found
+    std::string directory;  // as typed; find() sets it if empty
     std::string config;
 
     // Looks the directory up if it was not typed. Errors: bad_argument, with what can be done, if
     // nothing says where it is; those of service_places().
     [[nodiscard]] Status find();
 };
-// Adds the option of the directory and --config. `place` must outlive the parse.
+// Adds the option for the directory, and --config. `place` must outlive the parse.
 void add_place(CLI::App& app, PlaceOption& place);
 void add_config_option(CLI::App& app, std::string& config);
 

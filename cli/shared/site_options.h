@@ -1,7 +1,7 @@
-// cli/shared/site_options.h -- the options that say to which radar a file belongs and where it is.
+// cli/shared/site_options.h -- the options that name a file's radar and its position.
 //
-// They are for radars of which neither the file nor the station table gives the position: files of
-// the nineties, test beds, mobile and foreign radars. A daemon has [[station]] tables for this.
+// They are for radars whose position is neither in the file nor in the station table: files of the
+// nineties, test beds, mobile and foreign radars. A daemon has [[station]] tables for this.
 #pragma once
 
 #include <optional>
@@ -31,14 +31,14 @@ struct SiteRequest {
         double longitude_deg = 0;
         double antenna_altitude_m = 0;  // above mean sea level
     };
-    std::optional<Position> position;  // none: that of the file or the table
+    std::optional<Position> position;  // none: from the file or the table
 };
-// Errors: bad_argument, naming the option.
+// Parses the options. Errors: bad_argument, naming the option.
 [[nodiscard]] Result<SiteRequest> parse_site(const SiteOptions& options);
 
-// Gives the volume the requested name and position. From then on the station table of this process
-// has them as well, so call it while no other thread uses the station table. Errors: bad_argument
-// for a position without a name.
+// Gives the volume the requested name and position. This also adds them to the station table of the
+// process, so call it while no other thread uses that table. Errors: bad_argument for a position
+// without a name.
 [[nodiscard]] Status apply_site(const SiteRequest& request, level2::Volume& volume);
 
 }  // namespace stormcellar::cli

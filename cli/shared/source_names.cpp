@@ -18,7 +18,8 @@ bool is_path(const std::string& word) {
            archive::member_path_of(word);
 }
 
-// The names of raw files have a date in them, or an ending; those of domains seldom have.
+// Returns true if the word looks like a file. Names of raw files have a date or an ending; names of
+// domains seldom do.
 bool looks_like_a_file(const std::string& word) {
     const auto digits = std::ranges::count_if(word, [](char c) { return c >= '0' && c <= '9'; });
     return digits >= 8 || word.ends_with(".gz") || word.ends_with(".bz2") ||

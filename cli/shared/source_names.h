@@ -1,7 +1,7 @@
-// cli/shared/source_names.h -- whether the words of a command line are files or a domain of the
-// cache.
+// cli/shared/source_names.h -- decides whether the words of a command line are files or a domain of
+// the cache.
 //
-// Threads   Pure functions, which look at the file system.
+// Threads   Pure functions, except that they look at the file system.
 // Errors    See tell_apart().
 #pragma once
 
@@ -18,11 +18,11 @@ struct SourceNames {
     std::string domain;              // empty: none was named
 };
 
-// A word with a slash in it is a path, and so are "-" and a word that names a file or a directory
-// that exists. Any other word is a domain. `domain` is that of --domain. Errors: bad_argument,
-// saying how to write each, for a word that `is_domain` says is one and that names a file too, for
-// files beside a domain, and for several domains; not_found for what looks like the name of a file
-// that does not exist.
+// Sorts the words. A word is a path if it has a slash, is "-", or names an existing file or
+// directory. Any other word is a domain. `domain` is the value of --domain. Errors: bad_argument,
+// with the way to write each, for a word that is both a domain (by `is_domain`) and a file;
+// bad_argument for files together with a domain, and for several domains; not_found for a word that
+// looks like the name of a file that does not exist.
 [[nodiscard]] Result<SourceNames> tell_apart(
     const std::vector<std::string>& words, const std::string& domain,
     const std::function<bool(const std::string&)>& is_domain);

@@ -23,7 +23,7 @@ namespace {
 constexpr double worth_a_hint_s = 600;
 
 struct ReplayCommandOptions {
-    std::vector<std::string> places;  // the sources, and the drop directory at the end
+    std::vector<std::string> places;  // the sources, then the drop directory
     std::string delivery = "whole";
     std::optional<double> interval_s;
     double speed = 1;
@@ -31,7 +31,7 @@ struct ReplayCommandOptions {
     bool json = false;
 };
 
-// Returns how long it will take: "4.5 d" or "no time".
+// Returns the duration as text: "4.5 d" or "no time".
 std::string duration_of(double seconds) {
     return seconds < 0.001 ? "no time" : short_duration(seconds);
 }
@@ -47,7 +47,8 @@ void say_plan(const synth::ReplayPlan& plan) {
                                              : "");
 }
 
-// Reports the first wait, and again a wait more than twice as long as the last one reported.
+// Reports the first wait, and later each wait that is more than twice as long as the last one
+// reported.
 class WaitNotes {
   public:
     explicit WaitNotes(Progress& progress) : progress_(progress) {}
@@ -111,7 +112,7 @@ void print_faults(const std::vector<synth::FaultMade>& faults) {
         fmt::print(stderr, "{}: {}\n", synth::to_string(fault), count);
 }
 
-// Volumes that cannot be sent in chunks are named, and the others are played.
+// Reports and removes volumes that cannot be sent in chunks.
 void leave_out_unfit(std::vector<synth::ReplayItem>& items) {
     std::erase_if(items, [](const synth::ReplayItem& item) {
         const auto why = synth::why_not_in_chunks(item);
