@@ -17,11 +17,11 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Uncompressed bricks of known volumes take 0.1 to 0.33. Much echo takes more, and a small grid may
-// be full of echo.
+// Uncompressed bricks of known volumes take 0.1 to 0.33. Volumes with much echo take more, and a
+// small grid may be full of echo.
 constexpr double bytes_a_cell = 0.5;
 constexpr double cells_of_small_grid = 2e6;
-// No frame uses volumes farther from it than this.
+// A frame uses no volumes farther from it than this.
 constexpr std::chrono::minutes farthest_frame{30};
 constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
 
@@ -68,13 +68,14 @@ class Ledger {
     Status outcome_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
-// Returns the key of a volume's files: for a volume of one file per chunk, that of all of them.
+// Returns the key of a volume's files: the path, or, for a volume of chunks, a key that all of them
+// share.
 std::string key_of(const std::filesystem::path& path) {
     const auto chunk = ChunkPath::of(path);
     return chunk ? chunk->key : path.native();
 }
 
-// Checks whether files are those that the catalog has for these volumes.
+// Checks whether files are the cataloged files of these volumes.
 class CatalogedFiles {
   public:
     CatalogedFiles(const catalog::CatalogReader& catalog, const std::vector<ArchiveVolume>& volumes)
@@ -101,7 +102,7 @@ class CatalogedFiles {
     std::map<std::string, std::string> stations_;
 };
 
-// Returns true of what is wrong with the file, and not with the cache.
+// Returns true if the error concerns the file, and not the cache.
 bool is_of_file(const Error& error) {
     const bool may_not_read =
         error.code == ErrorCode::permission && error.cause() == Cause::configuration;
@@ -175,7 +176,7 @@ std::uint64_t bytes_of_grids(const ArchiveOptions& options, std::size_t volumes,
     if (options.domain) {
         const grid::GridSpec& spec = options.domain->spec;
         const auto all = static_cast<double>(spec.cell_count());
-        // The part of it that one site reaches.
+        // Count the part of the domain that one site reaches.
         const double side = 2 * grid::site_reach_m;
         const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
                                std::min(1.0, side / (spec.ny * spec.cell_height_m()));
@@ -204,8 +205,8 @@ std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
     return options_.domain ? options_.domain->name + "." + volume.station : volume.station;
 }
 
-// A grid remains valid after its file has been deleted. As with make(1), a file that was written
-// after the grid is another one.
+// Returns true if the cache has the grid of the volume. A grid remains valid after its file has
+// been deleted. As with make(1), a file that was written after the grid counts as another one.
 Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
     if (!path) return pass_on(path);

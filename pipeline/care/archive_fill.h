@@ -1,14 +1,14 @@
 // pipeline/care/archive_fill.h -- grids the raw files of an archive into a cache, as the daemon
 // does.
 //
-// The volumes are read, gridded and committed by the daemon's own chain (pipeline/ingest/ingest.h),
-// several at a time. For a domain, the sites' partials are made first and then each frame once
-// (pipeline/mosaic/mosaic_maker.h). Grids that the cache already has are kept: a grid made of the
-// present file on this grid, and a frame made of these partials by these rules. So a second call
-// continues where the first one ended, however it ended, because grids appear whole. A file that is
-// gone, or contains nothing that can be gridded, is named and left out. So is a file that is no
-// longer the one that was cataloged (stormcellar/catalog/read_cataloged.h): another one in its
-// place, or a path with a link. The store should be opened so that nobody else writes to it.
+// The daemon's own chain (pipeline/ingest/ingest.h) reads, grids and commits the volumes, several
+// at a time. For a domain, the sites' partials are made first and then each frame once
+// (pipeline/mosaic/mosaic_maker.h). Grids that the cache already has are kept, if they were made
+// from the present file on this grid, or, for a frame, from these partials by these rules. So a
+// second call continues where the first one ended, however it ended, because grids appear whole. A
+// file that is gone, or has nothing to grid, is named and left out. So is a file that is no longer
+// the cataloged one (stormcellar/catalog/read_cataloged.h): another file in its place, or a path
+// with a link. Open the store so that no one else writes to it.
 //
 // Memory    As many decoded volumes as there are workers (at most most_workers), and their grids.
 // Threads   An ArchiveFill is for one thread at a time. `progress` is called from its workers, one
@@ -35,7 +35,7 @@ inline constexpr int most_workers = 8;
 
 struct ArchiveOptions {
     level2::Moment moment = level2::Moment::ref;
-    std::optional<Domain> domain;  // none: each station's own grid, of the following shape
+    std::optional<Domain> domain;  // none: each station's own grid, with the following shape
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
@@ -50,38 +50,39 @@ struct LeftOut {
 struct FillReport {
     std::size_t volumes = 0;                        // requested
     std::size_t grids_made = 0;                     // of volumes
-    std::size_t grids_found = 0;                    // were already in the cache
+    std::size_t grids_found = 0;                    // already in the cache
     std::size_t frames_made = 0, frames_found = 0;  // of a domain
     std::vector<LeftOut> left_out;                  // by path
-    std::vector<LeftOut> notes;   // gridded, with a remark, for example that only a part was there
-    std::vector<UtcTime> frames;  // of a domain: those that exist within the range, ascending
+    std::vector<LeftOut> notes;   // gridded, with a remark, for example that only a part was
+                                  // available
+    std::vector<UtcTime> frames;  // of a domain: frames in the range that exist, ascending
 };
 
 using FillProgress = std::function<void(std::size_t done)>;
 
-// Returns how the chain of the daemon grids for such a cache.
+// Returns the options with which the daemon's chain grids for such a cache.
 [[nodiscard]] IngestOptions ingest_options(const ArchiveOptions& options);
-// Returns true if the grid of a volume has the shape and place of these.
+// Returns true if the grid of a volume has the shape and place of these options.
 [[nodiscard]] bool is_of_grid(const ArchiveOptions& options,
                               const cache::GridDescription& description);
-// Returns why the chain made no grid of a file.
+// Returns why the chain made no grid from a file.
 [[nodiscard]] std::string reason_left_out(const IngestOutcome& outcome, level2::Moment moment);
-// Returns an estimate of the bytes on disk of these grids and, with a domain, frames. It is on the
-// safe side: two to four times the size of grids with little echo.
+// Returns an estimate of the bytes on disk of these grids and, with a domain, frames. It errs on
+// the high side: two to four times the size of grids with little echo.
 [[nodiscard]] std::uint64_t bytes_of_grids(const ArchiveOptions& options, std::size_t volumes,
                                            std::size_t frames);
 
 class ArchiveFill {
   public:
-    // `catalog`: where the volumes were found. `scratch`: a directory in which the chain's own
-    // catalog is made. All must outlive the object.
+    // `catalog` has the volumes. The chain makes its own catalog in the directory `scratch`. All
+    // must outlive the object.
     ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 std::filesystem::path scratch, ArchiveOptions options);
 
     // Returns the volumes without a grid, which fill() makes.
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(
         const std::vector<ArchiveVolume>& volumes) const;
-    // The instants that a volume is close enough to, and how many of them have no frame.
+    // The instants that a volume is close enough to, and how many of these have no frame.
     struct DueFrames {
         std::vector<UtcTime> instants;
         std::size_t missing = 0;
@@ -97,7 +98,7 @@ class ArchiveFill {
     [[nodiscard]] Status fill(const std::vector<ArchiveVolume>& missing,
                               const FillProgress& progress, const std::atomic<bool>& stop,
                               FillReport& report);
-    // Makes the frames of the domain at these instants, as far as there are volumes around them.
+    // Makes the frames of the domain at those of these instants that have volumes around them.
     [[nodiscard]] Status make_frames(const std::vector<UtcTime>& instants,
                                      const FillProgress& progress, const std::atomic<bool>& stop,
                                      FillReport& report);

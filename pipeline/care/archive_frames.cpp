@@ -12,10 +12,10 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A worker takes this many instants that follow each other, so that it finds what it has just read.
+// A worker takes this many consecutive instants, so that it can reuse what it has just read.
 constexpr std::size_t instants_a_turn = 4;
 
-// State of the frame at one instant, and problems that came up when it was made.
+// State of the frame at one instant, and problems found when it was made.
 struct FrameOutcome {
     FrameStanding standing = FrameStanding::not_due;  // before it was made
     std::vector<std::string> problems;

@@ -1,5 +1,4 @@
-// pipeline/care/archive_frames.h -- the frames of a domain, made of the partials that a cache
-// holds.
+// pipeline/care/archive_frames.h -- makes the frames of a domain from the partials in a cache.
 //
 // Each frame is made once, from the partials around it (pipeline/mosaic/mosaic_maker.h). Several
 // are made at a time, each by one worker, which takes less waiting than several threads for one
@@ -21,9 +20,9 @@
 
 namespace stormcellar::pipeline {
 
-// Makes those of the frames at these instants that are due and do not stand, and adds to the report
-// how many were made and found, which there are, and what was left out of them. When `stop` is set,
-// no further frame begins.
+// Makes the frames at these instants that are due and missing or outdated. Adds to the report how
+// many were made and found, which frames exist, and what they leave out. When `stop` is set, no
+// further frame begins.
 [[nodiscard]] Status make_frames(cache::StoreWriter& store, const Domain& domain,
                                  level2::Moment moment, const std::vector<UtcTime>& instants,
                                  int threads, const FillProgress& progress,

@@ -1,5 +1,5 @@
-// pipeline/care/archive_plan.h -- what to make from the raw files of an archive, and where to keep
-// it (pipeline/care/archive_fill.h makes it).
+// pipeline/care/archive_plan.h -- decides which grids to make from the raw files of an archive, and
+// where to keep them (pipeline/care/archive_fill.h makes them).
 //
 // Thread contract: each call works alone.
 #pragma once
@@ -32,8 +32,8 @@ struct ArchivePlan {
                                                        const std::vector<std::string>& stations,
                                                        std::vector<LeftOut>& left_out);
 
-// Returns the directory $XDG_CACHE_HOME/stormcellar/loops, or else that below ~/.cache, in which
-// all private caches are. Errors: bad_argument if the environment names no such place.
+// Returns the directory of all private caches: $XDG_CACHE_HOME/stormcellar/loops, or else the same
+// below ~/.cache. Errors: bad_argument if the environment names neither.
 [[nodiscard]] Result<std::filesystem::path> loops_directory();
 
 // Returns a directory below $XDG_CACHE_HOME, or else below ~/.cache. Its name contains a hash of
@@ -43,12 +43,12 @@ struct ArchivePlan {
                                                           level2::Moment moment,
                                                           const ArchivePlan& plan);
 
-// Grids must not be mixed with other files, least of all with those of a drop directory. A cache
-// holds directories of domains, and these hold directories of moments. Errors: bad_argument for a
-// directory that holds anything else. A directory that does not exist is fine.
+// Checks that grids in this directory would not be mixed with other files, least of all with a drop
+// directory. A cache holds directories of domains, and these hold directories of moments. Errors:
+// bad_argument for a directory that holds anything else. A directory that does not exist is fine.
 [[nodiscard]] Status check_cache_directory(const std::filesystem::path& directory);
 
-// The grids at these times that are in the cache. Errors: those of StoreReader::list().
+// Returns the grids of the cache at these times. Errors: those of StoreReader::list().
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_at(const cache::StoreReader& store,
                                                                 const std::string& domain,
                                                                 level2::Moment moment,

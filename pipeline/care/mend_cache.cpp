@@ -36,8 +36,9 @@ std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
     return std::nullopt;
 }
 
-// A failed read of an open file is damage as well, but it is only removed if the grid can be made
-// again. A failed open may mean that the system has no descriptors left.
+// Returns true if the grid is damaged. A failed read of an open file is damage as well, but the
+// grid is then removed only if it can be made again. A failed open may mean that the system has no
+// descriptors left.
 bool is_damage(const Finding& found, bool has_source) {
     const ErrorCode code = found.error.code;
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
@@ -66,7 +67,7 @@ bool may_have_a_grid(const CatalogEntry& entry) {
 }
 
 // Returns the file from which the grid must be made, by the rule of pipeline/ingest/ingest.h. Two
-// whole files with the same end are told apart by their contents, not by their age.
+// complete files with the same end are distinguished by their contents, not by their age.
 std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
                                 std::span<const CatalogEntry> of_one_volume) {
     using Rank = std::tuple<bool, std::optional<UtcTime>, std::uint64_t>;
@@ -109,7 +110,7 @@ std::string CacheMender::why_not_again(const std::string& station, UtcTime time)
 
 Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto found = look_at(entry.path, depth);
-    // Evicted or replaced in the meantime, which is no fault.
+    // The grid was evicted or replaced in the meantime, which is not damage.
     if (!found || found->error.code == ErrorCode::not_found) return MendedGrid{};
     const MosaicMaker& mosaics = ingestor_.mosaics();
     if (mosaics.find(entry.domain, entry.moment) != nullptr) {
@@ -138,8 +139,8 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
                                   level2::moment_name(entry.moment), entry.domain)};
 }
 
-// Somebody may have put another file, with the same size and time, in the place of the cataloged
-// one.
+// Makes the grids from a raw file. The contents are compared, because another file with the same
+// size and time may be in the place of the cataloged one.
 Result<IngestOutcome> CacheMender::make_from(const fs::path& raw, const std::string& station) {
     return ingestor_.ingest_again(
         raw,
@@ -183,7 +184,7 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     return mended;
 }
 
-// The new frame replaces the damaged one at once and continues its count of revisions.
+// Makes the frame again. It replaces the damaged one at once and continues its count of revisions.
 Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const Error& damage) {
     MendedGrid mended{GridCondition::made_again, damage.message, {}, {}};
     std::vector<std::string> problems;
@@ -194,8 +195,8 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
         if (!problems.empty()) mended.from += fmt::format(" (left out: {})", joined(problems));
         return mended;
     }
-    // There is no such frame or no partial for it, or the partials contradict one another: another
-    // try would make none either.
+    // The domain has no such frame or no partial for it, or its partials contradict one another.
+    // Another try would fail, too.
     const bool never_made = !made && (made.error().code == ErrorCode::not_found ||
                                       made.error().code == ErrorCode::bad_argument);
     if (!made && !never_made) return pass_on(made);
@@ -207,8 +208,8 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
     return mended;
 }
 
-// Returns the grids that the ingestor makes of this station's volumes; partials only where the
-// station is known to reach.
+// Returns the series of grids that the ingestor makes of this station's volumes. Partials are
+// included only if the station is known to reach the domain.
 std::vector<CacheMender::Series> CacheMender::series_of(const std::string& station) const {
     std::vector<Series> all;
     for (const level2::Moment moment : moments_)
@@ -246,7 +247,7 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
                                                          std::chrono::milliseconds newest) {
     std::vector<MissingGrid> missing;
     auto entries = catalog_.list(station, {{}, now_utc() + most_ahead, false});
-    // A database that cannot be read is a trouble of its own station, which the catalog names.
+    // The catalog reports a database that cannot be read as a trouble of its own station.
     if (!entries || entries->empty()) return missing;
     const auto standing = standing_of(station, *entries->back().volume.start_time - newest);
     if (!standing) return pass_on(standing);

@@ -1,14 +1,14 @@
 // pipeline/care/mend_cache.h -- makes grids again that are damaged or missing.
 //
-// A grid that another program cut or altered, or that the disk cannot return, is removed and made
-// again: a site's own grid and a partial of a mosaic (NAME.ICAO) from the raw file, if it still
-// exists as the catalog has it; a frame of a mosaic from its partials, as far as they exist.
+// If another program truncated or altered a grid, or the disk cannot return it, the grid is removed
+// and made again: a site's own grid and a partial of a mosaic (NAME.ICAO) from the raw file, if it
+// still exists as cataloged; a frame of a mosaic from its existing partials.
 //
-// Only those missing grids are made again that are of the newest volumes (within `newest` of the
-// station's latest; times more than 10 minutes in the future do not count) and newer than the
-// oldest grid in their domain, or of any of these volumes if the domain has no grid. So grids that
-// were evicted, which are the oldest, are never made again, but a cache that was wiped is filled. A
-// grid that could not be made is not tried again while the object exists.
+// A missing grid is made again only if it belongs to the newest volumes (within `newest` of the
+// station's latest; times more than 10 minutes in the future do not count) and is newer than the
+// oldest grid in its domain; if the domain has no grid, any of these volumes counts. So evicted
+// grids, which are the oldest, are never made again, but a wiped cache is filled. A grid that could
+// not be made is not tried again while the object exists.
 //
 // Threads   One thread at a time, within the rules of the catalog, the store and the ingestor.
 #pragma once
@@ -33,7 +33,7 @@ namespace stormcellar::pipeline {
 struct MissingGrid {
     std::string station;
     UtcTime time;
-    std::filesystem::path raw;  // the best file of this volume: a whole one, then the newest
+    std::filesystem::path raw;  // the best file of this volume: a complete one, then the newest
     std::vector<cache::GridName> names;  // the missing grids
 };
 
@@ -57,27 +57,28 @@ enum class MendDepth {
 
 class CacheMender {
   public:
-    // All must outlive the object. `moments` are those that the ingestor grids.
+    // All arguments must outlive the object. `moments` are those that the ingestor grids.
     CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 Ingestor& ingestor, std::vector<level2::Moment> moments);
 
-    // Errors: the damaged grid cannot be removed, or the catalog or cache cannot be written.
+    // Checks a grid and repairs it. Errors: the damaged grid cannot be removed, or the catalog or
+    // cache cannot be written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
 
     // Returns missing grids, newest first. A station whose database or grids cannot be read is left
-    // out and is among the catalog's troubles. `step` is called after each station, so that the
+    // out, and the catalog lists its trouble. `step` is called after each station, so that the
     // caller can see progress. Errors: the catalog or the cache cannot be read.
     Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
                                              const std::function<void()>& step = {});
-    // Makes the grids. Errors: corrupt if the raw file is not the one that was cataloged; those of
+    // Makes the grids. Errors: corrupt if the raw file is not the cataloged one; those of
     // Ingestor::ingest_again().
     Result<IngestOutcome> make(const MissingGrid& grid);
 
     // Returns missing frames of mosaics, newest first. Call it after the partials were made.
     // Errors: the cache cannot be read.
     Result<std::vector<cache::GridName>> missing_frames(std::chrono::milliseconds newest);
-    // Makes a frame and returns its source, as in MendedGrid. None: no partials are near it, or the
-    // budgets do not keep it.
+    // Makes a frame and returns its source, as in MendedGrid. Returns none if no partials are near
+    // it, or if the cache's limits do not keep it.
     Result<std::optional<std::string>> make(const cache::GridName& frame);
 
   private:
@@ -92,7 +93,7 @@ class CacheMender {
         UtcTime from;  // older volumes count as evicted
     };
     Result<std::optional<std::filesystem::path>> raw_of(const std::string& station, UtcTime time);
-    // Says why that has none.
+    // Says why the station has no such file.
     [[nodiscard]] std::string why_not_again(const std::string& station, UtcTime time);
     Result<IngestOutcome> make_from(const std::filesystem::path& raw, const std::string& station);
     Result<MendedGrid> mend_from_raw(const cache::StoreEntry& entry, const std::string& station,

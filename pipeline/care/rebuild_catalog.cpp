@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 // the same depth as the daemon
 constexpr int max_depth = 16;
 
-// Returns true if a file may hold volumes of the station, which is so unless its name, or that of
-// its directory, is another station's.
+// Returns true if a file may hold volumes of the station: always, unless its name or its
+// directory's name is another station's.
 bool may_be_of(const fs::path& path, const std::string& station) {
     if (station.empty()) return true;
     const std::string by_name = station_of_file_name(path);
@@ -70,7 +70,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
             ++report.rejected;
             break;
         case IngestResult::vanished:
-        case IngestResult::incomplete:  // written at this moment: the daemon will ingest it
+        case IngestResult::incomplete:  // being written now: the daemon will ingest it
             break;
         default:
             ++report.registered;
@@ -81,7 +81,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
 
 Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     RebuildReport report;
-    // The daemon writes absolute paths without links, by which rows are found.
+    // The daemon stores absolute paths without links; rows are found by them.
     std::error_code error;
     const fs::path drop = fs::canonical(options.drop, error);
     if (error) {
@@ -114,7 +114,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
         if (outcome) {
             count(*outcome, report);
         } else if (outcome.error().code == ErrorCode::no_space) {
-            return pass_on(outcome);  // it would also fail for the next one
+            return pass_on(outcome);  // it would also fail for the next file
         } else if (!outcome.error().message.starts_with(options.catalog.native())) {
             report.problems.push_back(outcome.error());
         }

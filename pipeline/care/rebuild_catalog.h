@@ -47,9 +47,9 @@ struct RebuildReport {
     std::vector<Error> problems;
 };
 
-// Returns an error if the catalog's directory cannot be used, the disk is full, or the drop
-// directory cannot be read. What was done until then stays, and a second call continues from there.
-// The catalog records the drop directory.
+// Rebuilds the catalog, and records the drop directory in it. Errors: the catalog's directory
+// cannot be used, the disk is full, or the drop directory cannot be read. Work done until then
+// stays, and a second call continues from there.
 [[nodiscard]] Result<RebuildReport> rebuild_catalog(const RebuildOptions& options);
 
 }  // namespace stormcellar::pipeline

@@ -44,7 +44,7 @@ std::vector<ArchiveVolume> each_once(const std::string& station,
     return volumes;
 }
 
-// Keeps the volumes of one station, ordered by start, that the range takes.
+// Keeps the volumes of one station that belong to the range, ordered by start.
 void keep_taken(const ArchiveRange& range, std::vector<ArchiveVolume>& volumes) {
     const auto first = std::find_if(volumes.begin(), volumes.end(), [&](const ArchiveVolume& one) {
         return one.end >= range.from;

@@ -1,9 +1,9 @@
-// pipeline/drop/archive_volumes.h -- which raw files of a catalog belong to a time range.
+// pipeline/drop/archive_volumes.h -- finds the raw files of a catalog that belong to a time range.
 //
-// For each station these are the volumes that overlap the range and, if frames are made between
-// volumes, also the last one before it and the first one after it, if they are close enough to
-// count. A volume that was sent more than once is taken once: a whole one rather than a part, then
-// the latest.
+// For each station these are the volumes that overlap the range. If frames are made between
+// volumes, they also include the last volume before it and the first one after it, if these are
+// close enough to count. A volume that was sent more than once is used once: a complete file is
+// preferred to an incomplete one, then the latest.
 //
 // Threads   Functions without state; the catalog is only read.
 #pragma once
@@ -25,7 +25,7 @@ struct ArchiveVolume {
     std::string station;
     std::filesystem::path path;
     UtcTime start, end;
-    std::uint64_t size_bytes = 0;  // of its file
+    std::uint64_t size_bytes = 0;  // size of its file
     bool gone = false;             // its owner deleted the raw file, according to the catalog
 };
 
@@ -36,14 +36,14 @@ struct ArchiveRange {
     std::set<std::filesystem::path> only{};
 };
 
-// No volume is longer. Volumes are looked for this far before the range.
+// Volumes are at most this long. The search begins this far before the range.
 inline constexpr std::chrono::minutes longest_volume{20};
 // The largest distance of a neighbor from the range.
 inline constexpr std::chrono::minutes farthest_neighbour{25};
 
-// Returns volumes by station, then start. Stations that the catalog does not know have none. If
-// several are requested, one whose database cannot be read has none, either, and the catalog's
-// troubles() names it. Errors: those of the catalog.
+// Returns volumes by station, then start. Stations unknown to the catalog have none. If several
+// stations are requested, a station whose database cannot be read has none, either, and the
+// catalog's troubles() names it. Errors: those of the catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,
     const ArchiveRange& range);

@@ -1,9 +1,10 @@
 // pipeline/drop/cataloged_volume.h -- finds a cataloged volume, and reads its raw bytes in one
 // piece.
 //
-// They come from one file, or from the chunks of a volume that came as one file for each chunk.
-// Then the row found is that of the first chunk, and the joined bytes are a volume's file. Each
-// file must be the one that was cataloged, by its own row (stormcellar/catalog/read_cataloged.h).
+// The bytes come from one file, or from the chunks of a volume that came as one file for each
+// chunk. In the latter case the row found is the first chunk's, and the joined bytes form a
+// volume's file. Each file must be the one that was cataloged, by its own row
+// (stormcellar/catalog/read_cataloged.h).
 //
 // Threads   A function without state; the catalog is only read.
 #pragma once
@@ -29,14 +30,15 @@ struct CatalogedVolume {
 // Returns true if a volume came as one file for each chunk.
 [[nodiscard]] bool is_of_chunks(const catalog::CatalogEntry& entry);
 
-// Returns the row of the volume of a station that starts at this time; none: there is none. Of
-// several files of one volume the one that is meant is preferred, and before it those that are not
-// gone. Errors: those of the catalog.
+// Returns the row of a station's volume that starts at this time; none if there is none. If several
+// files have the volume, existing files are preferred, and then a row for which `is_meant` is true.
+// Errors: those of the catalog.
 [[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_cataloged_volume(
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     const std::function<bool(const catalog::CatalogEntry&)>& is_meant);
 
-// The one that a grid was made of: whole, if the grid is of a whole volume.
+// Returns the volume from which a grid was made: a complete one, if the grid is of a complete
+// volume.
 [[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     bool is_partial);
@@ -46,9 +48,9 @@ struct CatalogedVolume {
 [[nodiscard]] Result<std::uint64_t> hash_of_growing_rows(const catalog::CatalogReader& catalog,
                                                          const catalog::CatalogEntry& entry);
 
-// Chunks are joined in the order of their numbers, one for each number, as far as they exist. A
-// chunk that its file holds twice is taken once.
-// Chunks without a row are left out. Errors: those of read_cataloged().
+// Reads a volume. Chunks are joined in the order of their numbers, one for each number, as far as
+// they exist. A chunk that its file holds twice is taken once. Chunks without a row are left out.
+// Errors: those of read_cataloged().
 [[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(const catalog::CatalogReader& catalog,
                                                             const catalog::CatalogEntry& entry);
 

@@ -19,8 +19,8 @@ namespace stormcellar::pipeline {
 // A path with the name of a chunk.
 struct ChunkPath {
     std::filesystem::path path;
-    std::string prefix;  // the same in the names of all chunks of its volume
-    std::string key;     // the same for all chunks of its volume, and for no others
+    std::string prefix;  // common to the names of all chunks of its volume
+    std::string key;     // common to all chunks of its volume, and to no others
     level2::ChunkName name;
 
     [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);

@@ -1,8 +1,8 @@
-// pipeline/drop/drop_names.h -- which names in the drop directory belong to files to take.
+// pipeline/drop/drop_names.h -- decides by their names which files in the drop directory to ingest.
 //
-// A writer that is not done hides its file by a dot in front (pqact's dot-file, rsync, our own
-// temporary files) or by an ending. Such files are ignored until they are renamed. Anything else
-// that a name says is a first guess: the content decides.
+// A writer hides an unfinished file by a leading dot (pqact's dot-file, rsync, our own temporary
+// files) or by an ending. Such files are ignored until they are renamed. Everything else in a name
+// is only a first guess: the content decides.
 //
 // Threads   Pure functions.
 #pragma once
@@ -19,7 +19,8 @@ namespace stormcellar::pipeline {
 
 // Returns the station with which the file's name begins, if the station table has it; else empty.
 [[nodiscard]] std::string station_of_file_name(const std::filesystem::path& path);
-// Returns the same; else the station of its directory's name, else that of the directory above.
+// Returns the same station; else the station of its directory's name, else that of the directory
+// above.
 [[nodiscard]] std::string station_of_path(const std::filesystem::path& path);
 // Returns true if the name is that of one chunk of a volume.
 [[nodiscard]] bool is_chunk_name(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
-// pipeline/drop/file_facts.h -- what the catalog is told about a raw file and its volumes. Used
-// only inside the pipeline room.
+// pipeline/drop/file_facts.h -- collects the facts that the catalog records about a raw file and
+// its volumes. Used only inside the pipeline room.
 //
 // Nothing here opens the file.
 //
@@ -25,23 +25,23 @@ struct FileStamp {
     std::int64_t modified_ns = 0;
     bool regular = false;  // symbolic links are not followed, so they are not regular
     mode_t kind = 0;       // the S_IFMT part of the mode
-    // When the file came here or was last changed, by the wall clock, whatever its writer says. A
-    // new hard link also counts, so this does not distinguish two states.
+    // When the file arrived or last changed, by the wall clock, whatever time its writer set. A new
+    // hard link also changes it, so it does not distinguish two states.
     std::int64_t changed_ns = 0;
     bool operator==(const FileStamp& other) const {
         return size_bytes == other.size_bytes && modified_ns == other.modified_ns &&
                regular == other.regular && kind == other.kind;
     }
 };
-// Errors: not_found if there is no such file below `beneath` (base/beneath.h), else permission or
-// io.
+// Returns the stamp of a file. Errors: not_found if there is no such file below `beneath`
+// (base/beneath.h), else permission or io.
 [[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path,
                                          const std::filesystem::path& beneath = {});
 
 [[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume, bool damaged);
 
-// Returns the most severe problem in one line, with the number of problems; empty if there is none
-// that counts.
+// Returns the most severe problem in one line, with the number of problems; empty if no problem
+// counts.
 [[nodiscard]] std::string reason_of(const level2::DecodeReport& report);
 
 }  // namespace stormcellar::pipeline

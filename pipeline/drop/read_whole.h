@@ -20,10 +20,10 @@ namespace stormcellar::pipeline {
 inline constexpr std::uint64_t large_file_bytes = std::uint64_t{32} << 20;
 
 struct WholeFile {
-    // For the reading. Errors: those of base/beneath.h; io if fewer bytes come than `size_bytes`.
+    // Result of reading. Errors: those of base/beneath.h; io if fewer bytes come than `size_bytes`.
     Status was_read;
     std::uint64_t content_hash = 0;
-    // For the decoding of what was read. Errors: those of level2::decode().
+    // Result of decoding the bytes read. Errors: those of level2::decode().
     Result<level2::Decoded> decoded = fail(ErrorCode::empty, "nothing was read");
     double read_s = 0, decode_s = 0;
 };

@@ -11,7 +11,7 @@
 
 namespace stormcellar::pipeline {
 
-// Returns the position of the station table, else that in its newest raw files that can still be
+// Returns the position from the station table, else from the newest raw files that can still be
 // read. None if neither has it.
 [[nodiscard]] std::optional<grid::SitePosition> place_of_station(
     const catalog::CatalogReader& catalog, const std::string& icao);

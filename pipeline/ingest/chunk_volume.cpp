@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// No chunk has a hundredth of this; a volume's worth of other data is read whole elsewhere.
+// A chunk has less than a hundredth of this. Larger data are read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 // A job that reads chunks beside its own stops at this many bytes, or at this many chunks that do
 // not belong to the volume. The other chunks come with jobs of their own.
@@ -22,7 +22,7 @@ constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};
 constexpr std::chrono::seconds between_catching_up{1};
 
-// The pieces of chunks beside the sweeps that they make.
+// Keeps the parts of chunks beside the sweeps that they make.
 class ShelfDepot final : public level2::SweepDepot {
   public:
     explicit ShelfDepot(SweepShelf& shelf) : shelf_(shelf) {}
@@ -34,8 +34,7 @@ class ShelfDepot final : public level2::SweepDepot {
     }
     Result<level2::Sweep> get(std::uint64_t place) const override {
         auto sweep = shelf_.get(places_.at(place));
-        // The files are not to blame for this error, whatever its code: the chunks have not
-        // changed.
+        // The files are not to blame for this error, whatever its code: they have not changed.
         if (!sweep) return fail(ErrorCode::io, "{}", sweep.error().message);
         return sweep;
     }
@@ -45,7 +44,7 @@ class ShelfDepot final : public level2::SweepDepot {
     std::vector<SweepShelf::Place> places_;
 };
 
-// Null if there is no room for a shelf.
+// Returns null if there is no room for a shelf.
 std::unique_ptr<ShelvedVolume> kept_volume_in(const fs::path& directory) {
     auto shelf = SweepShelf::make_in(directory);
     if (!shelf) return nullptr;
@@ -122,7 +121,8 @@ bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
            volume.refused_.size() - refused >= most_refused_at_once;
 }
 
-// `of` becomes the representative, whichever chunks are added with it.
+// Adds the other chunks of the volume. `of` becomes the representative, whichever chunks are added
+// with it.
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
     const InOneJob before{read_bytes_, refused_.size()};
     representative_ = of.path;
@@ -144,12 +144,12 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
     former_representative_.clear();  // no job was told to poll it
     const auto now = level2::LiveVolume::Clock::now();
     if (!all && !fails_since_) fails_since_ = now;
-    // One bad sector must not keep everybody from the rest of the volume.
+    // One bad sector must not keep the rest of the volume back.
     if (!all && now - *fails_since_ < longest_failing) return all;
     return {};
 }
 
-// A chunk that fails here comes again with its own job.
+// Adds chunks that came later. A chunk that fails here comes again with its own job.
 void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
     const auto now = level2::LiveVolume::Clock::now();
     const bool is_early = now < next_catching_up_ && of.name.kind != level2::ChunkKind::end;
@@ -187,7 +187,7 @@ fs::path ChunkVolume::first_file() const {
     return first->first;
 }
 
-// The cut identifies a sweep, because no late chunk changes it.
+// Shelves a sweep under the number of its cut, which no late chunk changes.
 void ChunkVolume::shelve(const level2::Sweep& sweep) {
     if (!kept_) return;
     const auto place = kept_->shelf->put(sweep);

@@ -1,4 +1,4 @@
-// pipeline/ingest/chunk_volume.h -- one volume that comes as one file a chunk.
+// pipeline/ingest/chunk_volume.h -- one volume that comes as one file for each chunk.
 //
 // Decoded sweeps are shelved (pipeline/keep/sweep_shelf.h) until they are wanted. Inside the
 // pipeline room only. Thread contract: one thread at a time, which holds the lock of its Guarded
@@ -28,37 +28,36 @@ class ChunkVolume {
 
     enum class Added : std::uint8_t {
         added,       // or was already there
-        unfinished,  // no part of it is complete yet
+        unfinished,  // none of it is complete yet
         not_ours,  // not a chunk of this volume, whatever its name says: ingest the file by itself
     };
-    // Reads the file unless this stamp of it is known. Returns io or no_space if the file cannot be
-    // read now, for example for want of descriptors or memory; then poll again.
+    // Reads the file, unless this stamp of it is known. Errors: io or no_space if the file cannot
+    // be read now, for example because descriptors or memory ran out; then poll again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
     // Calls add(). Until this has succeeded once, it also adds the other chunks in the same
-    // directory, up to the limits of one job. Errors: those of add(), also for the other chunks;
-    // after two minutes of these the volume goes on without the chunks that cannot be read.
+    // directory, up to the limits of one job. Errors: those of add(), also for the other chunks.
+    // After two minutes of errors the volume goes on without the chunks that cannot be read.
     [[nodiscard]] Result<Added> add_with_siblings(const ChunkPath& chunk, const FileStamp& stamp);
 
     // If numbers are missing, adds chunks of this volume that came later, because their own jobs
     // may wait behind others for a long time. Does so at most once a second.
     void add_what_is_missing(const ChunkPath& of);
 
-    // The representative is the one file that is polled on behalf of the volume when nothing has
-    // come for a while. It is the chunk that was added last, unless set_representative() names
-    // another. Returns false if its file no longer holds a whole chunk; then another must replace
-    // it.
+    // The representative is the one file that is polled for the volume when nothing has come for a
+    // while. It is the chunk that was added last, unless set_representative() names another.
+    // Returns false if its file no longer holds a complete chunk; then another must replace it.
     [[nodiscard]] bool has_representative() const;
-    // Returns true if this file is the representative and held a whole chunk when it was read.
+    // Returns true if this file is the representative and held a complete chunk when it was read.
     [[nodiscard]] bool is_representative(const std::filesystem::path& path) const;
     void set_representative(const std::filesystem::path& path) { representative_ = path; }
-    // Returns the representative from before the last chunk was added. It is empty if there was
-    // none, and at the second call.
+    // Returns the representative from before the last chunk was added. Returns an empty path if
+    // there was none, and at the second call.
     [[nodiscard]] std::filesystem::path take_former_representative() {
         return std::exchange(former_representative_, {});
     }
 
-    // A closed volume accepts nothing more. A caller that meets one asks for a new volume in its
-    // place.
+    // A closed volume accepts nothing more. A caller that finds it closed asks for a new volume in
+    // its place.
     void close() { is_closed_ = true; }
     [[nodiscard]] bool is_closed() const { return is_closed_; }
 
@@ -69,12 +68,12 @@ class ChunkVolume {
     void set_shown() { news_ = {}; }
     // Null if the shelf has no room.
     [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
-    // Some of its sweeps are closed.
+    // Returns true if some of its sweeps are closed.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
-    // Returns the facts for the catalog before the volume ends: its start, and the sweeps that have
-    // closed. None as long as its first chunk is missing or no sweep has closed.
+    // Returns the facts for the catalog before the volume ends: its start, and its closed sweeps.
+    // None while its first chunk is missing or no sweep has closed.
     [[nodiscard]] std::optional<catalog::VolumeFacts> living_facts() const;
-    // Returns roughly how much it holds in memory and on the shelf.
+    // Returns its approximate size in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {live_.held_bytes(), kept_ ? kept_->shelf->bytes() : 0, has_sweeps()};
     }
@@ -94,7 +93,7 @@ class ChunkVolume {
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
-    // Counters as they were when the job began; they tell when it has read enough.
+    // Counters at the beginning of the job, which show when it has read enough.
     struct InOneJob {
         std::uint64_t read_bytes = 0;
         std::size_t refused = 0;
@@ -126,8 +125,8 @@ class ChunkVolume {
     level2::LiveVolume::Clock::time_point next_catching_up_{};
 };
 
-// Returns when the file came, by the clock of LiveVolume. If a volume is joined again after a
-// restart, or after it was given up, it has waited since its files came.
+// Returns when the file came, by the clock of LiveVolume. If a volume is joined again, after a
+// restart or because it was given up, its waiting time counts from the arrival of its files.
 [[nodiscard]] level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp);
 
 }  // namespace stormcellar::pipeline

@@ -9,7 +9,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// For volumes that found no place. Beyond this all of them are forgotten.
+// Limit for volumes that found no place. Beyond it, all of them are forgotten.
 constexpr std::size_t most_representatives = 4096;
 
 }  // namespace

@@ -1,12 +1,12 @@
-// pipeline/ingest/chunk_volumes.h -- volumes that come as one file a chunk.
+// pipeline/ingest/chunk_volumes.h -- volumes that come as one file for each chunk.
 //
 // The chunks of one volume are the files of a directory whose names differ only in the chunk's
-// number and kind (stormcellar/level2/chunk_name.h). Whichever chunk comes first, all that are in
-// its directory are read, so nothing depends on what was seen before: after a restart, and when a
-// late chunk comes, the volume is joined again from its files. The set is bounded for each station
-// and in all (pipeline/ingest/followed.h). A volume that was given up, or found no place, is read
-// from its files when no more chunks come. Inside the pipeline room only. Thread contract: many
-// threads may call all functions.
+// number and kind (stormcellar/level2/chunk_name.h). Whichever chunk comes first, all chunks in its
+// directory are read, so nothing depends on earlier events: after a restart, and when a late chunk
+// comes, the volume is joined again from its files. The set is limited for each station and in
+// total (pipeline/ingest/followed.h). A volume that was given up, or found no place, is read from
+// its files when no more chunks come. Inside the pipeline room only. Thread contract: many threads
+// may call all functions.
 #pragma once
 
 #include <cstddef>
@@ -34,22 +34,22 @@ class ChunkVolumes {
     using Shared = std::shared_ptr<Guarded<ChunkVolume>>;
     // Chunks that the caller still expects of a volume.
     enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
-    // Finds the volume, or makes it. `station` is the station that its path names. Returns null if
-    // there is no place for the volume and more of it is expected, or if it was given up and has
-    // not ended; then poll again when no more chunks come. A volume that was given up is read once
-    // more when its end comes; if that does not complete it, it waits like the others.
+    // Finds the volume, or makes it. `station` is the station in its path. Returns null if there is
+    // no place for the volume and more of it is expected, or if it was given up and has not ended;
+    // then poll again when no more chunks come. A volume that was given up is read once more when
+    // its end comes; if that does not complete it, it waits like the others.
     [[nodiscard]] Shared find(const ChunkPath& chunk, const std::string& station,
                               Expected expected = Expected::more);
-    // Returns true if the names and times of its files, without their contents, allow to finish the
-    // volume: its end is there, or nothing has come for the timeout.
+    // Returns true if, by the names and times of its files, the volume may be finished: its end has
+    // come, or nothing has come for the timeout. Reads no contents.
     [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
-    // For a volume that found no place: this chunk now represents it, instead of the chunk that is
-    // given (empty: none).
+    // Makes this chunk the representative of a volume that found no place. Returns the chunk that
+    // represented it before (empty: none).
     [[nodiscard]] std::filesystem::path poll_for_place(const ChunkPath& chunk);
-    // Null if the volume is not known.
+    // Returns null if the volume is unknown.
     [[nodiscard]] Shared find_known(const ChunkPath& chunk) const;
-    // Counts what the volume holds now. Returns false if that exceeds its share; then the volume
-    // was given up.
+    // Notes what the volume holds now. Returns false if that exceeds its share; the volume has then
+    // been given up.
     [[nodiscard]] bool grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                             const std::string& station);
     void forget(const ChunkPath& chunk);

@@ -1,10 +1,10 @@
-// pipeline/ingest/file_kind.h -- which kind of file a path is.
+// pipeline/ingest/file_kind.h -- classifies the files that are ingested.
 //
-// A path is classified once, from its name, its stamp, the catalog and what is remembered of
-// growing files. Of the contents only the lengths of records are read. Classification changes
-// nothing. A handler may find by reading that a file is of another kind: a file that has the name
-// of a chunk but is none is classified again without its name (kind_by_itself()), and a file that
-// cannot be followed is read as a whole.
+// A path is classified once, from its name, its stamp, the catalog and the memory of growing files.
+// Of the contents, only the lengths of records are read. Classification changes nothing. By
+// reading, a handler may find that a file is of another kind. A file that has the name of a chunk
+// but is none is classified again without its name (kind_by_itself()), and a file that cannot be
+// followed is read as a whole.
 //   Gone, Forbidden, Settled   there is nothing to read
 //   Chunk                      one file of many that make a volume
 //   Growing                    a volume to which data are appended, decoded as they come
@@ -28,15 +28,15 @@
 
 namespace stormcellar::pipeline {
 
-// When to grid a volume that may be incomplete: when all of it is there; also when no more is to be
-// expected; or now.
+// When to grid a volume that may be incomplete: when it has ended; also when no more is expected;
+// or now.
 enum class Finish { when_it_ends, when_quiet, as_it_is };
 
 // A file that is offered to the ingestor, and how to treat it.
 struct OfferedFile {
     std::filesystem::path path;
     Finish finish = Finish::when_it_ends;
-    bool is_again = false;       // settled before, and to be gridded once more
+    bool is_again = false;       // settled before, and must be gridded again
     ReadCheck is_the_same = {};  // the check of Ingestor::ingest_again(); empty: no check
 
     // Returns true if the file may be ingested although its volume has not ended.
@@ -44,9 +44,9 @@ struct OfferedFile {
 };
 
 struct Gone {
-    std::optional<ChunkPath> chunk;  // if its name is that of a chunk
+    std::optional<ChunkPath> chunk;  // set if its name is a chunk's
 };
-struct Forbidden {  // its directory does not permit even to examine it
+struct Forbidden {  // its directory does not even permit examining it
     Error why;
 };
 struct Settled {};
@@ -57,17 +57,18 @@ struct Chunk {
 struct Growing {
     FileStamp stamp;
     std::shared_ptr<FollowedFile> followed;  // null: following begins now
-    FollowedFile::Growing start;             // of a file whose following begins now
+    FollowedFile::Growing start;             // for a file whose following begins now
 };
 struct Whole {
     FileStamp stamp;
 };
 using FileKind = std::variant<Gone, Forbidden, Settled, Chunk, Growing, Whole>;
 
-// Errors: those of the catalog, and whatever prevents examining the file, except its permission.
+// Classifies a file. Errors: those of the catalog, and any failure to examine the file except a
+// lack of permission.
 [[nodiscard]] Result<FileKind> kind_of(const IngestContext& context, const OfferedFile& file);
 
-// The kind of an existing file whose name is not that of a chunk: Growing or Whole.
+// Classifies an existing file by its contents, not as a chunk: Growing or Whole.
 [[nodiscard]] FileKind kind_by_itself(const IngestContext& context, const OfferedFile& file,
                                       const FileStamp& stamp);
 

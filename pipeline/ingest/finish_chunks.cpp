@@ -22,7 +22,7 @@ FileFacts row_of(const std::filesystem::path& path, const ChunkVolume::File& fil
     return facts;
 }
 
-// The paths of the whole chunks except the first.
+// Returns the rows of all complete chunks except the first.
 std::vector<FileFacts> rows_of_others(const ChunkVolume& volume, const std::string& station) {
     const std::filesystem::path first = volume.first_file();
     std::vector<FileFacts> others;
@@ -31,15 +31,15 @@ std::vector<FileFacts> rows_of_others(const ChunkVolume& volume, const std::stri
     return others;
 }
 
-// The same rows while the volume is taken: what reads a volume in the catalog finds all of its
-// chunks.
+// Returns the same rows for the time in which the volume is gridded, so that readers of the catalog
+// find all of its chunks.
 std::vector<FileFacts> as_seen(std::vector<FileFacts> rows) {
     for (FileFacts& row : rows)
         row.state = FileState::seen;
     return rows;
 }
 
-// Returns true if there is no `check`, or if every file passes it.
+// Returns ok if there is no `check`, or if every file passes it.
 Status check_all(const ReadCheck& check, const ChunkVolume& volume) {
     if (!check) return {};
     for (const auto& [path, file] : volume.files()) {
@@ -69,8 +69,8 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
-    // A shelved sweep cannot be read back, or there is no memory for it: the files are not to
-    // blame, and are read again.
+    // A shelved sweep cannot be read back, or memory is short. The files are not to blame and are
+    // read again.
     if (!decoded && decoded.error().cause() == Cause::system) return pass_on(decoded);
     const auto settle_others = [&] {
         return context.catalog.register_files(context.taken_station(station), others);
@@ -83,7 +83,7 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
         if (Status settled = settle_others(); !settled) return pass_on(settled);
         return context.reject(facts, decoded.error(), std::move(outcome));
     }
-    // The first one's row tells of the whole volume from now on.
+    // From now on the first chunk's row describes the whole volume.
     const std::string taken_station = context.taken_station(station);
     if (Status seen = context.catalog.register_files(taken_station, as_seen(others)); !seen)
         return pass_on(seen);

@@ -1,4 +1,4 @@
-// pipeline/ingest/finish_chunks.h -- finishes a volume of chunks that waits for nothing more.
+// pipeline/ingest/finish_chunks.h -- finishes a volume of chunks of which no more is expected.
 //
 // Inside the pipeline room only. Thread contract: the caller holds the volume's lock.
 #pragma once
@@ -10,14 +10,13 @@
 
 namespace stormcellar::pipeline {
 
-// The station that the volume's data name, or else the chunk's path.
+// Returns the station in the volume's data, or else in the chunk's path.
 [[nodiscard]] std::string station_of(const ChunkVolume& volume, const ChunkPath& chunk);
 
-// Decodes the volume with the chunks that it has, grids it, and settles the rows of all its files:
-// the row of the first chunk describes the volume, and the other rows say that their chunks are
-// part of it. `station` is the result of station_of(), `is_the_same` the check of
-// Ingestor::ingest_again(). Adds to the outcome. Errors: those of Ingestor::ingest(); then the
-// files must be read again.
+// Decodes the volume from its present chunks, grids it, and settles the rows of all its files: the
+// row of the first chunk describes the volume, and the other rows say that their chunks are part of
+// it. `station` is the result of station_of(), `is_the_same` the check of Ingestor::ingest_again().
+// Adds to the outcome. Errors: those of Ingestor::ingest(); then the files must be read again.
 [[nodiscard]] Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
                                                   const std::string& station,
                                                   const ReadCheck& is_the_same,

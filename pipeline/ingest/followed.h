@@ -26,10 +26,10 @@ class Followed {
 
     explicit Followed(GrowingLimits limits) : things_(limits) {}
 
-    // Null if it is not followed.
+    // Returns null if it is not followed.
     [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const { return things_.find(key); }
-    // Makes a place for one more file or volume of the station. Others may be given up for it, by
-    // the rules of GrowingSet::has_place(). Returns false if there is no place.
+    // Makes a place for one more file or volume of the station. This may give up others, by the
+    // rules of GrowingSet::has_place(). Returns false if there is no place.
     [[nodiscard]] bool make_place(const std::string& station) {
         const bool has_place = things_.has_place(station, Clock::now());
         remember_given_up();
@@ -38,7 +38,7 @@ class Followed {
     void add(const Key& key, std::shared_ptr<Object> object, const std::string& station) {
         things_.add(key, std::move(object), station, Clock::now());
     }
-    // Counts what it holds now. Returns false if it was given up, or another object is in its
+    // Notes what it holds now. Returns false if it was given up, or if another object has its
     // place.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth) {
@@ -63,7 +63,7 @@ class Followed {
         const auto at = given_up_.find(key);
         return at != given_up_.end() && !std::exchange(at->second.had_second_try, true);
     }
-    // Returns the number of those that were given up since the last call.
+    // Returns how many were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up() { return std::exchange(given_up_count_, 0); }
 
     [[nodiscard]] std::size_t count() const { return things_.count(); }

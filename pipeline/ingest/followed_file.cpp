@@ -28,7 +28,7 @@ constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
 constexpr double same_elevation_deg = 0.2;
 constexpr std::chrono::minutes longest_standing{20};
 constexpr std::uint64_t most_records = 10'000;
-// The largest known record has half a megabyte, and holds five.
+// The largest known record has half a megabyte, and five megabytes unpacked.
 constexpr std::uint64_t most_last_record_bytes = std::uint64_t{2} << 20;
 constexpr std::uint64_t most_last_record_output = std::uint64_t{16} << 20;
 
@@ -45,7 +45,7 @@ class OpenFile {
             return std::nullopt;
         return found;
     }
-    // Reads as many bytes as there are.
+    // Reads as many bytes as are available, up to the size of the buffer.
     [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::byte> into) const {
         std::size_t done = 0;
         while (done < into.size()) {
@@ -71,10 +71,10 @@ std::int32_t control_word(std::span<const std::byte, 4> bytes) {
 }
 
 struct RecordChain {
-    // The file ends by its last word, or is not such a file; then whoever reads it whole finds
-    // more.
+    // The file ends with its last word, or is not a file of records, in which case reading it whole
+    // finds out more.
     bool is_whole = false;
-    // Where the last record begins that ends with the file; 0: the file ends within a record.
+    // Where the last record begins, if it ends with the file; 0 if the file ends within a record.
     std::uint64_t last = 0;
 };
 
@@ -133,7 +133,7 @@ std::optional<FollowedFile::Growing> FollowedFile::growing(const fs::path& path,
     const auto header = level2::read_archive_header(head);
     if (!header) return std::nullopt;
     Growing growing{header->icao, 0};
-    // There is nothing but the header yet, which is only a promise, but of a file that grows.
+    // Only the header has come. It proves nothing, but the file may be growing.
     if (known <= level2::archive_header_bytes + 16) return growing;
     if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
     const RecordChain chain = chain_of(file, static_cast<std::uint64_t>(facts->st_size));
@@ -247,7 +247,7 @@ Status FollowedFile::is_as_followed() const {
     Xxh3Stream hash;
     std::vector<std::byte> buffer(stretch_bytes);
     std::uint64_t done = 0;
-    // If one byte more can be read than was read before, the file has grown.
+    // Read one byte more than before: if that succeeds, the file has grown.
     while (done <= read_bytes_) {
         const std::size_t wanted = std::min<std::uint64_t>(buffer.size(), read_bytes_ + 1 - done);
         const std::size_t got = file.read(done, std::span{buffer}.first(wanted));
@@ -272,14 +272,14 @@ Result<level2::Decoded> FollowedFile::finish() {
     if (!decoded) return decoded;
     kept_->facts = decoded->volume;
     kept_->facts.sweeps.clear();
-    // Only now may the last sweep have closed, and sweeps that came late are in their places.
+    // The last sweep closes only now, and late sweeps are in their places.
     for (std::size_t index = 0; index < decoded->volume.sweeps.size(); ++index) {
         const level2::Sweep& sweep = decoded->volume.sweeps[index];
         const auto before = kept_->sweeps.find(index);
         if (index < dropped_ && before->second.elevation_deg == sweep.mean_elevation_deg())
             continue;
         const auto place = kept_->shelf->put(sweep);
-        if (!place) break;  // it is then missing only in the next volume's living grids
+        if (!place) break;  // it will only be missing in the next volume's living grids
         kept_->places.insert_or_assign(index, *place);
         kept_->sweeps.insert_or_assign(
             index, ShelvedVolume::Kept{moments_in(sweep, moments_), sweep.mean_elevation_deg()});
@@ -300,7 +300,7 @@ Result<LivingSweeps> LivingSweeps::read(const ShelvedVolume& growing, const Shel
                                         MomentSet moments) {
     LivingSweeps read;
     read.volume_ = growing.facts;
-    // The moments of which a sweep near this elevation has come.
+    // Returns the moments that a new sweep near this elevation has.
     const auto come_again = [&growing](double elevation_deg) {
         MomentSet come;
         for (const auto& [key, kept] : growing.sweeps) {

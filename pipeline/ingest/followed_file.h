@@ -1,11 +1,11 @@
 // pipeline/ingest/followed_file.h -- a file whose volume is still growing, decoded once.
 //
 // Each look reads and decodes what was appended since the last one. Closed sweeps are shelved
-// (pipeline/keep/sweep_shelf.h), so that memory holds little. finish() gives the same volume, bit
-// for bit, as decoding the whole file, for the selected moments; it reads the file once more to
-// verify that it is still the file that was followed. Only files of LDM records are followed;
-// others must be held whole until their end anyway. An error is final and means that the file must
-// be read as a whole. Inside the pipeline room only. Thread contract: one thread at a time.
+// (pipeline/keep/sweep_shelf.h), so that they take little memory. finish() gives the same volume,
+// bit for bit, as decoding the whole file, for the selected moments; it reads the file once more to
+// verify that it is still the followed one. Only files of LDM records are followed; other files
+// must be held whole until their end anyway. An error is final and means that the file must be read
+// as a whole. Inside the pipeline room only. Thread contract: one thread at a time.
 #pragma once
 
 #include <bitset>
@@ -28,7 +28,7 @@
 namespace stormcellar::pipeline {
 
 using MomentSet = std::bitset<level2::moment_count>;
-// Returns those of the moments that the sweep has.
+// Returns the given moments that the sweep has.
 [[nodiscard]] MomentSet moments_in(const level2::Sweep& sweep,
                                    const std::vector<level2::Moment>& moments);
 
@@ -43,12 +43,12 @@ struct ShelvedVolume {
     using SweepKey = std::size_t;
     std::map<SweepKey, SweepShelf::Place> places;  // on the shelf
     struct Kept {
-        MomentSet moments;         // of those that are gridded
+        MomentSet moments;         // the gridded ones
         double elevation_deg = 0;  // mean
     };
     std::map<SweepKey, Kept> sweeps;
 
-    // Returns true if no sweep that has come and is gridded is lower: the lowest cut and its
+    // Returns true if no gridded sweep that has come is lower: true for the lowest cut and its
     // repetitions.
     [[nodiscard]] bool is_lowest(double elevation_deg) const;
 };
@@ -56,7 +56,7 @@ struct ShelvedVolume {
 // Sweeps that no living grid shows yet.
 struct UnshownSweeps {
     bool any = false, low = false;
-    MomentSet moments;  // of which they have something new
+    MomentSet moments;  // with new data in these sweeps
 
     void add(MomentSet of_sweep, bool is_low) {
         any = true;
@@ -74,7 +74,7 @@ class FollowedFile {
         std::filesystem::path scratch;
         std::filesystem::path beneath = {};  // all files must be below it (IngestOptions)
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
-        // The limit for the open sweep within one stretch that is read; 0: see
+        // The limit for the open sweep within one stretch of the file; 0: see
         // stormcellar/level2/decode.h.
         std::uint64_t open_sweep_limit_bytes = 0;
     };
@@ -84,8 +84,8 @@ class FollowedFile {
         std::string station;            // from its header; empty if it names none
         std::uint64_t last_record = 0;  // where it begins, if it ends with the file; else 0
     };
-    // Returns the facts of a growing file: LDM records, of which the last is not there yet. Reads
-    // the lengths of its records. None: it does not grow, or cannot be read.
+    // Returns the facts of a growing file: a file of LDM records whose last record has not come.
+    // Reads the lengths of its records. None if it does not grow or cannot be read.
     [[nodiscard]] static std::optional<Growing> growing(const std::filesystem::path& path,
                                                         const std::filesystem::path& beneath = {});
     // Returns true if the last record of a growing file holds the last radial of a volume, whatever
@@ -112,13 +112,13 @@ class FollowedFile {
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
     [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
     [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
-    // Returns roughly how much it holds in memory and on the shelf.
+    // Returns its approximate size in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {growing_.held_bytes(), kept_->shelf->bytes(), !kept_->places.empty()};
     }
 
     [[nodiscard]] Result<level2::Decoded> finish();
-    // Call it after finish(): keeps the sweeps for the next volume of the site.
+    // Returns the sweeps, to keep them for the site's next volume. Call it after finish().
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
@@ -142,21 +142,21 @@ class FollowedFile {
     bool is_whole_ = true;
 };
 
-// The sweeps of which the living grids of a growing volume are made, unpacked once for all moments.
+// The sweeps for the living grids of a growing volume, unpacked once for all moments.
 class LivingSweeps {
   public:
     // Reads the sweeps of the growing volume that have one of these moments, and those of the
-    // site's last volume that still stand for one. The volumes need not outlive the object. Errors:
-    // those of the shelf.
+    // site's last volume that still stand in for one. The volumes need not outlive the object.
+    // Errors: those of the shelf.
     [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
                                                    const ShelvedVolume* last, MomentSet moments);
 
-    // Returns the sweeps of the growing volume, and before them those of the last volume whose
+    // Returns the sweeps of the growing volume, preceded by those sweeps of the last volume whose
     // elevation has not come again (within 0.2 degrees). Only sweeps with the moment count, so a
-    // Doppler sweep stands until a Doppler sweep has come. The last volume's sweeps are left out if
-    // it is more than 20 minutes older. It is valid until the next call.
+    // Doppler sweep stays until a Doppler sweep has come. If the last volume is more than 20
+    // minutes older, its sweeps are left out. The result is valid until the next call.
     [[nodiscard]] const level2::Volume& volume_of(level2::Moment moment);
-    // Counts the standing sweeps in that volume: those that the last volume gave.
+    // Returns the number of sweeps in that volume that are from the last volume.
     [[nodiscard]] std::size_t standing() const { return standing_; }
 
   private:
@@ -169,7 +169,7 @@ class LivingSweeps {
                bool stands);
 
     std::vector<One> sweeps_;        // in the order of the volume
-    std::vector<std::size_t> lent_;  // those whose sweeps are in volume_
+    std::vector<std::size_t> lent_;  // indexes of sweeps that are now in volume_
     level2::Volume volume_;
     std::size_t standing_ = 0;
 };

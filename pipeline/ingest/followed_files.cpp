@@ -6,7 +6,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-constexpr std::chrono::minutes farthest_ahead{10};  // of a clock that is fast
+constexpr std::chrono::minutes farthest_ahead{10};  // tolerance for a clock that is fast
 
 }  // namespace
 
@@ -72,7 +72,8 @@ void FollowedFiles::forget(const std::filesystem::path& path) {
 
 void FollowedFiles::keep_last(std::shared_ptr<const ShelvedVolume> volume) {
     if (!volume || volume->facts.station.empty()) return;
-    // Otherwise nothing would ever replace a volume that claims to be from the future.
+    // A volume that claims to be from the future is not kept, because no volume would ever replace
+    // it.
     if (volume->facts.start_time() > now_utc() + farthest_ahead) return;
     const MutexLock lock(mutex_);
     auto& last = last_[volume->facts.station];

@@ -1,11 +1,11 @@
-// pipeline/ingest/followed_files.h -- the files that are followed while they grow, and the standing
-// sweeps that the sites' last volumes leave for the next ones.
+// pipeline/ingest/followed_files.h -- the files that are followed while they grow, and the sweeps
+// of each site's last volume, which living grids of the next one use.
 //
-// The set is bounded for each station and in all (pipeline/ingest/followed.h). If the disk is
-// short, the last volumes of the sites give way first, the oldest first; living grids then have
-// fewer standing sweeps. A file that was given up is not followed again; it is read whole when its
-// volume has ended. Nothing of this outlives the process. Inside the pipeline room only. Thread
-// contract: many threads may call all functions; one thread at a time works on a file.
+// The set is limited for each station and in total (pipeline/ingest/followed.h). If disk space is
+// short, the last volumes of the sites are dropped first, the oldest first; living grids then have
+// fewer old sweeps. A file that was given up is not followed again; it is read whole when its
+// volume has ended. Nothing outlives the process. Inside the pipeline room only. Thread contract:
+// many threads may call all functions; one thread at a time works on a file.
 #pragma once
 
 #include <cstdint>
@@ -28,20 +28,20 @@ class FollowedFiles {
 
     // Returns null if the file is not followed.
     [[nodiscard]] std::shared_ptr<FollowedFile> find(const std::filesystem::path& path) const;
-    // `station` is the station that the file names. Returns null if the file cannot be followed:
-    // there is no place, descriptor or room for it, or it was given up before.
+    // Begins to follow a file. `station` is the station in its header. Returns null if the file
+    // cannot be followed: there is no place, descriptor or room for it, or it was given up before.
     [[nodiscard]] std::shared_ptr<FollowedFile> begin(const std::filesystem::path& path,
                                                       const std::string& fallback_station,
                                                       const std::string& station);
-    // Tells the set that this much more of the file was read, and counts what it holds now. Returns
-    // false if the file was given up; then it must not be read on.
+    // Notes that this much more of the file was read, and what it holds now. Returns false if the
+    // file was given up; then it must not be read on.
     [[nodiscard]] bool grew(const std::filesystem::path& path, const FollowedFile& file,
                             const std::string& station);
     void forget(const std::filesystem::path& path);
-    // It holds more than its share, and must not be followed again.
+    // Gives up a file that holds more than its share. It will not be followed again.
     void give_up(const std::filesystem::path& path);
 
-    // Call it when the volume has ended.
+    // Keeps the sweeps of a volume for the site's next one. Call it when the volume has ended.
     void keep_last(std::shared_ptr<const ShelvedVolume> volume);
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> last_of(const std::string& station) const;
     [[nodiscard]] std::size_t count() const;

@@ -1,22 +1,21 @@
-// pipeline/ingest/growing_set.h -- the set of growing things that are followed, bounded for each
-// station and in total. Used only inside the pipeline room.
+// pipeline/ingest/growing_set.h -- a set of followed files or volumes, limited for each station and
+// in total. Used only inside the pipeline room.
 //
-// Each thing that is followed holds a descriptor, memory, and room on disk, whatever its file
-// claims. So what it holds is counted at every stretch that is read. If a bound is exceeded, some
-// of the things are given up:
-//   a station's own bound   among those of the station
-//   the total bound         first among those that no known station claims, then among all
-//   the bound of beginnings among those of which no sweep has closed yet: this is so for a
-//   fifteenth of the time of a real volume, and forever for a sweep that never ends
-// For memory and disk, the largest and least active thing is given up: what it holds, times a
-// weight that grows by one for each minute without progress. For the number of things, it is the
-// least active thing of the station that has most.
+// Each member holds a descriptor, memory, and disk space, whatever its file claims. So its size is
+// updated at every stretch that is read. If a limit is exceeded, members are given up:
+//   a station's own limit   among the members of the station
+//   the total limit         first among members that no known station claims, then among all
+//   the limit of beginnings among members without a closed sweep: a real volume is in this state
+//                           for a fifteenth of its time, a sweep that never ends forever
+// For memory and disk, the largest and least active member is given up: the largest by its size
+// times a weight that grows by one for each minute without progress. For the number of members, it
+// is the least active member of the station that has most.
 //
-// A new thing finds no place if all others are active: they have grown within the last minute; or,
-// if they have not shown yet that they continue (a sweep has closed, and more has come than at the
-// first look), within the last five seconds. Giving one of these up for the new thing, and that for
-// the next one, would mean reading everything again and again. But at the total bound, a station
-// with fewer things takes a place from the station with most.
+// There is no place for a new member if all others are active. A member is active if it has grown
+// within the last minute; or within the last five seconds, if it has not yet shown that it
+// continues (a sweep has closed, and more has come than at the first look). Giving up active
+// members for new ones in turn would mean reading everything again and again. At the total limit,
+// however, a station with fewer members takes a place from the station with most.
 //
 // Threads   One thread at a time; the owner locks.
 #pragma once
@@ -38,13 +37,13 @@ struct GrowingLimits {
     std::uint64_t held_bytes = std::uint64_t{192} << 20;
     std::uint64_t beginnings_held_bytes = std::uint64_t{192} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
-    // For one station, and for all together that no known station claims. A site's volume holds
-    // some 3 MB of one moment, and two of its volumes may grow at once.
+    // For one station, and for all members together that no known station claims. A site's volume
+    // holds some 3 MB of one moment, and two of its volumes may grow at once.
     std::size_t station_count = 16;
     std::uint64_t station_held_bytes = std::uint64_t{16} << 20;
     std::uint64_t station_shelf_bytes = std::uint64_t{512} << 20;
 
-    // Returns the limits for so many moments. 160 sites hold about a megabyte of each.
+    // Returns the limits for this many moments. 160 sites hold about a megabyte of each.
     [[nodiscard]] static GrowingLimits of(std::size_t moments) {
         GrowingLimits limits;
         limits.held_bytes = (128 + 64 * moments) << 20;
@@ -57,7 +56,7 @@ struct GrowingLimits {
 // Memory and disk space that a member holds, and its progress.
 struct Growth {
     std::uint64_t held_bytes = 0, shelf_bytes = 0;
-    bool has_sweeps = false;  // sweeps have closed
+    bool has_sweeps = false;  // some sweeps have closed
 };
 
 template <class Key, class Object>
@@ -65,7 +64,7 @@ class GrowingSet {
   public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::seconds most_idle{60}, most_idle_at_first{5};
-    // A stretch that comes this soon still belongs to the first look.
+    // A stretch that comes this soon still counts as part of the first look.
     static constexpr std::chrono::seconds first_look{1};
 
     explicit GrowingSet(GrowingLimits limits) : limits_(limits) {}
@@ -75,8 +74,8 @@ class GrowingSet {
         return at == things_.end() ? nullptr : at->second.object;
     }
 
-    // Returns false if there is no place for it. A thing that is added all the same is given up
-    // when it next grows.
+    // Returns false if there is no place for a new member. One that is added nevertheless is given
+    // up when it next grows.
     [[nodiscard]] bool has_place(const std::string& station, Clock::time_point now) {
         while (count_of(station) >= limits_.station_count) {
             if (!give_up_idle(&station, now)) return false;
@@ -92,7 +91,8 @@ class GrowingSet {
         things_.insert_or_assign(key, Thing{std::move(object), station, now, now, {}});
     }
 
-    // Counts what it holds now. Returns false if it was given up, or another thing has its place.
+    // Notes what a member holds now. Returns false if it was given up, or if another object has its
+    // place.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth, Clock::time_point now) {
         const auto at = things_.find(key);
@@ -113,13 +113,13 @@ class GrowingSet {
     [[nodiscard]] std::size_t count() const { return things_.size(); }
     [[nodiscard]] std::uint64_t held_bytes() const { return sum_of(any).held; }
     [[nodiscard]] std::uint64_t shelf_bytes() const { return sum_of(any).shelf; }
-    // Returns the things that were given up since the last call.
+    // Returns the members that were given up since the last call.
     [[nodiscard]] std::vector<Key> take_given_up() { return std::exchange(given_up_, {}); }
 
   private:
     struct Thing {
         std::shared_ptr<Object> object;
-        std::string station;  // empty: not of a known station
+        std::string station;  // empty: no known station
         Clock::time_point began_at, grew_at;
         Growth growth;
     };
@@ -161,7 +161,7 @@ class GrowingSet {
         return now - thing.grew_at >= (goes_on(thing) ? most_idle : most_idle_at_first);
     }
 
-    // Gives up the least active thing of the station (null: of the station that has most), if it
+    // Gives up the least active member of the station (null: of the station that has most), if it
     // has made no progress for long enough.
     bool give_up_idle(const std::string* station, Clock::time_point now) {
         std::map<std::string, std::size_t> counts;
@@ -187,8 +187,8 @@ class GrowingSet {
         return true;
     }
 
-    // Gives up the least active thing of the station that has most, if that is more than `count` +
-    // 1.
+    // Gives up the least active member of the station that has most, if that has more than `count`
+    // + 1.
     bool give_up_of_largest(std::size_t count) {
         std::map<std::string, std::size_t> counts;
         for (const auto& [key, thing] : things_)

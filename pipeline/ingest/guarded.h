@@ -28,7 +28,7 @@ class Guarded {
         }
         [[nodiscard]] T* operator->() const { return value_; }
         [[nodiscard]] T& operator*() const { return *value_; }
-        // Unlocks before the end of the scope; the value can then no longer be reached through this
+        // Unlocks before the end of the scope. The value can then no longer be reached through this
         // object.
         void unlock() STORMCELLAR_NO_LOCK_ANALYSIS {  // the constructor has locked it
             value_ = nullptr;

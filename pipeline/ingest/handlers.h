@@ -1,4 +1,4 @@
-// pipeline/ingest/handlers.h -- how to ingest a file of each kind (pipeline/ingest/file_kind.h).
+// pipeline/ingest/handlers.h -- ingests files of each kind (pipeline/ingest/file_kind.h).
 //
 // There is one class for each kind. An object is made for one file and used once; take() returns
 // the outcome for the file. Errors are those of Ingestor::ingest(). If a handler finds by reading
@@ -26,9 +26,9 @@ namespace stormcellar::pipeline {
 [[nodiscard]] Result<IngestOutcome> take(IngestContext& context, const OfferedFile& file,
                                          const FileKind& kind);
 
-// A file that is gone: its rows become gone. If the file represents a volume of chunks, its own
-// data are decoded already. The volume is still polled under its name until the volume is due,
-// because later chunks may still complete it.
+// Handles a file that is gone by marking its rows as gone. If the file represents a volume of
+// chunks, its own data are already decoded. The volume is still polled under this name until it is
+// due, because later chunks may complete it.
 class TakeGone {
   public:
     TakeGone(IngestContext& context, const OfferedFile& file) : context_(context), file_(file) {}
@@ -44,7 +44,7 @@ class TakeGone {
     const OfferedFile& file_;
 };
 
-// A chunk: it is added to its volume, which is gridded when it is complete or due.
+// Handles a chunk: adds it to its volume, and grids the volume when it is complete or due.
 class TakeChunk {
   public:
     TakeChunk(IngestContext& context, const OfferedFile& file, const Chunk& chunk)
@@ -70,7 +70,7 @@ class TakeChunk {
     IngestOutcome outcome_;
 };
 
-// A growing file: the handler decodes what was appended, and the rest when the volume has ended.
+// Handles a growing file: decodes what was appended, and the rest when the volume has ended.
 class TakeGrowing {
   public:
     TakeGrowing(IngestContext& context, const OfferedFile& file, const Growing& growing);
@@ -92,7 +92,7 @@ class TakeGrowing {
     IngestOutcome outcome_;
 };
 
-// A file that is read from its beginning to its end.
+// Handles a file that is read from its beginning to its end.
 class TakeWhole {
   public:
     TakeWhole(IngestContext& context, const OfferedFile& file, const Whole& whole);

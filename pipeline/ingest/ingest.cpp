@@ -15,7 +15,7 @@ struct Ingestor::Impl {
 
     [[nodiscard]] Finish finish_of(bool finish_as_is) const {
         if (!finish_as_is) return Finish::when_it_ends;
-        // Without a shelf, nobody offers the volume again when it has been quiet.
+        // Without a shelf, the volume is not offered again when it has been quiet.
         return context.options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
     }
     Result<IngestOutcome> ingest(const fs::path& path, bool finish_as_is);
@@ -84,8 +84,8 @@ Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_a
     return take(context, file, *kind);
 }
 
-// The file was tried often enough. After a restart the cause may be gone, so its stamp settles
-// nothing.
+// Rejects a file that was tried often enough. After a restart the cause may be gone, so the stamp
+// in the row settles nothing.
 Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error& why) {
     const auto stamp = stamp_of(path, context.options.beneath);
     if (context.living) context.living->forget(path);

@@ -1,15 +1,15 @@
-// pipeline/ingest/ingest.h -- one raw file -> catalog -> grid in the cache.
+// pipeline/ingest/ingest.h -- takes one raw file into the catalog and its grids into the cache.
 //
 // The daemon and the CLI share it. It never changes the raw file. A file that cannot be decoded is
-// recorded as rejected, with the reason; that is a result, not an error. A grid in the cache is
-// replaced by the grid of a complete volume, never by that of an incomplete one; of two files of
-// one volume that are there, the volume with the later end counts. A volume that the limits of the
-// cache would not keep is not gridded. The data never cause an error. An error means that the
-// catalog or the cache cannot be written, or that the system gives no memory or descriptors; trying
-// again later may help. At the last try every failure except a shortage of the system
-// (is_shortage()) is recorded as a rejection with its reason; if not even that can be stored, the
-// error is returned. Thread contract: many threads may use an Ingestor at once, for different
-// files.
+// recorded as rejected, with the reason; that is a result, not an error. The grid of a complete
+// volume replaces a grid in the cache; the grid of an incomplete volume never replaces that of a
+// complete one. If two existing files have one volume, the file with the later end counts. A volume
+// that the limits of the cache would not keep is not gridded. The data never cause an error. An
+// error means that the catalog or the cache cannot be written, or that the system has no memory or
+// descriptors left; trying again later may help. At the last try, every failure except a shortage
+// of the system (is_shortage()) is recorded as a rejection with its reason; if even that cannot be
+// stored, the error is returned. Thread contract: many threads may use an Ingestor at once, for
+// different files.
 #pragma once
 
 #include <filesystem>
@@ -31,13 +31,14 @@ enum class Tries { more_follow, last };
 class Ingestor {
   public:
     Ingestor(catalog::CatalogWriter& catalog, cache::StoreWriter& store, IngestOptions options);
-    // Without a cache: files are decoded and registered, but not gridded.
+    // Makes an ingestor without a cache: files are decoded and registered, but not gridded.
     Ingestor(catalog::CatalogWriter& catalog, IngestOptions options);
     ~Ingestor();
     Ingestor(const Ingestor&) = delete;
     Ingestor& operator=(const Ingestor&) = delete;
 
-    // finish_as_is: grids a volume that has not ended (the file was quiet for long enough).
+    // Ingests a file. `finish_as_is` grids a volume that has not ended (the file was quiet for long
+    // enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_as_is,
                                  Tries tries = Tries::more_follow);
     // Writes a file into the catalog as seen, without reading it, unless it has a row (then the

@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// Nearly all of a volume of chunks is on the shelf.
+// Nearly all data of a volume of chunks are on the shelf.
 constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
 
-// All moments of which something is made.
+// Returns all moments that are gridded.
 std::vector<level2::Moment> moments_of(const IngestOptions& options) {
     std::vector<level2::Moment> moments = options.moments;
     for (const Domain& domain : options.domains)

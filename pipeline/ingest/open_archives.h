@@ -19,30 +19,30 @@
 
 namespace stormcellar::pipeline {
 
-// An archive whose members are ingested one after the other, and how far that has come.
+// An archive whose members are ingested one after the other, with its progress.
 struct OpenArchive {
     std::filesystem::path path;
     FileStamp stamp;
     Descriptor file;
     archive::ArchiveReader reader;
     std::size_t taken = 0, rejected = 0;
-    std::size_t known = 0;  // members that the catalog knows from an earlier time
-    std::set<std::filesystem::path> met = {};  // the paths of the members up to now
+    std::size_t known = 0;                     // members that the catalog already knew
+    std::set<std::filesystem::path> met = {};  // paths of the members so far
 };
 
 // The archives that wait for their next turn. The first few stay open until they end or are
-// deleted; the others are opened again and read from their beginning. So some archives always come
-// further.
+// deleted; the others are opened again and read from their beginning. This ensures that some
+// archives always make progress.
 class OpenArchives {
   public:
-    // None if the archive is not open, or has changed since.
+    // Returns none if the archive is not open, or has changed since.
     [[nodiscard]] std::optional<OpenArchive> take(const std::filesystem::path& path,
                                                   const FileStamp& stamp);
     void keep(OpenArchive archive);
 
   private:
     static constexpr std::size_t most_open = 4;
-    static constexpr std::chrono::hours longest_wait{24};  // then its turns have ended
+    static constexpr std::chrono::hours longest_wait{24};  // after this its turns have ended
 
     struct Waiting {
         OpenArchive archive;

@@ -7,13 +7,13 @@ namespace stormcellar::pipeline {
 Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, UnshownSweeps news,
                          const std::string& file, IngestOutcome& outcome) {
     const IngestOptions& options = context.options;
-    // A grid has the name of the start in the header: without it, the living grid would stay beside
-    // that of the whole volume.
+    // The header's start names the grid. Without the header, the living grid would get another name
+    // and stay beside the final grid.
     if (!kept.facts.header) return false;
     const std::string station = context.taken_station(kept.facts.station);
     if (!context.living || !options.own_grids || station.empty()) return false;
-    // The sweeps are shown with the next sweep, or when the volume has ended. Users look at low
-    // sweeps first.
+    // There is no time now, so the sweeps are shown with the next one, or at the end of the volume.
+    // Low sweeps are shown in any case, because users look at them first.
     if (!news.low && options.living.has_time && !options.living.has_time()) {
         outcome.living_left_out = true;
         return false;
@@ -25,8 +25,7 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
     for (const level2::Moment moment : options.moments) {
         if (!news.moments.test(static_cast<std::size_t>(moment))) continue;
         const level2::Volume& volume = sweeps->volume_of(moment);
-        // Its grid would have another time in its name than that of the whole volume, and stay
-        // beside it.
+        // Its grid would get another time than the final grid, and stay beside it.
         if (volume.start_time() != kept.facts.header->time()) continue;
         GridSource source{file, true};
         source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",

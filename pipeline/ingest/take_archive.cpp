@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// A day of a radar has some 300 volumes in 3 GB. An archive may claim no more than a file may:
-// memory for one member and little else. Level II is packed already, so a packed archive unpacks to
-// about its own size; raw messages inside it unpack to some ten times that.
+// Returns the limits of an archive. A radar's day has some 300 volumes in 3 GB. An archive may use
+// no more than a file: memory for one member and little else. Level II is packed already, so a
+// packed archive unpacks to about its own size; raw messages inside it unpack to some ten times
+// that.
 archive::Limits limits_of(const IngestOptions& options) {
     archive::Limits limits;
     limits.archive_bytes = std::uint64_t{8} << 30;
@@ -27,7 +28,7 @@ archive::Limits limits_of(const IngestOptions& options) {
     limits.member_bytes = std::min(options.most_file_bytes, std::uint64_t{96} << 20);
     limits.all_bytes = std::uint64_t{8} << 30;
     limits.expansion = 20;
-    limits.time = std::chrono::seconds{60};  // less than the watchdog's patience
+    limits.time = std::chrono::seconds{60};  // shorter than the watchdog's timeout
     limits.nesting = 0;
     limits.small_codecs = true;
     return limits;
@@ -64,7 +65,7 @@ std::string reason_of(const OpenArchive& open) {
     return reason;
 }
 
-// The member's own time, or else that of its archive.
+// Returns the member's own time, or else its archive's.
 std::int64_t modified_ns_of(const archive::Member& member, const FileStamp& archive_stamp) {
     if (!member.modified) return archive_stamp.modified_ns;
     return std::chrono::nanoseconds{member.modified->time_since_epoch()}.count();
@@ -129,7 +130,7 @@ Result<IngestOutcome> TakeArchive::take() {
     return settle();
 }
 
-// The archive is incomplete; the results of its members stay.
+// Records that the archive is incomplete; the results of its members stay.
 Result<IngestOutcome> TakeArchive::wait(std::string reason) {
     outcome_.ending = ended::Incomplete{};
     outcome_.reason = std::move(reason);

@@ -17,7 +17,8 @@ using Added = ChunkVolume::Added;
 
 }  // namespace
 
-// A volume that found no place is read at once when its end has come.
+// Returns what is expected of the volume. One that found no place is read as soon as its end has
+// come.
 ChunkVolumes::Expected TakeChunk::expected() const {
     using Expected = ChunkVolumes::Expected;
     switch (file_.finish) {
@@ -53,7 +54,7 @@ Result<IngestOutcome> TakeChunk::take() {
     }
 }
 
-// The newest chunk represents the volume: it is offered again.
+// Makes the newest chunk represent the volume, so that it is offered again.
 Result<IngestOutcome> TakeChunk::poll_for_place() {
     outcome_.former_representative = context_.chunks.poll_for_place(chunk_);
     return context_.wait_unread(facts_unread(chunk_.path, stamp_, station_of_path(chunk_.path)),
@@ -67,7 +68,7 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
     if (!added) return pass_on(added);
     if (*added == Added::not_ours && volume->files().empty())
         context_.chunks.forget(chunk_, shared);
-    // If a file is still no whole chunk when nothing more is expected, it is not a chunk.
+    // If a file still holds no complete chunk when nothing more is expected, it is not a chunk.
     const bool is_no_chunk =
         *added == Added::not_ours || (*added == Added::unfinished && file_.may_be_partial());
     if (is_no_chunk) {
@@ -89,20 +90,20 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
 
 Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                         const std::string& station) {
-    // A volume that could not be stored is joined again. Until then it stays known, so that others
-    // wait for it: two objects of one volume would overwrite each other's rows.
+    // If a volume cannot be stored, it is joined again. Until then it stays known, so that other
+    // jobs wait for it: two objects of one volume would overwrite each other's rows.
     volume.close();
     auto finished =
         finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));
-    // Nobody need poll this file any more.
+    // This file need not be polled any more.
     if (finished) finished->former_representative = volume.take_former_representative();
     context_.chunks.forget(chunk_, shared);
     return finished;
 }
 
-// Records a chunk of a volume that has not ended. The first one's row describes the volume, so that
-// it can be listed and read while it grows. A row of a volume that had ended, and that a late chunk
-// opened again, stays as it is.
+// Records a chunk of a volume that has not ended. The first chunk's row describes the volume, so
+// that it can be listed and read while it grows. If the volume had ended and a late chunk reopened
+// it, its row stays as it is.
 Status TakeChunk::record(const ChunkVolume& volume, const fs::path& path,
                          const std::string& station) {
     const ChunkVolume::File& file = volume.files().at(path);
@@ -118,7 +119,7 @@ Status TakeChunk::record(const ChunkVolume& volume, const fs::path& path,
     return context_.record(std::move(facts));
 }
 
-// The volume continues to grow.
+// Shows a volume that continues to grow.
 Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                       const std::string& station) {
     if (Status stored = record(volume, chunk_.path, station); !stored) return pass_on(stored);
@@ -135,7 +136,7 @@ Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkV
         if (!shown) return pass_on(shown);
         if (*shown) volume.set_shown();
     }
-    // One chunk represents the volume: it is offered again.
+    // One chunk represents the volume and is offered again.
     if (!volume.has_representative()) volume.set_representative(chunk_.path);
     if (volume.is_representative(chunk_.path)) {
         outcome_.ending = ended::Incomplete{};

@@ -7,7 +7,7 @@ namespace stormcellar::pipeline {
 
 Result<IngestOutcome> TakeGone::take(const Gone& gone) {
     if (Status marked = context_.mark_gone(file_.path); !marked) return pass_on(marked);
-    (void)context_.archives.take(file_.path, {});  // it would keep its space on the disk
+    (void)context_.archives.take(file_.path, {});  // an open archive would keep its disk space
     IngestOutcome outcome;
     outcome.ending = ended::Vanished{};
     const auto shared = gone.chunk ? context_.chunks.find_known(*gone.chunk) : nullptr;

@@ -21,8 +21,8 @@ Result<IngestOutcome> TakeGrowing::take() {
     const std::filesystem::path& beneath = context_.options.beneath;
     if (!followed_) begin();
     if (!followed_) {
-        // A file that is not followed is read when it has ended or has been quiet, and not before,
-        // because reading it again and again would be in vain.
+        // A file that is not followed is read only when it has ended or has been quiet, because
+        // reading it repeatedly would be useless.
         if (FollowedFile::has_ended(file_.path, growing_.start, beneath)) return take_whole();
         return context_.wait_unread(std::move(facts_), std::move(outcome_));
     }
@@ -44,7 +44,7 @@ Result<IngestOutcome> TakeGrowing::take() {
     return finish(start);
 }
 
-// Files of stations that are not accepted are not followed.
+// Begins to follow the file, unless its station is not accepted.
 void TakeGrowing::begin() {
     const std::string& header_station = growing_.start.station;
     const std::string& claimed = header_station.empty() ? facts_.station : header_station;
@@ -53,7 +53,7 @@ void TakeGrowing::begin() {
         followed_ = context_.living->begin(file_.path, facts_.station, station_);
 }
 
-// Reads what was appended. Returns false if it cannot be read as it grows.
+// Reads the appended data. Returns false if the file cannot be followed.
 bool TakeGrowing::read() {
     const auto may_read_on = [&] {
         return context_.living->grew(file_.path, *followed_, station_);
@@ -63,12 +63,12 @@ bool TakeGrowing::read() {
     return read.has_value();
 }
 
-// Records what has come of a volume that has not ended: in the catalog, and as a living grid.
+// Records the state of a volume that has not ended, in the catalog and as living grids.
 Result<IngestOutcome> TakeGrowing::show() {
     const ShelvedVolume& kept = followed_->kept();
     outcome_.ending = ended::Incomplete{.is_followed = true};
     outcome_.goes_on = !kept.places.empty();
-    // Do so even if no sweep is complete yet: something of the station has come.
+    // Set the station even if no sweep is complete: something of it has come.
     outcome_.station = kept.facts.station.empty() ? facts_.station : kept.facts.station;
     if (!followed_->news().any || followed_->holds_several()) return std::move(outcome_);
     facts_.station = kept.facts.station;
@@ -90,7 +90,7 @@ Result<IngestOutcome> TakeGrowing::show() {
     return std::move(outcome_);
 }
 
-// The volume has ended, or is finished with what it has; its file is no longer followed.
+// Finishes the volume, which has ended or is taken as it is; its file is no longer followed.
 Result<IngestOutcome> TakeGrowing::finish(std::chrono::steady_clock::time_point start) {
     facts_.content_hash = followed_->content_hash();
     auto decoded = followed_->finish();

@@ -15,11 +15,12 @@ namespace {
 
 using catalog::FileState;
 
-// A radar's file holds one volume; a file that somebody joined may hold those of some hours. All of
-// them are gridded in one job.
+// A radar's file holds one volume; a joined file may hold those of some hours. All of them are
+// gridded in one job.
 constexpr std::size_t most_volumes = 64;
 
-// The row and the log name the station, because the row is among those of no known station.
+// Returns a reason that names the station, because the row is stored with those of no known
+// station.
 std::string of_other_station(const std::string& station, const std::string& reason) {
     const std::string text =
         fmt::format("is of {}, a station that [ingest] stations does not accept", station);
@@ -67,7 +68,7 @@ Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial pa
     return grid_all(volumes);
 }
 
-// Notes what the report says about the whole file.
+// Notes the report's findings about the whole file.
 void TakeVolumes::note(const level2::Decoded& decoded) {
     facts_.reason = reason_of(decoded.report);
     outcome_.lone_chunk = is_lone_chunk(decoded);
@@ -81,10 +82,10 @@ void TakeVolumes::note(const level2::Decoded& decoded) {
         reading_.troubles = level2::rda_troubles(*decoded.report.rda_status);
 }
 
-// Adds to the rows and the outcome what the volumes are, and of which stations.
+// Adds the volumes and their stations to the rows and the outcome.
 void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     for (const level2::Volume& volume : volumes) {
-        if (volume.radial_count() == 0) continue;  // metadata alone are no volume
+        if (volume.radial_count() == 0) continue;  // metadata alone do not make a volume
         facts_.volumes.push_back(facts_of(volume, reading_.damaged));
         outcome_.newest_radial = std::max(outcome_.newest_radial, facts_.volumes.back().end_time);
     }
@@ -100,7 +101,7 @@ void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     outcome_.reason = facts_.reason;
 }
 
-// In the form in which grids store them.
+// Returns the troubles in the form in which grids store them.
 std::vector<std::string> TakeVolumes::troubles_of(const std::string& station) const {
     if (reading_.troubles.empty()) return {};
     return {fmt::format("{}: {}", station, fmt::join(reading_.troubles, ", "))};
@@ -110,7 +111,7 @@ bool TakeVolumes::is_partial(const level2::Volume& volume) const {
     return reading_.damaged || !level2::is_complete(volume);
 }
 
-// Returns true if another file of the volume is there.
+// Returns true if another file of the volume exists.
 Result<bool> TakeVolumes::has_rival(const level2::Volume& volume) const {
     const auto start = volume.start_time();
     const std::string station = context_.taken_station(volume.station);
@@ -132,8 +133,8 @@ Result<IngestOutcome> TakeVolumes::settle() {
     return std::move(outcome_);
 }
 
-// Grids first and settles the row in the catalog afterwards: after a crash between the two the work
-// is done again, and nothing is lost.
+// Grids first and settles the row in the catalog afterward, so that after a crash in between the
+// work is repeated and nothing is lost.
 Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& volumes) {
     bool has_other_station = false;
     for (const level2::Volume& volume : volumes) {
@@ -175,7 +176,8 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
                                      context_.share_of(context_.options.grid_threads), outcome_);
 }
 
-// A volume that a domain cannot use is no reason to reject the file, whose own grid is stored.
+// Makes partials and frames. If a domain cannot use the volume, the file is not rejected, because
+// its own grid is stored.
 Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     const auto antenna = level2::antenna_position(volume);
     if (context_.mosaics.is_idle() || !antenna || volume.station.empty()) return {};

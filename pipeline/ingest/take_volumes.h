@@ -1,5 +1,5 @@
-// pipeline/ingest/take_volumes.h -- the decoded volumes of one file -> rows of the catalog, grids
-// of their sites, and mosaics.
+// pipeline/ingest/take_volumes.h -- makes catalog rows, grids of the sites, and mosaics from the
+// decoded volumes of one file.
 //
 // Inside the pipeline room only. Thread contract: one thread uses an object; the context must
 // outlive it.
@@ -13,25 +13,25 @@
 
 namespace stormcellar::pipeline {
 
-// Tells take() to grid a volume that has not ended, or to let it wait for more.
+// Tells take() whether to grid a volume that has not ended, or to let it wait for more.
 enum class MayBePartial : bool { no, yes };
 
-// An object is made for one file and used once.
+// Used once, for one file.
 class TakeVolumes {
   public:
-    // `facts` are those of the file, with the hash of its contents. `outcome` is what is known so
-    // far.
+    // `facts` are the file's, with the hash of its contents. `outcome` has the facts known so far.
     TakeVolumes(IngestContext& context, catalog::FileFacts facts, IngestOutcome outcome)
         : context_(context), facts_(std::move(facts)), outcome_(std::move(outcome)) {}
 
-    // Errors: those of Ingestor::ingest(). A file that holds too much is rejected.
+    // Takes the volumes. A file that holds too many is rejected. Errors: those of
+    // Ingestor::ingest().
     Result<IngestOutcome> take(level2::Decoded decoded, MayBePartial partial);
 
   private:
     // Findings of the decoder about the file, for all its volumes.
     struct Reading {
         bool is_complete = false;
-        bool damaged = false;               // bytes are lost
+        bool damaged = false;               // bytes were lost
         std::vector<std::string> troubles;  // of the radar, from its last message 2
     };
 

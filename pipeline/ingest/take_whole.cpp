@@ -23,7 +23,7 @@ Result<IngestOutcome> TakeWhole::take() {
     // Chunks are never archives, and there are thousands of them.
     if (!file_.is_the_same && stamp_.size_bytes > 0 && !is_chunk_name(file_.path)) {
         auto archive = TakeArchive::open(context_, file_.path, stamp_);
-        // A file that is not there any more is noticed when it is read.
+        // If the file no longer exists, reading it will notice.
         const bool is_there = archive || (archive.error().code != ErrorCode::not_found &&
                                           archive.error().code != ErrorCode::not_a_file);
         if (!archive && is_there) return take_unread(archive.error());
@@ -70,9 +70,9 @@ Result<IngestOutcome> TakeWhole::read() {
         .take(std::move(*read.decoded), partial);
 }
 
-// The file cannot be read, at least not now.
+// Handles a file that cannot be read, at least not now.
 Result<IngestOutcome> TakeWhole::take_unread(const Error& why) {
-    // The system is short of something, for example descriptors: the file is not to blame.
+    // The system is short of something, for example descriptors; the file is not to blame.
     if (why.code == ErrorCode::io || is_shortage(why.code)) return tl::unexpected<Error>(why);
     if (why.code == ErrorCode::permission) facts_.modified_ns = catalog::never_read_ns;
     return reject({why.code, without_path(why.message, file_.path)});

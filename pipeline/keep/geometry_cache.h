@@ -1,4 +1,4 @@
-// pipeline/keep/geometry_cache.h -- keeps what volumes of one site on one grid share.
+// pipeline/keep/geometry_cache.h -- keeps geometry that volumes of one site on one grid share.
 //
 // Making it takes longer than using it. The least recently used entries are dropped first.
 //
@@ -33,18 +33,18 @@ class GeometryCache {
     // Returns grid::site_window().
     std::optional<grid::GridWindow> window(const grid::GridSpec& domain,
                                            const grid::SitePosition& site, double reach_m);
-    // For merging: for a window of the domain.
+    // Returns the distances for merging, for a window of the domain.
     std::shared_ptr<const grid::SiteDistance> distance(const grid::GridSpec& domain,
                                                        const grid::GridWindow& window,
                                                        const grid::SitePosition& site);
-    // For audits (grid::audit_reach_m).
+    // Returns the columns for audits (grid::audit_reach_m).
     std::shared_ptr<const grid::SiteColumns> places(const grid::SitePosition& site,
                                                     const grid::GridSpec& spec);
 
   private:
     static constexpr std::size_t small_ones = 512;
 
-    // The place of a site on a grid, whatever the name of the site.
+    // The position of a site on a grid, without the name of the site.
     struct Place {
         grid::SitePosition site;
         grid::GridSpec spec;

@@ -16,7 +16,7 @@ bool is_living(const grid::Provenance& provenance) {
                        [](const std::string& note) { return note.starts_with(living_note); });
 }
 
-// Any order does that depends on the cells alone.
+// Returns a number that orders grids by their cells; any such order will do.
 std::uint64_t order_of(const grid::BrickView& view) {
     std::vector<std::uint64_t> words;
     for (const grid::BrickEntry& brick : view.bricks) {
@@ -29,7 +29,7 @@ std::uint64_t order_of(const grid::BrickView& view) {
 
 constexpr std::chrono::minutes half_an_hour{30};
 
-// The first radial received of a volume is at most this far from its header.
+// The first received radial of a volume is at most this far from the time in its header.
 constexpr std::chrono::minutes farthest_radial{15};
 
 struct RadialTimes {

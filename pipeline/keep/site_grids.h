@@ -1,5 +1,5 @@
-// pipeline/keep/site_grids.h -- grids the volumes of one site about it into the cache. Used only
-// inside the pipeline room.
+// pipeline/keep/site_grids.h -- grids volumes on their site's own grid, and puts the grids into the
+// cache. Used only inside the pipeline room.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -37,9 +37,9 @@ class SiteGrids {
     // Returns true if the position of the radar is known; if not, the outcome says so.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids each of the moments that the volume holds, audits the grids and commits them, unless
-    // better ones exist or the budgets do not keep them, which the outcome then says. Adds to its
-    // grids and times.
+    // Grids each of the moments that the volume holds, audits the grids and commits them. A grid is
+    // left out, and the outcome says so, if a better one exists or the cache's limits do not keep
+    // it. Adds to the outcome's grids and times.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
     // Does the same fast for one moment of a volume that is still growing: the grid is neither
@@ -76,10 +76,10 @@ class SiteGrids {
 [[nodiscard]] tl::unexpected<Error> of_gridding(Error error);
 // Classifies an error of writing into the cache: whatever its code, the cause is not in the file.
 [[nodiscard]] tl::unexpected<Error> of_storing(Error error);
-// The cache's budgets leave no room for a grid, and somebody must change them. The file is not
-// tried again until a restart looks for missing grids.
+// Notes that the cache's limits leave no room for a grid, so that someone must change them. The
+// file is not tried again until a restart looks for missing grids.
 void note_no_room(IngestOutcome& outcome, const Error& why);
-// The cache keeps no grid of this station that is so old, or no grid at all of an unknown station.
+// Notes that the cache keeps no grid this old of the station, or no grid of an unknown station.
 void note_not_kept(const std::string& station, IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

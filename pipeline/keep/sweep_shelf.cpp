@@ -20,7 +20,7 @@ namespace {
 using level2::Sweep;
 using level2::SweepMoment;
 
-// Writes a sweep as bytes of this process; they are read back by the same program.
+// Writes a sweep as bytes; the same process reads them back.
 class Writer {
   public:
     template <class T>
@@ -123,12 +123,12 @@ Result<Sweep> sweep_of(std::span<const char> bytes) {
 
 tl::unexpected<Error> system_failure(const char* what, int number) {
     auto failed = stormcellar::system_failure(fmt::format("{} of a growing volume", what), number);
-    // Not that a raw file is gone, which not_found means to whoever takes files in.
+    // Callers take not_found to mean that a raw file is gone.
     if (failed.value().code == ErrorCode::not_found) failed.value().code = ErrorCode::io;
     return failed;
 }
 
-// If the file system cannot make a file without a name, the file loses its name at once.
+// Opens a file without a name, or, if the file system cannot, one that loses its name at once.
 int nameless_file(const std::filesystem::path& directory) {
     const int made = ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (made >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return made;

@@ -1,8 +1,8 @@
-// pipeline/keep/sweep_shelf.h -- stores sweeps until they are wanted again.
+// pipeline/keep/sweep_shelf.h -- stores sweeps on disk until they are needed again.
 //
 // The sweeps are packed with LZ4 in a file without a name, which disappears with the process
-// however that ends. 160 growing volumes hold more than a service should take in memory, and the
-// page cache can drop it when memory is short. A sweep comes back bit for bit.
+// however that ends. 160 growing volumes hold more than a service should keep in memory; the page
+// cache can drop the file's pages when memory is short. A sweep comes back bit for bit.
 //
 // Threads   put() by one thread at a time; get() by many, also during put().
 #pragma once

@@ -33,7 +33,7 @@ BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment momen
       geometries_(std::make_unique<GeometryCache>(kept_geometries)),
       instants_(std::make_unique<InstantCache>(kept_instants_bytes)) {}
 
-// A frame names its overlap and has a digest of its other rules.
+// Learns the rules of a mosaic. A frame names its overlap and has a digest of its other rules.
 Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
     Domain rules;
     rules.spec = newest.spec;

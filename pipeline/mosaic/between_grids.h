@@ -10,14 +10,14 @@
 //                    rules of its own frames (pipeline/mosaic/mosaic_frame.h). At their instants it
 //                    equals them, code by code.
 //
-// Gaps      Between volumes whose middles are more than 30 minutes apart, nothing is made (for a
-//           site of a mosaic: within 15 minutes of a volume, by the mosaic's own rule). Nothing is
-//           made before the first middle or after the last.
+// Gaps      Between volumes whose middles are more than 30 minutes apart, nothing is made. For a
+//           site of a mosaic the mosaic's own rule applies: within 15 minutes of a volume. Nothing
+//           is made before the first middle or after the last.
 // States    As in the interpolation: a cell that one end has not seen is never blended into clear
 //           air; the other end counts.
-// Limits    Not accounted for: echo that grows, decays or turns between the volumes; the motion of
-//           moments other than REF, which are kept or blended in place; with undated sweeps, the
-//           minutes from the lowest to the highest sweep.
+// Limits    It does not account for echo that grows, decays or turns between the volumes; for the
+//           motion of moments other than REF, which are kept or blended in place; or, with undated
+//           sweeps, for the minutes from the lowest to the highest sweep.
 // Memory    Two grids of a station and the one that is made; for a mosaic, what its partials take.
 // Threads   One thread at a time; it starts up to `threads` threads of its own.
 #pragma once
@@ -38,7 +38,7 @@ namespace stormcellar::pipeline {
 
 struct BetweenOptions {
     grid::TimeMethod method = grid::TimeMethod::advected;
-    std::optional<UtcTime> from, to;  // none: as far as there are grids
+    std::optional<UtcTime> from, to;  // none: as far as grids exist
     int threads = 1;
 };
 
@@ -48,19 +48,19 @@ class BetweenGrids {
 
     // Keeps a copy of the store. Grids that cannot be read are named in `problems` and left out.
     // Errors: not_found if there is no grid, or a mosaic's sites have none; unsupported for a
-    // mosaic made by rules that the defaults cannot express.
+    // mosaic whose rules the defaults cannot express.
     static Result<BetweenGrids> open(const cache::StoreReader& store, const std::string& domain,
                                      level2::Moment moment, const BetweenOptions& options,
                                      std::vector<std::string>& problems);
 
     // Returns whole multiples of the interval since midnight UTC.
     [[nodiscard]] std::vector<UtcTime> instants(std::chrono::seconds interval) const;
-    // Returns none if no volume is near. Errors: a grid that does not verify (its path begins the
-    // message); those of make_frame().
+    // Makes the frame. Returns none if no volume is near. Errors: a grid that does not verify (its
+    // path begins the message); those of make_frame().
     [[nodiscard]] Result<std::optional<MosaicFrame>> at(UtcTime instant);
     // Returns true if the path has a frame of the mosaic itself that equals the result of at().
     [[nodiscard]] bool stands(const std::filesystem::path& path) const;
-    // Returns "advected", and what is not known about it.
+    // Returns "advected", with a remark on what is unknown about it.
     [[nodiscard]] std::string method_text() const;
 
   private:
@@ -80,10 +80,10 @@ class BetweenGrids {
     level2::Moment moment_;
     BetweenOptions options_;
     std::vector<Stored> grids_;     // by their middles; frames of a mosaic by their instants
-    std::optional<Domain> mosaic_;  // none: a station's own
+    std::optional<Domain> mosaic_;  // none: a station's own grids
     std::unique_ptr<GeometryCache> geometries_;
     std::unique_ptr<InstantCache> instants_;
-    // The pair of volumes used last (the place of its first in grids_), and its motion.
+    // The last pair of volumes (the index of its first in grids_), and its motion.
     std::optional<std::size_t> pair_;
     Motions motions_;
 };

@@ -1,9 +1,8 @@
-// pipeline/mosaic/domain_frames.h -- which frames a domain has, how they are made, and which of
-// them stand or are missing.
+// pipeline/mosaic/domain_frames.h -- determines which frames a domain has, how they are made, and
+// which are current or missing.
 //
-// Threads: pure functions of their arguments and of what the store holds.
-// Errors: not_found for a frame of a domain that is not among those given; else the store cannot be
-// read.
+// Threads: pure functions of their arguments and of the store's contents.
+// Errors: not_found for a frame of a domain that is not given; otherwise the store cannot be read.
 #pragma once
 
 #include <chrono>
@@ -18,12 +17,11 @@
 
 namespace stormcellar::pipeline {
 
-// The domain of this name (not of a partial) if frames or partials of the moment are its; else
-// null.
+// Returns the domain of this name (not that of a partial) if it has the moment; else null.
 [[nodiscard]] const Domain* find_domain(std::span<const Domain> domains, std::string_view name,
                                         level2::Moment moment);
 
-// The domain that has this frame.
+// Returns the domain that has this frame.
 [[nodiscard]] Result<const Domain*> domain_of(std::span<const Domain> domains,
                                               const cache::GridName& frame);
 
@@ -35,7 +33,7 @@ namespace stormcellar::pipeline {
 [[nodiscard]] std::vector<UtcTime> instants_between(UtcTime from, UtcTime to,
                                                     std::chrono::seconds interval);
 
-// Returns true if the instant is between two partials of which one counts for it, by the rule of
+// Returns true if the instant is between two partials, one of which counts for it by the rule of
 // MosaicMaker::take_in().
 [[nodiscard]] bool lies_between(const std::vector<PartialView>& partials, UtcTime instant);
 
@@ -48,7 +46,7 @@ enum class FrameStanding {
     to_make,  // is missing, damaged, or differs from what the present partials give
 };
 
-// Tells if the frame is due, and if it is the one that MosaicMaker::make_again() would make.
+// Returns whether the frame is due, and whether it is what MosaicMaker::make_again() would make.
 [[nodiscard]] Result<FrameStanding> standing_of(const cache::StoreReader& store,
                                                 std::span<const Domain> domains,
                                                 const cache::GridName& frame);

@@ -12,7 +12,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Hashes bytes as they are in memory, because fingerprints are compared on one kind of machine.
+// Hashes bytes in their memory layout; fingerprints are compared only on machines of one kind.
 class Digest {
   public:
     template <class Number>
@@ -36,7 +36,7 @@ class Digest {
     std::vector<std::byte> bytes_;
 };
 
-// Adds what is the same for one grid however its file is packed.
+// Adds facts that do not depend on how the grid's file is packed.
 void add_bricks(const grid::BrickView& view, Digest& digest) {
     digest.add(view.quantization.code_bytes);
     digest.add(view.quantization.first_value);

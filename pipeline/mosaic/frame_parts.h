@@ -1,11 +1,12 @@
-// pipeline/mosaic/frame_parts.h -- what a frame was made from, and what has changed since. Used
-// only inside the pipeline room.
+// pipeline/mosaic/frame_parts.h -- records what a frame was made from, and finds what has changed
+// since. Used only inside the pipeline room.
 //
-// A frame in the cache lists the partials from which it was made, each with a fingerprint of all
-// that matters for the frame: its cells (by the checksums of its bricks), columns, site and times.
-// It also holds its recipe: the rules of overlap and time. So when a new volume comes, the columns
-// in which the new frame differs are known, and the rest is copied (grid::update()). A fingerprint
-// covers what a grid file says about its bricks, so whoever copies must verify the codes first.
+// A frame in the cache lists the partials from which it was made, each with a fingerprint of
+// everything that affects the frame: its cells (by the checksums of its bricks), columns, site and
+// times. It also holds its recipe: the rules of overlap and time. So when a new volume comes, only
+// the columns in which the new frame differs are merged, and the rest is copied (grid::update()). A
+// fingerprint covers a grid file's statements about its bricks, so the codes must be verified
+// before copying.
 //
 // Threads   Pure functions.
 #pragma once
@@ -24,8 +25,8 @@ namespace stormcellar::pipeline {
 [[nodiscard]] std::uint64_t fingerprint_of(const PartialView& partial);
 [[nodiscard]] std::uint64_t recipe_of(const FrameOptions& options);
 
-// Returns where each of them lies, and its fingerprint. Errors: bad_argument for a partial that is
-// not a window of the domain.
+// Returns the window of each partial, and its fingerprint. Errors: bad_argument for a partial that
+// is not a window of the domain.
 [[nodiscard]] Result<std::vector<grid::FramePart>> parts_of(
     const grid::GridSpec& domain, std::span<const PartialView* const> partials);
 

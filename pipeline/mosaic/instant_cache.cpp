@@ -6,7 +6,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Absent bricks take no memory.
+// Returns the bytes of a grid; absent bricks take no memory.
 std::size_t bytes_of(const grid::BrickGrid& made) {
     const grid::BrickView view = made.view();
     const auto stored = std::count_if(

@@ -1,8 +1,8 @@
 // pipeline/mosaic/instant_cache.h -- keeps the grids of sites for instants, in memory.
 //
 // A frame is made again for each volume of any of its sites, and making a site's grid for the
-// instant costs more than all merging. The grids of the sites whose volumes did not change come
-// from here. The least recently used grids are dropped first, within a budget of bytes.
+// instant costs more than all merging. The grids of sites whose volumes did not change are taken
+// from this cache. The least recently used grids are dropped first, within a limit of bytes.
 //
 // Threads   Many threads may use it. If two threads want a grid at the same time, it may be made
 //           twice, and one of the two is kept.
@@ -22,7 +22,7 @@ namespace stormcellar::pipeline {
 
 class InstantCache {
   public:
-    // Everything that the cells depend on (pipeline/mosaic/frame_parts.h).
+    // Everything on which the cells depend (pipeline/mosaic/frame_parts.h).
     struct Key {
         std::uint64_t before = 0, after = 0;  // fingerprints of the two partials
         std::uint64_t recipe = 0;
@@ -34,7 +34,7 @@ class InstantCache {
     explicit InstantCache(std::size_t most_bytes)
         : most_bytes_(most_bytes), kept_({.weight = most_bytes}) {}
 
-    // Returns null if it is not there.
+    // Returns null if the grid is not kept.
     [[nodiscard]] std::shared_ptr<const grid::BrickGrid> find(const Key& key);
     void keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made);
     [[nodiscard]] std::size_t bytes() const;

@@ -11,14 +11,15 @@ namespace stormcellar::pipeline {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-// A station keeps this many partials open before anyone looks which of them count.
+// Partials that a station keeps open before it is checked which of them count.
 constexpr std::size_t most_open = 24;
 
 UtcTime middle_of_file(const OpenPartial& partial) {
     return PartialView{&partial.file.description(), {}, nullptr}.middle();
 }
 
-// Closes what is neither the last before an instant nor the first after it, as brackets_of() says.
+// Closes partials that are neither the last before an instant nor the first after it, as in
+// brackets_of().
 void keep_brackets(const std::vector<UtcTime>& instants, std::vector<OpenPartial>& files) {
     std::set<std::size_t> needed;
     for (const UtcTime instant : instants) {
@@ -130,7 +131,7 @@ Result<bool> MappedPartials::drop_damaged(std::vector<std::string>& problems) {
         bad_.insert(path);
     }
     if (bad_.size() == known) return false;
-    // A partial that the damaged one hid may count now.
+    // Without the damaged partial, another one may count.
     if (Status loaded = load(problems); !loaded) return pass_on(loaded);
     return true;
 }

@@ -1,5 +1,5 @@
-// pipeline/mosaic/mosaic_effects.h -- the steps, rungs and effects of a frame of several sites:
-// those of gridding (grid/plan/grid_effects.h), the same for all volumes, and then
+// pipeline/mosaic/mosaic_effects.h -- the steps, rungs and effects of a frame of several sites. The
+// steps of gridding (grid/plan/grid_effects.h) come first, the same for all volumes; then follow
 //
 //   step      rungs, from cheap to exact                     effects that reach them
 //   time      nearest, blend, advected                       time_blend, echo_motion

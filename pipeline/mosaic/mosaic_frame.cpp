@@ -44,7 +44,8 @@ bool is_pair(const PartialView& before, const PartialView& after) {
            before.view.quantization == after.view.quantization;
 }
 
-// If the method takes the nearer partial unchanged, or only one exists, that one is used.
+// Returns a site's share. If the method uses the nearer partial unchanged, or only one exists, that
+// one is taken.
 SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime instant,
                    grid::TimeMethod method) {
     SiteShare share;
@@ -127,8 +128,8 @@ Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options
     return {};
 }
 
-// Collects texts, each once, in the order in which they come. The file of a frame holds 1 MiB of
-// them, and each part brings some: what is too much is counted.
+// Collects texts, each once, in order. The file of a frame holds 1 MiB of them, and each part adds
+// some; the texts beyond a limit are only counted.
 class TextsOnce {
   public:
     TextsOnce(std::size_t most_bytes, std::string_view kind)
@@ -154,7 +155,8 @@ class TextsOnce {
     std::vector<std::string> texts_;
 };
 
-// A thousand parts with the notes and the troubles that radars have come to less.
+// Limits of the texts of a frame. A thousand parts with the usual notes and radar troubles need
+// less.
 struct FrameTexts {
     TextsOnce source_files{std::size_t{192} << 10, "volumes"};
     TextsOnce stations{std::size_t{32} << 10, "stations"};
@@ -198,8 +200,8 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
-// Returns the columns in which the new frame differs from the previous one; none if that is of no
-// use.
+// Returns the columns in which the new frame differs from the previous one; none if the previous
+// one cannot be used.
 std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* previous,
                                                            const cache::GridDescription& now,
                                                            const FrameOptions& options,
@@ -285,13 +287,13 @@ Result<cache::GridDescription> describe_shares(const grid::GridSpec& domain,
 grid::Partial placed(const grid::GridSpec& domain, const SiteShare& share,
                      GeometryCache& geometries) {
     grid::Partial partial{share.view(), share.nearest->site()};
-    // If a grid is not a window of the domain, merge() says what is wrong.
+    // If a grid is not a window of the domain, merge() reports the error.
     const auto window = grid::window_of(domain, *partial.view.spec);
     if (window) partial.distance = geometries.distance(domain, *window, partial.site);
     return partial;
 }
 
-// Four gates for each cell are enough if cells are wide.
+// Returns the options of the audit. Four gates for each cell are enough if cells are wide.
 grid::AuditOptions audit_options(const grid::GridSpec& domain) {
     grid::AuditOptions options;
     const double cell_m = std::min(domain.cell_width_m(), domain.cell_height_m());

@@ -1,4 +1,4 @@
-// pipeline/mosaic/mosaic_frame.h -- merges what several sites saw into one grid for an instant.
+// pipeline/mosaic/mosaic_frame.h -- merges the grids of several sites into one grid for an instant.
 //
 // Each volume is gridded once, on its site's window of the domain's grid. This is its partial,
 // which the daemon keeps in the cache and the command line in memory. For each site, a frame takes
@@ -47,19 +47,20 @@ struct MadePartial {
     cache::GridDescription description;
     grid::BrickGrid bricks;
 };
-// Returns none if the site does not reach the domain. The caller fills in the source files. Errors:
-// those of make_grid().
+// Makes a partial. Returns none if the site does not reach the domain. The caller fills in the
+// source files. Errors: those of make_grid().
 [[nodiscard]] Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
                                                               const grid::SitePosition& site,
                                                               const grid::GridSpec& domain,
                                                               const PartialOptions& options,
                                                               GeometryCache& geometries);
 
-// A partial in memory or in a file. What it refers to must outlive its use.
+// A partial in memory or in a file. The data that it refers to must outlive it.
 struct PartialView {
     const cache::GridDescription* description = nullptr;
     grid::BrickView view;
-    // The file of the view, which is verified before its cells are used. Null: memory.
+    // The file of the view, which is verified before its cells are used. Null: the partial is in
+    // memory.
     const cache::GridFile* file = nullptr;
 
     [[nodiscard]] const grid::SitePosition& site() const { return description->sites.front(); }
@@ -68,17 +69,17 @@ struct PartialView {
     }
 };
 
-// By ICAO; none if the echo's motion is not known.
+// By ICAO; none if the motion of the echo is unknown.
 using Motions = std::map<std::string, std::optional<grid::MotionField>>;
 
 struct FrameOptions {
     grid::MosaicOptions overlap;
     grid::TimeMethod time = grid::TimeMethod::advected;
     bool sweep_times = true;
-    // A partial farther from the instant than this is not used, because its site had a gap there.
+    // A partial farther from the instant than this is not used; the site had a gap there.
     std::chrono::milliseconds greatest_gap = std::chrono::minutes{15};
-    // Estimated before by estimate_motions(); sites that are missing in it do not move. Null:
-    // estimated from the partials. It must outlive the call.
+    // Result of estimate_motions(); sites missing in it do not move. Null: motions are estimated
+    // from the partials. It must outlive the call.
     const Motions* motions = nullptr;
     int threads = 1;
 };
@@ -100,8 +101,8 @@ struct Bracket {
                                                const FrameOptions& options);
 
 // The partials from which make_frame() makes the frame, as its provenance lists them, and the
-// rules. A frame with the same recipe is the same to the byte. Errors: those of make_frame(),
-// except those of cells, which are not read.
+// rules. Frames with the same recipe are identical to the byte. Errors: those of make_frame(),
+// except errors of cells, which are not read.
 struct FrameRecipe {
     std::vector<grid::FramePart> parts;
     std::uint64_t recipe = 0;
@@ -110,7 +111,7 @@ struct FrameRecipe {
                                              std::span<const PartialView> partials, UtcTime instant,
                                              const FrameOptions& options);
 
-// The same, with all that the file of the frame says of itself.
+// Returns the same, with the whole description in the frame's file.
 [[nodiscard]] Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
                                                             std::span<const PartialView> partials,
                                                             UtcTime instant,
@@ -131,9 +132,10 @@ struct PreviousFrame {
     grid::BrickView cells;
 };
 
-// Earlier results that may be used again. The frame has the same bytes without them.
+// Earlier results that may be reused. The frame has the same bytes without them.
 struct MadeBefore {
-    // Any frame: its parts (pipeline/mosaic/frame_parts.h) tell what of it can be used.
+    // Any earlier frame; its parts (pipeline/mosaic/frame_parts.h) show how much of it can be
+    // reused.
     const PreviousFrame* frame = nullptr;
     InstantCache* instants =
         nullptr;  // the grids of sites for instants (pipeline/mosaic/instant_cache.h)

@@ -42,7 +42,7 @@ PartialOptions partial_options(const Domain& domain, level2::Moment moment,
     return options;
 }
 
-// The time from the site's previous volume to its next one, as far as they exist and count.
+// The time from the site's previous volume to its next one, if they exist and count.
 struct Span {
     UtcTime from, to;
 };
@@ -75,7 +75,8 @@ bool is_damage(const Error& error) {
            error.code == ErrorCode::io;
 }
 
-// A station of which somebody else has brought a newer volume stays.
+// Returns the partials without those of late machines. A station stays if another machine has
+// brought a newer volume of it.
 std::vector<PartialView> without(const std::vector<LateMachine>& late,
                                  std::vector<PartialView> partials) {
     for (const LateMachine& machine : late) {
@@ -104,7 +105,7 @@ MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
-// Errors of one domain must not affect the others.
+// Takes in a volume. Errors of one domain do not affect the others.
 Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     Kept kept;
     Status all;
@@ -154,7 +155,7 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     if (*reason) return {};
     const auto committed = store_->commit(name, description, (*made)->bricks.view());
     if (!committed) return of_storing(committed.error());
-    if (committed->empty()) return {};  // older than what the budgets keep
+    if (committed->empty()) return {};  // older than the cache's limits allow
     remove_other_times(*store_, name, moment, source.volume, source.file);
     keep_to_an_hours_volumes(*store_, name, moment, description.time);
     kept.partials.push_back(*committed);
@@ -187,7 +188,7 @@ Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
     return {};
 }
 
-// A partial that turns out to be damaged is left out; others repair it.
+// Makes a frame. A partial that turns out to be damaged is left out; others repair it.
 Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedPartials& partials,
                                                 const std::vector<LateMachine>& late,
                                                 const PreviousFrame* previous,
@@ -208,7 +209,7 @@ Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partial
     const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
     if (!path) return pass_on(path);
     const auto stands = cache::GridFile::open(*path);
-    // A damaged frame is not copied from, because its bricks would get new checksums.
+    // Do not copy from a damaged frame, because its bricks would get new checksums.
     const bool sound = stands && stands->verify();
     const PreviousFrame previous =
         sound ? PreviousFrame{&stands->description(), stands->view()} : PreviousFrame{};
@@ -239,7 +240,8 @@ void MosaicMaker::finish(cache::GridDescription& frame,
         frame.provenance.left_out.push_back(machine.text());
 }
 
-// A frame whose partials have left the cache stays as it is.
+// Returns true if the frame lacks a partial. A frame whose partials have left the cache stays as it
+// is.
 Result<bool> MosaicMaker::is_stale(const FrameJob& job, const MappedPartials& partials) const {
     const auto views = partials.views();
     if (!lies_between(views, job.instant)) return false;
@@ -297,7 +299,7 @@ Result<std::optional<StaleFrame>> MosaicMaker::make_stale(int threads,
     Status looked;
     try {
         looked = look();
-    } catch (...) {  // no memory
+    } catch (...) {  // memory is short
         look_later();
         throw;
     }

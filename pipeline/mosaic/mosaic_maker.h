@@ -1,25 +1,23 @@
 // pipeline/mosaic/mosaic_maker.h -- keeps the mosaics of configured domains up to date as volumes
 // come.
 //
-// A volume of a site that a domain takes is gridded on the domain's columns and kept in the store
-// as the domain "NAME.ICAO". Then the frames of "NAME" that it changes are made again: those
-// between the site's previous volume and its next one. Of an existing frame, only those bricks are
-// merged that are touched by sites whose partials have changed (pipeline/mosaic/frame_parts.h); the
-// bytes are the same as if it were made whole. Frames are at whole multiples of the interval since
-// midnight UTC, none before the oldest volume thereabouts or after the newest. A frame is
-// provisional until each of its sites has a volume after it (or has had none for 15 minutes), and
-// has a revision that counts its volumes. Its bytes depend on its partials alone, however often it
-// is made.
+// A volume of a site that a domain uses is gridded on the domain's columns and kept in the store as
+// the domain "NAME.ICAO". Then the frames of "NAME" that it changes are made again: those between
+// the site's previous volume and its next one. Only bricks that are touched by sites with changed
+// partials are merged again (pipeline/mosaic/frame_parts.h); the bytes are the same as those of a
+// frame made whole. Frames are at whole multiples of the interval since midnight UTC, none before
+// the oldest volume thereabouts or after the newest. A frame is provisional until each of its sites
+// has a volume after it (or has had none for 15 minutes), and has a revision that counts its
+// volumes. Its bytes depend only on its partials, however often it is made.
 //
-// The partials of a frame are verified first, and so is the frame that is copied from. A partial
-// that cannot be read, or is damaged, is left out of frames and named.
+// The partials of a frame are verified first, and so is the earlier frame from which bricks are
+// copied. A partial that cannot be read, or is damaged, is left out of frames and named.
 //
-// A process that ends, or a disk that fails, between a partial and its frames leaves frames that
-// lack it. So the frames around each partial of others that the store has already are looked at
-// again (make_stale()).
+// If the process ends or a disk fails between a partial and its frames, the frames lack the
+// partial. So the frames around each partial of another machine that the store already has are
+// checked again (make_stale()).
 //
-// Machines that are late (pipeline/options/partial_sources.h) are left out of a frame, which says
-// so.
+// A frame leaves out machines that are late (pipeline/options/partial_sources.h), and says so.
 //
 // Threads   Many threads may use it; calls for the same domain and moment wait for each other.
 // Errors    Those of gridding, merging and the store.
@@ -69,47 +67,48 @@ struct Kept {
     std::vector<std::filesystem::path> partials, frames;
     std::size_t updated = 0;            // frames of which unchanged bricks were copied
     std::vector<std::string> problems;  // what was left out, and why
-    // The cache had another partial of the same volume, both are of whole volumes, and this one
-    // took its place (true) or yielded to it (false).
+    // Set if the cache had another partial of the same volume, and both volumes are complete: true
+    // if this partial replaced the other, false if it did not.
     std::optional<bool> won = {};
 };
 
 // A frame that was made and now exists.
 struct FrameMade {
-    std::filesystem::path path;                           // empty: older than what the budgets keep
-    std::vector<std::string> stations;                    // those whose partials it is made of
+    std::filesystem::path path;                           // empty: older than the cache's limits
+                                                          // allow
+    std::vector<std::string> stations;                    // stations of its partials
     std::optional<std::vector<grid::GridWindow>> merged;  // as in MosaicFrame
 };
 
-// A frame that make_stale() looked at.
+// A frame that make_stale() checked.
 struct StaleFrame {
     cache::GridName name;
-    std::optional<FrameMade> made;  // none: it was as it should be, or is not due
+    std::optional<FrameMade> made;  // none: it was current, or is not due
 };
 
 class MappedPartials;
 
 class MosaicMaker {
   public:
-    // Without a store, or without domains, it does nothing.
+    // Without a store or domains, it does nothing.
     MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
                 FramesWhen frames = FramesWhen::volume_comes,
                 std::shared_ptr<PartialSources> sources = nullptr);
 
-    // Does nothing for volumes that no domain takes. Uses `threads` threads. Errors: only temporary
-    // ones, for example if the system refuses a write; all other domains have the volume
+    // Takes in a volume; does nothing if no domain uses it. Uses `threads` threads. Errors: only
+    // temporary ones, for example if the system refuses a write; all other domains have the volume
     // nevertheless.
     Result<Kept> take_in(const VolumeSource& source, int threads);
-    // Takes a partial that another machine made: copies it into the store and makes the frames that
-    // it changes. Nothing happens if the store has it, or keeps another grid of the volume. Errors:
-    // of the file (corrupt, truncated and others), bad_argument if no domain has such a partial,
-    // and those of the store. A frame that can never be made is named in the problems; it refuses
-    // no partial.
+    // Takes in a partial that another machine made: copies it into the store and makes the frames
+    // that it changes. Does nothing if the store has it, or keeps another grid of the volume.
+    // Errors: those of the file (corrupt, truncated and others), bad_argument if no domain has such
+    // a partial, and those of the store. A frame that can never be made is named in the problems,
+    // but the partial is accepted.
     Result<Kept> take_partial(const OthersPartial& partial, int threads);
-    // Looks at one of the frames around the partials that the store had when take_partial() was
-    // called, newest first, and makes it again if it lacks one of the partials or describes them as
-    // they no longer are. Returns none when all were looked at. Errors: those of make_again(); the
-    // frame is looked at again later unless the error is in the data.
+    // Checks one of the frames around the partials that the store already had when take_partial()
+    // was called, newest first. Makes it again if it lacks one of the partials or describes an
+    // earlier state of them. Returns none when all were checked. Errors: those of make_again(); the
+    // frame is checked again later unless the error is in the data.
     Result<std::optional<StaleFrame>> make_stale(int threads, std::vector<std::string>& problems);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
     [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }

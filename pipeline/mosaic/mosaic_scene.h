@@ -1,11 +1,10 @@
-// pipeline/mosaic/mosaic_scene.h -- makes volumes of several sites over one domain into the frame
-// of one instant, by any choice, whole: the accuracy planner measures mosaics on it
-// (mosaic_plan.h).
+// pipeline/mosaic/mosaic_scene.h -- makes the frame of one instant from volumes of several sites
+// over one domain, by any choice. The accuracy planner measures mosaics on it (mosaic_plan.h).
 //
-// The instant brackets some of the volumes. Only those are gridded again, once for each choice of
-// gridding; the two that were used last are kept. The motion of echo is estimated once, from the
-// default grids, and used for every frame, so that the error of a rung is its own and not that of
-// another motion.
+// The instant brackets some of the volumes. Only these are gridded again, once for each choice of
+// gridding; the last two choices are kept. The motion of echo is estimated once, from the default
+// grids, and used for every frame, so that the error of a rung is not mixed with that of another
+// motion.
 //
 // Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
@@ -22,7 +21,7 @@
 
 namespace stormcellar::pipeline {
 
-// One volume of a site, and what its partials say about their source.
+// One volume of a site, and its partials' facts about their source.
 struct SceneVolume {
     const level2::Volume* volume = nullptr;
     grid::SitePosition site;
@@ -31,8 +30,8 @@ struct SceneVolume {
     std::vector<std::string> notes;
 };
 
-// Makes the partials, each on its site's window of the domain, in order. Errors name the file:
-// those of make_partial(); bad_argument for a site that sees nothing of the domain.
+// Makes the partials in order, each on its site's window of the domain. Errors name the file: those
+// of make_partial(); bad_argument for a site that sees nothing of the domain.
 [[nodiscard]] Result<std::vector<MadePartial>> make_partials(std::span<const SceneVolume> volumes,
                                                              const grid::GridSpec& domain,
                                                              const PartialOptions& options,
@@ -41,8 +40,8 @@ struct SceneVolume {
 [[nodiscard]] std::vector<PartialView> views_of(const std::vector<MadePartial>& partials);
 
 // Returns the instant of a mosaic of these partials: the middle between the earliest and the latest
-// of the sites' newest partials, by their middles. If these do not all lie within `greatest_gap` of
-// it, the middle of the newest, because what is far apart in time cannot be blended.
+// of the sites' newest partials, by their middles. If these are not all within `greatest_gap` of
+// it, returns the middle of the newest, because volumes far apart in time cannot be blended.
 [[nodiscard]] UtcTime instant_of_newest(
     std::span<const PartialView> partials,
     std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap);
@@ -68,7 +67,7 @@ class MosaicScene {
                                                   const accuracy::Chain& chain,
                                                   const MosaicSceneOptions& options);
 
-    // Returns the frame of a choice, with the same bits each time.
+    // Returns the frame of a choice, with the same bytes each time.
     [[nodiscard]] Result<MosaicFrame> frame(const MosaicChoice& choice);
     // Returns the partials of the volumes in use, gridded and quantized by the choice.
     [[nodiscard]] Result<const std::vector<MadePartial>*> partials(const MosaicChoice& choice);
@@ -79,12 +78,12 @@ class MosaicScene {
     // Returns the volumes that the instant brackets.
     [[nodiscard]] const std::vector<SceneVolume>& volumes() const { return volumes_; }
     [[nodiscard]] const std::vector<Times>& times() const { return times_; }
-    // Returns their brackets, by place. Time is interpolated between the two of a pair.
+    // Returns their brackets as indexes. Time is interpolated between the two volumes of a pair.
     [[nodiscard]] const std::vector<Bracket>& brackets() const { return brackets_; }
     [[nodiscard]] std::size_t pair_count() const;
     [[nodiscard]] const Motions& motions() const { return motions_; }
-    // Returns the seconds that estimating the motions took: processor time for one thread, time by
-    // the clock for several.
+    // Returns the time for estimating the motions: processor time for one thread, wall time for
+    // several.
     [[nodiscard]] double motion_seconds() const { return motion_s_; }
     [[nodiscard]] double now_s() const;
     [[nodiscard]] const grid::GridSpec& domain() const { return domain_; }

@@ -1,4 +1,4 @@
-// Partials that other machines made, as they come (MosaicMaker::take_partial).
+// Takes in partials that other machines made (MosaicMaker::take_partial).
 #include <algorithm>
 #include <chrono>
 #include <string_view>
@@ -14,18 +14,18 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Real parts stay far below these bounds, which keep the texts of all parts of a frame small, and
-// the work on them short.
+// Limits of a part, far above real ones. They keep the texts of all parts of a frame small, and the
+// work on them short.
 constexpr std::size_t most_notes = 64;  // and as many troubles of the radar
 constexpr std::size_t most_files = 8;   // and as many stations
 constexpr std::size_t most_sweeps = 256;
 constexpr std::size_t most_audit_rows = 64;
 constexpr std::size_t most_text_bytes = 1024;
 
-// The first and the last radial of a volume are minutes from its start.
+// The first and the last radial of a volume are within minutes of its start.
 constexpr std::chrono::hours farthest_radial_of_part{1};
 
-// Names what a part has more of than it may; empty if there is nothing.
+// Returns the name of a list in which a part exceeds a limit; empty if there is none.
 std::string_view excess_of(const grid::Provenance& part) {
     if (part.notes.size() > most_notes || part.radar_troubles.size() > most_notes) return "notes";
     if (part.source_files.size() > most_files || part.stations.size() > most_files) return "names";
@@ -91,7 +91,7 @@ bool is_within(const grid::GridWindow& one, const grid::GridWindow& other) {
            one.end_x() <= other.end_x() && one.end_y() <= other.end_y();
 }
 
-// Checks what a merge demands of each part: it refuses the whole frame for one that is not like the
+// Checks the requirements of a merge, which refuses the whole frame if one part does not match the
 // others.
 Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
                    const Domain& domain) {
@@ -109,7 +109,8 @@ Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
         return fail(ErrorCode::corrupt, "{}: its columns are not whole bricks of the domain {}",
                     partial.file.native(), domain.name);
     }
-    // A merge keeps geometry of each window and position, as large as the window.
+    // A merge keeps geometry for each window and position that is as large as the window, so limit
+    // them.
     if (!reach || !is_within(*window, *reach)) {
         return fail(ErrorCode::corrupt, "{}: its columns are further than {} reaches",
                     partial.file.native(), grid.sites.front().icao);
@@ -159,7 +160,7 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
     if (are_rivals) kept.won = true;
     const auto committed = store_->commit(partial.name.domain, grid, view.view);
     if (!committed) return of_storing(committed.error());
-    // Zeros are read where a map was cut meanwhile.
+    // If the file was truncated while we read it, the missing bytes read as zeros.
     if (Status whole = file->check_whole(); !whole) {
         cache::StoreEntry entry;
         entry.domain = partial.name.domain;
@@ -168,7 +169,7 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
         (void)store_->remove(entry);
         return pass_on(whole);
     }
-    if (committed->empty()) return kept;  // older than what the budgets keep
+    if (committed->empty()) return kept;  // older than the cache's limits allow
     kept.partials.push_back(*committed);
     keep_to_an_hours_volumes(*store_, partial.name.domain, partial.name.moment, partial.name.time);
     const Status made =

@@ -23,7 +23,7 @@ struct Cut {
     grid::CellDetails ages;
 };
 
-// Returns what both sites may see, with `margin` bricks around it; none: nothing.
+// Returns the window that both sites may see, with `margin` bricks around it; none if it is empty.
 std::optional<GridWindow> common_window(const grid::GridSpec& spec, const grid::SitePosition& a,
                                         const grid::SitePosition& b, int margin) {
     const auto about_a = grid::site_window(spec, a, greatest_range_m);
@@ -42,8 +42,8 @@ std::optional<GridWindow> common_window(const grid::GridSpec& spec, const grid::
     return GridWindow{x0, y0, x1 - x0, y1 - y0};
 }
 
-// Returns the ages in seconds after the instant. Without sweeps, the whole partial has the middle
-// of its volume.
+// Returns the ages in seconds after the instant. Without dated sweeps, the whole partial has the
+// time of its volume's middle.
 Result<grid::CellDetails> ages_of(const PartialView& partial, const grid::GridSpec& spec,
                                   UtcTime instant) {
     const grid::SitePosition& site = partial.site();

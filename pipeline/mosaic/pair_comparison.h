@@ -1,9 +1,9 @@
 // pipeline/mosaic/pair_comparison.h -- compares two sites of a mosaic where they overlap.
 //
-// What each site saw is its partial, unchanged. The age of each cell follows from the partial's
+// Each site's partial holds what it saw, unchanged. The age of each cell follows from the partial's
 // sweeps (grid/sweep/sweep_clock.h), and the motion of the weather from two volumes of a site, if
-// there are two. So grid/judge/site_comparison.h compares what both saw at one instant; that header
-// says what this requires and how exact it is. Reflectivity only.
+// there are two. With these, grid/judge/site_comparison.h compares what both sites saw at one
+// instant; that header says what this requires and how exact it is. Reflectivity only.
 //
 // Cost      0.1 to 0.3 s for a pair of 1 km grids, and some 30 MiB.
 // Threads   Pure functions.
@@ -19,8 +19,8 @@
 
 namespace stormcellar::pipeline {
 
-// For one site: the partial whose middle is nearest to an instant, and the next nearest on the same
-// columns; null if there is no other.
+// Two partials of one site on the same columns: the one whose middle is nearest to an instant, and
+// the next nearest; null if there is no other.
 struct SiteLook {
     const PartialView* nearest = nullptr;
     const PartialView* other = nullptr;
@@ -31,13 +31,13 @@ struct SiteLook {
 [[nodiscard]] std::vector<SiteLook> looks_about(std::span<const PartialView> partials,
                                                 UtcTime instant);
 
-// Returns true if any place lies within the range of comparison of both.
+// Returns true if any place is within the range of comparison of both sites.
 [[nodiscard]] bool may_overlap(const grid::SitePosition& a, const grid::SitePosition& b);
 
-// Returns none if a site was seen once, or both volumes have too little echo.
+// Returns none if the site was seen once, or if both volumes have too little echo.
 [[nodiscard]] std::optional<grid::UniformMotion> motion_between(const SiteLook& look);
 
-// Compares two looks. The motion is that around A and B together, as far as it is known. Errors:
+// Compares two looks. The motion is the combined one around A and B, as far as it is known. Errors:
 // bad_argument for sites that cannot overlap and for grids of other moments than REF; those of
 // compare_sites().
 [[nodiscard]] Result<grid::SiteComparison> compare_looks(const SiteLook& a, const SiteLook& b,

@@ -1,9 +1,9 @@
 // pipeline/mosaic/site_watch.h -- compares the overlapping sites of the mosaics in the cache from
 // time to time.
 //
-// From the newest complete (not provisional) frame of a domain, each pair of sites that may overlap
+// For the newest complete (not provisional) frame of a domain, each pair of sites that may overlap
 // is compared by the frame's partials (pipeline/mosaic/pair_comparison.h), at most once in an hour
-// of the frames' time. A replay of old data after newer ones compares nothing.
+// of the frames' time. If old data are replayed after newer ones, nothing is compared.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -24,7 +24,7 @@ struct PairReport {
     std::string domain;
     UtcTime instant;  // of the frame
     grid::SiteComparison found;
-    std::vector<std::string> faults;  // those with a name: grid::faults()
+    std::vector<std::string> faults;  // faults that have a name: grid::faults()
 };
 
 class SiteWatch {
@@ -34,9 +34,9 @@ class SiteWatch {
     // The store must outlive it.
     SiteWatch(const cache::StoreReader& store, std::vector<Domain> domains);
 
-    // Compares the next pair that is due; none: nothing is due. A pair with a partial that is gone
-    // or damaged, or that cannot be compared, waits for its next turn. Errors: the cache cannot be
-    // read.
+    // Compares the next pair that is due; none if no pair is due. A pair with a partial that is
+    // gone or damaged, or that cannot be compared, waits for its next turn. Errors: the cache
+    // cannot be read.
     Result<std::optional<PairReport>> compare_next();
 
   private:
@@ -51,7 +51,7 @@ class SiteWatch {
                                                     const Pair& pair) const;
 
     const cache::StoreReader& store_;
-    std::vector<Domain> domains_;  // those that have reflectivity
+    std::vector<Domain> domains_;  // domains with reflectivity
     // By domain and pair: the instant of the frame of the last comparison.
     std::map<std::pair<std::string, Pair>, UtcTime> compared_;
 };

@@ -99,8 +99,8 @@ int cells_over(TomlTable& table, std::string_view key, double cells) {
     return 1;
 }
 
-// Finds the columns that hold the boundary of the bounds, the same number on both sides of the
-// center.
+// Sets the size to the columns that hold the boundary of the bounds, equally many on both sides of
+// the center.
 void size_by_bounds(TomlTable& table, const std::array<double, 4>& bounds, GridSpec& spec) {
     if (spec.in_degrees()) {
         spec.nx = cells_over(table, "bounds", width_deg(bounds) / spec.spacing_deg);

@@ -39,32 +39,32 @@ struct Domain {
 
 // When the frames of the domains are made.
 enum class FramesWhen {
-    volume_comes,  // each that it changes, at once, as the daemon does
-    asked_for,     // by MosaicMaker::make_again() alone: of an archive each is then made once
+    volume_comes,  // at once when a volume changes them, as the daemon does
+    asked_for,     // only by MosaicMaker::make_again(), so that an archive makes each frame once
 };
 
-// West, south, east and north in degrees. East of the antimeridian, west is greater than east.
+// West, south, east and north in degrees. Across the antimeridian, west is greater than east.
 using Bounds = std::array<double, 4>;
 [[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and not empty
 [[nodiscard]] double width_deg(const Bounds& bounds);
 [[nodiscard]] grid::GeoPoint middle_of(const Bounds& bounds);
-// Returns how many columns of the spec, whose size does not matter, the boundary reaches at most
-// from its center. Errors: those of grid::validate().
+// Returns how many columns of the spec the boundary is at most away from its center; the spec's
+// size does not matter. Errors: those of grid::validate().
 [[nodiscard]] Result<grid::ColumnPoint> half_columns_of(const grid::GridSpec& spec,
                                                         const Bounds& bounds);
 
 // Reads heights above mean sea level from the key levels_km: "BOTTOM:TOP:STEP" or a list. Returns
-// none if the key is absent or makes no sense, which is recorded as a complaint.
+// none if the key is absent, or if it makes no sense, which is recorded as a complaint.
 [[nodiscard]] std::optional<std::vector<double>> read_levels_m(TomlTable& table);
-// Reads the name of one moment; none with a complaint.
+// Reads the name of one moment. Returns none, with a complaint, for any other name.
 [[nodiscard]] std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key,
                                                         const std::string& name);
-// Reads a list of moments, each once. Returns none if the key is absent; names that are none are
-// recorded as complaints and left out.
+// Reads a list of moments, each once. Returns none if the key is absent. Unknown names are recorded
+// as complaints and left out.
 [[nodiscard]] std::optional<std::vector<level2::Moment>> read_moments(TomlTable& table,
                                                                       std::string_view key);
 
-// Reads all [[domain]] tables. Those that make no sense are recorded as complaints and left out.
+// Reads all [[domain]] tables. Invalid ones are recorded as complaints and left out.
 [[nodiscard]] std::vector<Domain> read_domains(TomlTable& root);
 
 }  // namespace stormcellar::pipeline

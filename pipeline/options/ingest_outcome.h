@@ -15,8 +15,8 @@
 
 namespace stormcellar::pipeline {
 
-// The ways in which ingesting a file can end, as they are counted and named; ended::X below holds
-// what belongs to only one of them.
+// The ways in which ingesting a file can end, for counts and names. ended::X below holds the facts
+// that belong to only one of them.
 enum class IngestResult {
     gridded,      // registered, and every volume with the moment is in the cache, or too old for it
     no_moment,    // registered; has no sweep of the moment, so there is nothing to grid
@@ -53,7 +53,7 @@ struct OtherStation {
 // read, or an archive has more members than one turn takes. The file must be offered again.
 struct Incomplete {
     static constexpr IngestResult result = IngestResult::incomplete;
-    bool is_followed = false;    // only what is appended will be read
+    bool is_followed = false;    // only appended data will be read
     bool has_next_turn = false;  // an archive that can continue at once
 };
 // Registered as rejected: it holds no volume, or none that can be gridded.
@@ -70,8 +70,8 @@ struct Unchanged {
 struct Vanished {
     static constexpr IngestResult result = IngestResult::vanished;
 };
-// Registered, and nothing else is to be done: the Ingestor has no cache, or the file is a chunk of
-// a growing volume that another chunk represents.
+// Registered, with nothing else to do: the Ingestor has no cache, or the file is a chunk of a
+// growing volume that another chunk represents.
 struct Registered {
     static constexpr IngestResult result = IngestResult::registered;
 };
@@ -103,15 +103,16 @@ struct IngestOutcome {
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed
     bool no_room =
         false;         // some volume was not gridded because the cache's limits left no room for it
-    int not_kept = 0;  // volumes of which the cache's limits keep no grid: nothing was made of them
+    int not_kept = 0;  // volumes that were not gridded because the cache's limits keep no grid of
+                       // them
 
-    // State of the volume of the file, if that grows or grew.
+    // State of the file's volume, if it grows or grew.
     bool goes_on = false;  // the volume is followed, and a sweep of it has closed
     std::vector<std::filesystem::path> living;  // grids of volumes that have not ended
-    bool living_left_out = false;               // for lack of time
+    bool living_left_out = false;               // because there was no time
     std::vector<int> missing_chunks;            // of a volume of chunks that was finished
-    // Growing volumes that made room for this one: their sweeps on disk are gone, and they are read
-    // again from their files.
+    // Growing volumes that were given up for this one: their sweeps on disk are gone, and they are
+    // read again from their files.
     std::uint64_t given_up = 0;
     // The chunk that represented the volume until this one came.
     std::filesystem::path former_representative;
@@ -122,7 +123,7 @@ struct IngestOutcome {
 
 // The result for a file that was only noted, not read.
 enum class Noted {
-    stands,  // there is something to do: Ingestor::ingest()
+    stands,  // something is left to do: Ingestor::ingest()
     gone,    // nothing is left to do
 };
 

@@ -1,10 +1,10 @@
-// pipeline/options/partial_sources.h -- which machines bring partials of mosaics, and how far
+// pipeline/options/partial_sources.h -- the machines that bring partials of mosaics, and how far
 // behind each of them is.
 //
 // A machine is late for a frame if the newest of its volumes is older than the frame by more than
-// the allowed time. Then the stations that nobody else brings are left out of the frame, which says
-// so. This depends on the times of volumes alone, not on those of a clock, so that a frame is the
-// same whoever makes it, and whenever.
+// the allowed time. Then the frame leaves out the stations that no other machine brings, and says
+// so. This depends only on the times of volumes, not on a clock, so a frame is the same whoever
+// makes it, and whenever.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -25,9 +25,9 @@ namespace stormcellar::pipeline {
 
 struct LateMachine {
     std::string name;
-    std::set<std::string> stations;  // that no other machine brings
+    std::set<std::string> stations;  // stations that no other machine brings
     UtcTime newest;                  // middle of its newest volume
-    // "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z"
+    // Returns "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
     [[nodiscard]] std::string text() const;
 };
 
@@ -35,7 +35,7 @@ class PartialSources {
   public:
     explicit PartialSources(std::chrono::seconds late_after) : late_after_(late_after) {}
 
-    // A machine has brought a partial of this station, whose volume has this middle.
+    // Notes that a machine brought a partial of this station whose volume has this middle.
     void brought(const std::string& machine, const std::string& domain, level2::Moment moment,
                  const std::string& station, UtcTime middle);
     // Returns the machines that are late for a frame, by name.

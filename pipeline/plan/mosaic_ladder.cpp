@@ -10,7 +10,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A row, the frame with which its errors are compared, and what is timed for it.
+// A row, the frame with which it is compared, and the work that is timed for it.
 struct Rung {
     accuracy::LadderRow row;
     MosaicChoice with_errors;

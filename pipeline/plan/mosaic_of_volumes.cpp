@@ -14,7 +14,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Uses the beam width of this site's radar.
+// Returns the default choice with the beam width of this site's radar.
 MosaicChoice default_choice_at(const MosaicRequest& request, const grid::SitePosition& site) {
     return mosaic_choice(request.chain, default_mosaic_choice(request.chain, request.domain,
                                                               grid::beam_width_of(site.icao)));
@@ -85,7 +85,7 @@ Result<MosaicFrame> frame_plainly(const std::vector<SceneVolume>& volumes,
     return frame;
 }
 
-// Returns none if the budget cannot be met.
+// Makes the frame by a plan. Returns none if the budget cannot be met.
 Result<std::optional<MosaicFrame>> frame_by_plan(const std::vector<SceneVolume>& volumes,
                                                  const MosaicRequest& request,
                                                  MosaicOfVolumes& made) {

@@ -1,5 +1,5 @@
-// pipeline/plan/mosaic_of_volumes.h -- decoded volumes of several sites, or of several times, made
-// into one grid for one instant: plainly, or as the accuracy planner chooses.
+// pipeline/plan/mosaic_of_volumes.h -- merges decoded volumes of several sites, or of several
+// times, into one grid for one instant, by the defaults or as the accuracy planner chooses.
 //
 // Thread contract: each call works alone; it starts up to `frame.threads` threads of its own.
 #pragma once
@@ -20,11 +20,12 @@ namespace stormcellar::pipeline {
 
 struct MosaicRequest {
     grid::GridSpec domain;
-    accuracy::Chain chain;                   // of mosaic_effects_of(), with the settings asked for
-    FrameOptions frame;                      // what the chain decides is set by its choice
-    PartialOptions partial;                  // likewise
+    accuracy::Chain chain;                   // from mosaic_effects_of(), with the requested
+                                             // settings
+    FrameOptions frame;                      // without what the chain's choice decides
+    PartialOptions partial;                  // without what the chain's choice decides
     std::optional<UtcTime> instant;          // none: instant_of_newest()
-    bool is_planned = false;                 // each effect's size is predicted for these volumes
+    bool is_planned = false;                 // predict the size of each effect for these volumes
     std::optional<accuracy::Budget> budget;  // needs a plan
 };
 
@@ -39,13 +40,13 @@ struct MosaicOfVolumes {
 // make_partials(), make_frame() and plan_mosaic().
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request);
-// Does the same with geometries that several calls share; a plan measures with its own.
+// Does the same with geometries that several calls share; a plan measures with its own geometries.
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request,
                                                   GeometryCache& geometries);
 
-// Returns one partial for each volume. The chain's settings decide how it is gridded, the defaults
-// decide the rest. Errors: those of make_partials().
+// Returns one partial for each volume. The chain's settings apply, and defaults otherwise. Errors:
+// those of make_partials().
 [[nodiscard]] Result<std::vector<MadePartial>> grid_volumes(const std::vector<SceneVolume>& volumes,
                                                             const MosaicRequest& request,
                                                             GeometryCache& geometries);

@@ -12,8 +12,8 @@
 //             its volume's middle (sweep_times), by the motion that the grids show.
 //   codes     Proven: half a step for each time that a value is rounded: in its partial, between
 //             two volumes, and where sites mix.
-// The whole frame is measured against that of the exact chain, over all cells with a value in both,
-// so that the 99th percentile is no estimate. The price is gridding every volume by the exact
+// The chosen frame is measured against that of the exact chain, over all cells with a value in
+// both, so the 99th percentile is not an estimate. The price is gridding every volume by the exact
 // chain. Values must be plain numbers: VEL and PHI cannot be planned.
 //
 // Threads   Those of the scene.
@@ -28,8 +28,9 @@
 
 namespace stormcellar::pipeline {
 
-// Predicts the size and cost of each effect for this scene; settings stay. `chain` must come from
-// mosaic_effects_of(). Errors: bad_argument for VEL and PHI; those of gridding and merging.
+// Predicts the size and cost of each effect for this scene; settings stay unchanged. `chain` must
+// come from mosaic_effects_of(). Errors: bad_argument for VEL and PHI; those of gridding and
+// merging.
 [[nodiscard]] Status predict(MosaicScene& scene, const grid::PlanOptions& options,
                              accuracy::Chain& chain);
 

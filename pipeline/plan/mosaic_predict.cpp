@@ -19,7 +19,7 @@ constexpr double sweep_times_effort = 3;
 constexpr double overlap_effort = 0.2;
 constexpr double fine_codes_effort = 0.2;
 
-// The chain of a mosaic has each of the steps of merging.
+// Returns a step of merging; the chain of a mosaic has all of them.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
@@ -82,7 +82,7 @@ class GriddingSizes {
         return chain;
     }
 
-    // Sizes are those of the worst volume; times are added up.
+    // Combines predictions: sizes are those of the worst volume; times are added up.
     static void add(const accuracy::Chain& one, bool first, accuracy::Chain& all) {
         for (std::size_t i = 0; i < one.steps.size(); ++i) {
             for (std::size_t k = 0; k < one.steps[i].effects.size(); ++k) {
@@ -104,7 +104,7 @@ class GriddingSizes {
             all.joint_costs[pair].cost_s += one.joint_costs[pair].cost_s;
     }
 
-    // Each was predicted for one thread.
+    // Divides the costs, each predicted for one thread, by the number of threads.
     void share_costs(accuracy::Chain& chain) const {
         const double threads = std::max(1, scene_.options().partial.gridder.threads);
         for (accuracy::Step& step : chain.steps) {
@@ -162,7 +162,8 @@ Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::Sce
     return {};
 }
 
-// Each rounding moves a value by at most half a step, and a mean of values by no more.
+// Sets the size of the codes: each rounding moves a value by at most half a step, and a mean of
+// values by no more.
 void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFrame& coarse,
                accuracy::Chain& chain) {
     const level2::Moment moment = scene.options().partial.gridder.moment;
@@ -208,7 +209,7 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
     step_named(chain, step::sweeps).effects[0].predicted.position_m = moved.within_volume_m;
     step_named(chain, step::time).effects[1].cost_s += scene.motion_seconds();
     set_efforts(scene, chain);
-    // The time of the cheapest frame, besides its gridding.
+    // Add the time of the cheapest frame without its gridding.
     MosaicChoice cheapest = coarse;
     cheapest.time = grid::TimeMethod::nearest;
     cheapest.sweep_times = false;
