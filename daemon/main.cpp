@@ -1,4 +1,4 @@
-// stormcellard: the service. Its usage is the text below.
+// stormcellard: the service. The text below describes its usage.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -54,8 +54,8 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-// Returns the part of a path that exists but is no directory where one is needed; empty: there is
-// none.
+// Returns the part of a path that exists but is not a directory although it must be; empty if there
+// is none.
 std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     std::error_code error;
     while (!std::filesystem::exists(directory, error) && directory.has_relative_path())
@@ -63,7 +63,7 @@ std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     return std::filesystem::is_directory(directory, error) ? "" : directory;
 }
 
-// Reports what is valid but may not be intended.
+// Warns about settings that are valid but may not be intended.
 void print_notes(const Config& config) {
     const PathsConfig& paths = config.fixed.paths;
     const auto note = [](const std::string& what) {
@@ -195,7 +195,7 @@ int run(const ServiceArguments& arguments) {
     if (!config) return complain(program, config.error());
     if (arguments.check) {
         if (arguments.flag == no_loops) {
-            // The loops are another service's.
+            // Another service runs the loops.
         } else if (const Status fine =
                        check_loops(config->reloadable.loops, config->fixed.paths.cache);
                    !fine) {

@@ -30,7 +30,7 @@ class CacheKeeper {
     // Takes the result of a roll that has ended, and starts the next one if it is due. Returns what
     // the cache holds if that has changed.
     std::optional<cache::StoreUsage> poll(SteadyTime now, const cache::Budgets& budgets);
-    void roll_soon() { next_ = {}; }  // The budgets have changed.
+    void roll_soon() { next_ = {}; }  // call when the budgets have changed
     // Returns when the next roll is due. A roll that takes longer delays it.
     [[nodiscard]] SteadyTime next_time() const { return next_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread of the roll
@@ -44,7 +44,7 @@ class CacheKeeper {
     Pulse pulse_;
     SteadyTime next_{}, next_reminder_{};
     std::optional<cache::StoreUsage> known_;
-    // the last member: its thread is waited for before the others are destroyed
+    // declared last, so that its destructor waits for the thread before the others are destroyed
     std::future<CacheRolled> roll_;
 };
 

@@ -25,7 +25,7 @@ void log_problem(std::string_view what, const Error& error) {
                 printable(error.message));
 }
 
-// The service reports a database that cannot be used at all.
+// Returns true if the database cannot be used at all, which the service reports.
 bool is_in_trouble(const catalog::CatalogReader& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
     return std::any_of(troubles.begin(), troubles.end(),
@@ -82,7 +82,7 @@ bool Caretaker::compare_sites() {
     while (true) {
         if (!pause({})) return false;
         auto report = of_.sites.compare_next();
-        if (!report || !*report) break;  // if the cache cannot be read, the rounds report it
+        if (!report || !*report) break;  // the rounds report a cache that cannot be read
         links_.compared(std::move(**report));
     }
     next_look_ = std::chrono::steady_clock::now() + times_.between_looks;
@@ -106,7 +106,7 @@ void Caretaker::run() {
         try {
             goes_on = (!is_first || look_at_all()) && round();
             is_first = false;
-        } catch (const std::exception& error) {  // no memory
+        } catch (const std::exception& error) {  // memory is short
             log_error({Event::care_failed},
                       "cannot verify and mend grids: {}; the service tries again", error.what());
             goes_on = pause(std::min(times_.between_rounds, pause_after_failure));
@@ -115,7 +115,7 @@ void Caretaker::run() {
     pulse_.rest();
 }
 
-// The service logs what was repaired, and then scans for the files.
+// Examines and repairs the databases. The service logs the repairs, and then scans for the files.
 void Caretaker::examine_databases() {
     const auto stations = of_.catalog.station_names();
     if (!stations) return log_problem("cannot examine the catalog", stations.error());
@@ -199,7 +199,7 @@ void Caretaker::refill() {
     refill_frames();
 }
 
-// After the partials from which they are made.
+// Makes missing frames. Call it after the partials were made.
 void Caretaker::refill_frames() {
     const auto missing = of_.mender.missing_frames(times_.refill);
     if (!missing) return log_problem("cannot look for missing frames", missing.error());

@@ -1,11 +1,11 @@
 // daemon/care/caretaker.h -- looks after stored data, in a thread of its own.
 //
-// At the start every database is examined, the header of every grid is checked, and the newest
-// grids that are missing are made again. Then, while there is nothing else to do, every grid is
-// read and verified, one a second; an hour after the last one it starts again. Damage is repaired
-// (pipeline/care/mend_cache.h) and logged. Between grids, sites that overlap are compared
-// (pipeline/mosaic/site_watch.h) as frames of mosaics become complete. Files that arrive come
-// first: nothing begins here while jobs wait.
+// At the start it examines every database, checks the header of every grid, and makes the newest
+// missing grids again. Then, while there is nothing else to do, it reads and verifies every grid,
+// one a second; an hour after the last one it starts again. It repairs damage
+// (pipeline/care/mend_cache.h) and logs it. Between grids it compares overlapping sites
+// (pipeline/mosaic/site_watch.h) as mosaics become complete. Files that arrive come first: nothing
+// begins here while jobs wait.
 //
 // Threads   The functions of CareLinks are called from this object's thread and must be safe to
 //           call from it. The destructor waits for what has begun (one grid, one pair of sites).
@@ -27,7 +27,7 @@ struct CareTimes {
     std::chrono::milliseconds refill{std::chrono::hours{6}};
     std::chrono::milliseconds between_grids{1000};
     std::chrono::milliseconds between_rounds{std::chrono::hours{1}};
-    // between looks at the frames for sites to compare
+    // time between searches for sites to compare
     std::chrono::milliseconds between_looks{5000};
 };
 
@@ -55,19 +55,19 @@ class Caretaker {
 
   private:
     void run();
-    // Both return false if the thread is to end.
+    // Both return false if the thread must end.
     bool look_at_all();
     bool round();
     void examine_databases();
-    // Returns true if all were checked.
+    // Checks the grids. Returns true if all were checked.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);
     void refill();
     void refill_frames();
     void mend(const cache::StoreEntry& entry, pipeline::MendDepth depth);
-    // Compares the sites that are due, if it is time. Returns false if the thread is to end.
+    // Compares the sites that are due, if it is time. Returns false if the thread must end.
     bool compare_sites();
-    // Waits this long, and then until there is nothing else to do. Returns false if the thread is
-    // to end.
+    // Waits this long, and then until there is nothing else to do. Returns false if the thread must
+    // end.
     bool pause(std::chrono::milliseconds least);
     // Returns true as soon as the thread is to end.
     bool is_stopped_within(std::chrono::milliseconds time) STORMCELLAR_REQUIRES(mutex_);

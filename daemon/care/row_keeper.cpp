@@ -23,7 +23,7 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
             mark_missing();
             roll_rows();
             if (deletes) delete_gone(gone_rows_kept_for);
-        } catch (const std::exception& error) {  // no memory
+        } catch (const std::exception& error) {  // memory is short
             log_warning({Event::files_gone_failed},
                         "cannot check which cataloged files are gone: {}", error.what());
         }

@@ -1,9 +1,9 @@
 // daemon/care/row_keeper.h -- keeps the rows of the catalog in step with the files on disk.
 //
-// After a scan it looks at every file of the catalog, in a thread of its own. Files that are
-// missing are marked as gone. If the rows take more space than they may, the oldest rows of gone
-// files are deleted. Once an hour, rows of files that have been gone for long are deleted, if the
-// configuration says so. The work takes at most a tenth of the time, however often there are scans.
+// After a scan it examines every file of the catalog, in a thread of its own, and marks missing
+// files as gone. If the rows exceed their limit, it deletes the oldest rows of gone files. Once an
+// hour it deletes rows of files that have been gone for long, if the configuration says so. The
+// work takes at most a tenth of the time, however often there are scans.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -21,7 +21,7 @@ namespace stormcellar::daemon {
 
 class RowKeeper {
   public:
-    static constexpr int rest = 10;  // It rests this many times as long as it worked.
+    static constexpr int rest = 10;  // it rests this many times as long as it worked
     static constexpr std::chrono::hours between_deletions{1};
 
     // The clock measures how long the work takes, in the thread that works.
@@ -42,8 +42,8 @@ class RowKeeper {
     const std::function<SteadyTime()> clock_;
     Pulse pulse_;
     SteadyTime began_{}, rested_{}, next_deletion_{};
-    // Gives how long the work took. The last member: its thread is waited for before the others are
-    // destroyed.
+    // Returns how long the work took. Declared last, so that its destructor waits for the thread
+    // before the others are destroyed.
     std::future<SteadyTime::duration> work_;
 };
 

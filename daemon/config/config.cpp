@@ -121,7 +121,7 @@ void read_size(TomlTable& ingest, GridConfig& config) {
     config.ny = counts[1];
 }
 
-// Refuses here, with the line, what the grid room would refuse.
+// Reports here, with the line, what the grid room would refuse.
 void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.spacing_m;
@@ -149,12 +149,12 @@ void read_bunzip(TomlTable& ingest, IngestConfig& config) {
 }
 
 int processors() {
-    // Called in every turn of the service, and hardware_concurrency() reads a file.
+    // Cached, because each turn of the service asks for it and hardware_concurrency() reads a file.
     static const unsigned count = std::thread::hardware_concurrency();
     return std::max(1, static_cast<int>(count));
 }
 
-// `moment` is the key of the time when there was one.
+// Reads the moments. `moment` is the older key, from when there was only one.
 void read_moments(TomlTable& ingest, GridConfig& config) {
     const auto one = ingest.text("moment");
     const auto several = pipeline::read_moments(ingest, "moments");
@@ -261,7 +261,7 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
     }
 }
 
-// Returns why a directory cannot be that of a machine; empty if it can.
+// Returns why a directory cannot be a machine's; empty if it can.
 std::string reason_against(const std::filesystem::path& directory, const FixedConfig& config) {
     const std::string name = directory.filename().native();
     if (!cache::is_domain_name(name) || cache::is_part(name)) {
@@ -371,7 +371,8 @@ int ReloadableConfig::worker_count() const {
 
 std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConfig& running) {
     std::vector<std::string> sentences;
-    // A new part of the configuration does not compile here until it has a sentence, too.
+    // This does not compile when the configuration gets a new part, until the part has a sentence
+    // below.
     const auto& [paths, grid, queue_limit, ingest, storage, status, partials] = fresh;
     if (paths != running.paths) {
         sentences.emplace_back("restart the service for the change of [paths] to take effect");

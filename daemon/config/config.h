@@ -32,18 +32,19 @@ namespace stormcellar::daemon {
 // The limit of the rows of all databases.
 inline constexpr std::uint64_t default_catalog_bytes = 16'000'000'000;
 
-// The file system may be at most 95 % full; there is no limit of bytes or age.
+// Returns the default limits: the file system may be at most 95 % full; bytes and age are
+// unlimited.
 [[nodiscard]] cache::Budgets default_budgets();
 
-// Where the status is served (status_server.h).
+// The addresses at which the status is served (status_server.h).
 struct StatusConfig {
     std::filesystem::path socket;  // absolute; empty: default_socket()
     int http_port = 0;             // 0: none
     bool operator==(const StatusConfig&) const = default;
 };
 
-// Returns status.sock in the first of systemd's $RUNTIME_DIRECTORY (null: none), else in the state
-// directory.
+// Returns status.sock in the first directory of systemd's $RUNTIME_DIRECTORY (null: not set), else
+// in the state directory.
 [[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
                                                    const char* runtime_directory);
 
@@ -76,12 +77,12 @@ struct IngestConfig {
     bool operator==(const IngestConfig&) const = default;
 };
 
-// Directories into which other machines' parts of mosaics come, one for each machine.
+// The directories for other machines' partials of mosaics, one for each machine.
 struct PartialsConfig {
     std::vector<std::filesystem::path> directories;  // absolute, with symbolic links resolved
     std::chrono::seconds late_after{600};
-    // The stations that a machine may bring, by the machine's name. A machine that is not here may
-    // bring those that are listed for no other.
+    // The stations that a machine may bring, by the machine's name. A machine that is absent here
+    // may bring all stations that are not listed for another machine.
     std::map<std::string, std::vector<std::string>> stations;
     [[nodiscard]] bool may_bring(const std::string& machine, const std::string& station) const;
     bool operator==(const PartialsConfig&) const = default;
@@ -90,7 +91,8 @@ struct PartialsConfig {
 // How the catalog and the cache store the results.
 struct StorageConfig {
     cache::Packing packing = cache::Packing::none;
-    std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
+    std::chrono::milliseconds refill{std::chrono::hours{6}};  // age of the newest missing grids
+                                                              // that are made again
     std::optional<std::uint64_t> catalog_bytes = default_catalog_bytes;  // none: no limit
     bool operator==(const StorageConfig&) const = default;
 };
@@ -113,34 +115,35 @@ struct ReloadableConfig {
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
-    std::chrono::milliseconds poll{5'000};  // the same if changes come without events
+    std::chrono::milliseconds poll{5'000};  // rescans for directories whose changes come without
+                                            // events
     cache::Budgets budgets = default_budgets();
     std::chrono::milliseconds gone_rows_kept_for{0};  // rows of files that are gone; 0: for ever
     std::string log_level = "info";
     std::vector<LoopConfig> loops;
-    web::WebConfig web;  // for stormcellar-web: the daemon checks it and does nothing with it
+    web::WebConfig web;  // for stormcellar-web; the daemon only checks it
 
     [[nodiscard]] int worker_count() const;
     bool operator==(const ReloadableConfig&) const = default;
 };
 
-// Every key is in one of these two parts; there is no third. A reload compares the first part and
-// replaces the second, each as a whole.
+// The whole configuration. Every key is in one of these two parts. A reload compares the first part
+// and replaces the second, each as a whole.
 struct Config {
     FixedConfig fixed;
     ReloadableConfig reloadable;
     bool operator==(const Config&) const = default;
 };
 
-// What a reload cannot apply: for each part of `fresh` that differs from `running`, a sentence that
-// names its keys. Empty exactly when the two are equal.
+// Returns a sentence, naming the keys, for each part of `fresh` that differs from `running`,
+// because a reload cannot apply it. Empty exactly when the two are equal.
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);
 
-// Relative paths start at the directory of the file. Nothing is created, and directories need not
-// exist; scenes of loops must exist only if that is requested. Errors: bad_argument, "FILE:LINE:
-// [section] key: why", for unknown keys, wrong types, values out of range and paths within one
-// another.
+// Loads the configuration. Relative paths start at the directory of the file. Nothing is created,
+// and directories need not exist; scenes of loops must exist only if that is requested. Errors:
+// bad_argument, "FILE:LINE: [section] key: why", for unknown keys, wrong types, values out of range
+// and paths within one another.
 [[nodiscard]] Result<Config> load_config(const std::filesystem::path& file,
                                          SceneFiles scenes = SceneFiles::as_named);
 

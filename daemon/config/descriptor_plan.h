@@ -1,4 +1,4 @@
-// daemon/config/descriptor_plan.h -- how the file descriptors of the process are shared out.
+// daemon/config/descriptor_plan.h -- divides the file descriptors of the process among its parts.
 //
 // Databases and growing volumes take as many descriptors as there are files that ask for them.
 // Their limits are fixed at the start, so that the watcher, the cache, the sockets, the status and
@@ -14,15 +14,16 @@ namespace stormcellar::daemon {
 
 struct DescriptorPlan {
     std::size_t databases = 0;  // open at the same time; three descriptors each
-    // This many growing files, this many volumes in chunks, and this many last volumes of sites;
-    // one descriptor each.
+    // Limit of the growing files, again of the volumes in chunks, and again of the last volumes of
+    // sites; one descriptor each.
     std::size_t growing = 0;
-    // At least this many are left for everything else.
+    // Minimum that is left for everything else.
     std::size_t reserved = 0;
 
-    // Shares out `limit` descriptors. With 1,024 or more, the feed of all sites fits without cuts.
+    // Divides `limit` descriptors. With 1,024 or more, the feed of all sites fits without
+    // reductions.
     [[nodiscard]] static DescriptorPlan of(std::uint64_t limit);
-    // Shares out the limit that the process has now.
+    // Divides the present limit of the process.
     [[nodiscard]] static DescriptorPlan of_this_process();
 };
 

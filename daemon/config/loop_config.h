@@ -24,13 +24,13 @@ struct LoopConfig {
     std::filesystem::path scene;       // empty: the defaults of `stormcellar loop`
     std::string domain;                // empty: the domain of the scene
     int last = 0;                      // grids; 0: as in the scene
-    int seconds = 0;                   // how long the newest frame is shown; 0: as in the scene
-    std::vector<std::string> outputs;  // absolute paths; none: those of the scene
+    int seconds = 0;                   // display time of the newest frame; 0: as in the scene
+    std::vector<std::string> outputs;  // absolute paths; empty: those of the scene
 
     bool operator==(const LoopConfig&) const = default;
 };
 
-// What the status says of one loop.
+// The status of one loop.
 struct LoopState {
     std::string name;
     bool is_running = false;
@@ -41,12 +41,12 @@ struct LoopState {
     bool operator==(const LoopState&) const = default;
 };
 
-// Whether the file of a scene must exist. A running service accepts a missing file: it stops only
-// its loop, which reports it.
+// Whether the file of a scene must exist. A running service accepts a missing file: only its loop
+// stops, and reports it.
 enum class SceneFiles { as_named, must_exist };
 
 // Reads all [[loop]] tables. Invalid ones are reported and left out. Relative paths start at
-// `directory`; no output may lie within one of the directories of `apart`.
+// `directory`; no output may be within one of the directories of `apart`.
 [[nodiscard]] std::vector<LoopConfig> read_loops(TomlTable& root,
                                                  const std::filesystem::path& directory,
                                                  const std::vector<std::filesystem::path>& apart,

@@ -1,10 +1,10 @@
 // daemon/log/journal.h -- writes entries with fields to systemd's journal.
 //
 // An entry is one datagram. A field is NAME=value and a newline; a value that contains a newline is
-// written as NAME, a newline, its length (8 bytes, little endian), the value and a newline. An
-// entry that is too long for a datagram is written to a sealed memory file whose descriptor is
-// sent. We do this ourselves because sd_journal_sendv() knows only one socket and reports success
-// if nobody listens there; the line must then go somewhere else.
+// written as NAME, a newline, its length (8 bytes, little endian), the value and a newline. If an
+// entry is too long for a datagram, it is written to a sealed memory file whose descriptor is sent.
+// sd_journal_sendv() is not used, because it knows only one socket and reports success even if no
+// one listens there; the line must then go somewhere else.
 //
 // Threads   send() may be called from any thread.
 // Source    systemd.io/JOURNAL_NATIVE_PROTOCOL, sd_journal_send(3).
@@ -34,8 +34,8 @@ class Journal {
     Journal& operator=(const Journal&) = delete;
     ~Journal();
 
-    // Returns false if nobody takes the entry: there is no socket, or none that has room within a
-    // second.
+    // Returns false if the entry is not accepted: there is no socket, or none that has room within
+    // a second.
     [[nodiscard]] bool send(std::string_view entry) const;
 
   private:

@@ -44,19 +44,19 @@ class LineLimiter {
 
     struct HeldBack {
         Event event;
-        std::string subject;  // empty: of several subjects, or of none
+        std::string subject;  // empty: several subjects, or none
         Severity severity;    // the most severe one
         std::uint64_t lines;
     };
-    // Returns what was held back in minutes that are over.
+    // Returns the lines held back in minutes that are over.
     std::vector<HeldBack> take_held_back(SteadyTime now);
-    // Returns how many subjects are remembered.
+    // Returns the number of remembered subjects.
     [[nodiscard]] std::size_t subjects() const { return each_.size(); }
 
   private:
     struct Kind {
         RateLimit limit;
-        Severity gravest = Severity::debug;  // of the lines held back
+        Severity gravest = Severity::debug;  // most severe of the lines held back
     };
     static void take(Kind& kind, Event event, const std::string& subject, SteadyTime now,
                      std::vector<HeldBack>& held);

@@ -1,5 +1,5 @@
-// daemon/log/log.h -- log lines: one line for each event, with the objects it concerns, and where
-// the lines go.
+// daemon/log/log.h -- log lines: one for each event, with the objects that it concerns, and the
+// outlets of the lines.
 //
 // If stderr is the journal (JOURNAL_STREAM names it), lines go to the journal with these fields:
 //   MESSAGE, PRIORITY, SYSLOG_IDENTIFIER, STORMCELLAR_EVENT (log_event.h)
@@ -15,10 +15,10 @@
 // Otherwise they go to stderr: with time and level for people; or with the "<N>" level prefix of
 // syslog if stderr is the journal but its socket takes nothing.
 //
-// Lines above debug are limited (line_limiter.h). Whoever logs a name from outside passes it
-// through printable(); the members of About are escaped here where they must be.
+// Lines above debug are limited (line_limiter.h). The caller passes names from outside through
+// printable(); the members of About are escaped here where necessary.
 //
-// Threads   set_up_logging() before other threads start; the others from any thread.
+// Threads   Call set_up_logging() before other threads start; any thread may call the others.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ void set_log_level(const std::string& level);
 // Returns the journal with its usual socket if stderr is the journal, else stderr.
 [[nodiscard]] LogOutlet usual_outlet();
 
-// What a line is about. Empty members are left out.
+// The subject of a line. Empty members are left out.
 struct About {
     Event event;
     std::string station{};
@@ -83,8 +83,8 @@ void log_error(const About& about, fmt::format_string<Arguments...> text, Argume
     log_line(Severity::error, about, fmt::format(text, std::forward<Arguments>(values)...));
 }
 
-// Logs one line for each kind of which lines were held back in a minute that is over. Call it every
-// few seconds. At the end of the program it also covers the current minute.
+// For each kind with lines held back in a minute that is over, logs one line. Call it every few
+// seconds. At the end of the program it also covers the current minute.
 void log_held_back();
 void log_all_held_back();
 

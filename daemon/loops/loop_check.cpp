@@ -27,7 +27,7 @@ std::string without_speaker(const std::string& line) {
     return printable(line.starts_with(speaker) ? line.substr(speaker.size()) : line);
 }
 
-// Takes the first complaint that the program prints; notes do not count.
+// Stores the first complaint that the program prints; notes do not count.
 void take_complaint(Child& child, std::string& complaint) {
     for (const std::string& line : child.err.read()) {
         const std::string text = without_speaker(line);
@@ -45,7 +45,8 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
     std::string complaint;
     const auto until = SteadyClock::now() + longest_check;
     while (SteadyClock::now() < until) {
-        const std::string how = child->ended();  // first: after the end all of its output is there
+        const std::string how = child->ended();  // call first: once the program has ended, all of
+                                                 // its output is available
         take_complaint(*child, complaint);
         if (how == "status 0") return {};
         if (!how.empty()) {
@@ -61,7 +62,7 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
 }
 
 bool is_known(const std::string& name, const std::vector<pipeline::Domain>& domains) {
-    // "north.KTLX" is a part of the domain north.
+    // "north.KTLX" is a part of the domain "north".
     const std::string_view whole = cache::group_of(name);
     return find_station(name) || std::any_of(domains.begin(), domains.end(),
                                              [&](const auto& one) { return one.name == whole; });

@@ -1,7 +1,7 @@
-// daemon/loops/loop_check.h -- whether `stormcellar loop` accepts a [[loop]] and its scene.
+// daemon/loops/loop_check.h -- checks whether `stormcellar loop` accepts a [[loop]] and its scene.
 //
-// The program itself is run for this, since the daemon reads no scenes and links no renderer.
-// Nothing is drawn or written, and neither the cache nor the directories of outputs need to exist.
+// It runs the program itself, since the daemon reads no scenes and links no renderer. Nothing is
+// drawn or written, and neither the cache nor the directories of outputs need to exist.
 //
 // Threads   Main thread only (service/child.h).
 #pragma once
@@ -24,9 +24,9 @@ namespace stormcellar::daemon {
                                  const std::filesystem::path& cache,
                                  std::filesystem::path program = {});
 
-// Returns what is allowed but gives no picture at present: the directory of an output is missing,
-// or a domain is neither a known station nor one of `domains`. Each is "[[loop]] NAME: what",
-// printable. Only the loop's own table is looked at, not its scene.
+// Returns warnings about loops that are allowed but give no picture at present: the directory of an
+// output is missing, or a domain is neither a known station nor one of `domains`. Each is "[[loop]]
+// NAME: what", printable. Only the loop's own table is checked, not its scene.
 [[nodiscard]] std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
                                                     const std::vector<pipeline::Domain>& domains);
 

@@ -19,7 +19,7 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr std::chrono::seconds time_to_end{3};    // after this it is killed
-constexpr std::chrono::minutes long_enough{1};    // A loop that ran for this long has run well.
+constexpr std::chrono::minutes long_enough{1};    // after this time a loop counts as stable
 constexpr std::chrono::seconds longest_rest{60};  // the longest sleep if nothing happens
 constexpr double most_frames = 1e9;               // fits in an int
 
@@ -133,7 +133,7 @@ void LoopSupervisor::dismiss(Slot& slot, SteadyTime now) {
 void LoopSupervisor::start_due(SteadyTime now) {
     for (Slot& slot : slots_) {
         if (slot.child || slot.is_leaving || now < slot.not_before) continue;
-        // It must not run beside the process that it replaces.
+        // A loop must not run beside the process that it replaces.
         const bool waits = std::any_of(slots_.begin(), slots_.end(), [&](const Slot& other) {
             return other.is_leaving && other.state.name == slot.state.name;
         });
@@ -171,7 +171,8 @@ void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
         slot.child->signal(SIGKILL);
         slot.kill_at.reset();
     }
-    const std::string how = slot.child->ended();  // first: after the end all of its output is there
+    const std::string how = slot.child->ended();  // call first: once the program has ended, all of
+                                                  // its output is available
     for (const std::string& line : slot.child->out.read())
         note_made(slot, line);
     for (const std::string& line : slot.child->err.read())
@@ -188,7 +189,7 @@ void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
         return found != document.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     ++slot.state.made;
-    slot.last_line.clear();  // It tells about earlier animations and does not explain a later end.
+    slot.last_line.clear();  // it concerned earlier animations and would not explain a later end
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(std::clamp(number("frames"), 0.0, most_frames));
     const double took_s = number("total_s");
@@ -217,7 +218,7 @@ void LoopSupervisor::note_end(Slot& slot, const std::string& how, SteadyTime now
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
     delay(slot, now);
-    // A loop that we killed has no reason of its own.
+    // A loop that the service killed has no reason of its own.
     const bool was_killed = how.starts_with("signal");
     slot.state.last_problem =
         was_killed || slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);

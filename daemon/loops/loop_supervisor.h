@@ -45,7 +45,7 @@ class LoopSupervisor {
     // most.
     void stop();
     void wait();
-    // of the keeper's thread; at rest if there is none
+    // pulse of the keeper's thread; at rest if there is none
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }
     // Returns the states of all loops if they have changed since the last call, else none.
     std::optional<std::vector<LoopState>> news();

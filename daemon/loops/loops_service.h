@@ -1,8 +1,8 @@
 // daemon/loops/loops_service.h -- a service that only keeps the [[loop]] tables: `stormcellard
 // --loops-only`.
 //
-// It runs beside a stormcellard that was started with --no-loops, with a lower priority and limits
-// of its own. It reads no drop directory, catalog or grid itself. It keeps the loops
+// It runs beside a stormcellard that was started with --no-loops, with a lower priority and its own
+// limits. It does not read the drop directory, the catalog or grids itself. It keeps the loops
 // (daemon/loops/loop_supervisor.h) and publishes their state:
 //   STATE/loops/status.json        {"state","pid","version","started","updated","loops"}, the
 //                                  fields as in daemon/status/status.h; written at most once a
@@ -31,7 +31,7 @@ namespace stormcellar::daemon {
 
 class LoopsService {
   public:
-    // All must outlive the service. If there are no signals, only request_stop() ends it.
+    // All must outlive the service. Without signals, only request_stop() ends it.
     struct Parts {
         Notifier& notifier;
         FileSystem& file_system;

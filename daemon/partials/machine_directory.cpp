@@ -44,7 +44,7 @@ void MachineDirectory::file_closed(const fs::path& path, const FileStamp& stamp)
     look(path, stamp);
 }
 
-// A hard link, or a file that is being written: what is not whole is looked at again.
+// Handles a hard link, or a file that is being written. An incomplete file is checked again later.
 void MachineDirectory::file_created(const fs::path& path, const FileStamp& stamp) {
     if (stamp.size_bytes > 0) look(path, stamp);
 }

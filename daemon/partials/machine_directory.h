@@ -1,7 +1,7 @@
-// daemon/partials/machine_directory.h -- which partials appear in the directory of one machine.
+// daemon/partials/machine_directory.h -- watches for partials in the directory of one machine.
 //
-// The directory has the layout of a cache. Files of other names, for example those that rsync is
-// still writing, are passed over, and nothing is ever written here. A file is news again when it is
+// The directory has the layout of a cache. Files with other names, for example those that rsync is
+// still writing, are ignored, and nothing is ever written here. A file is news again when it is
 // replaced.
 //
 // Threads   One thread at a time.
@@ -34,15 +34,15 @@ class MachineDirectory final : public WatchListener {
     bool take_lost() { return std::exchange(is_lost_, false); }
     [[nodiscard]] bool is_blind() const { return watcher_.is_blind(); }
 
-    // Takes the newest partial that is news; none: there is none.
+    // Removes and returns the newest partial that is news; none if there is none.
     std::optional<cache::GridName> take_news();
     // Offers a partial again at the next scan.
     void forget(const cache::GridName& name) { seen_.erase(name); }
-    // Leaves a partial alone until its file is another one.
+    // Ignores a partial until its file is replaced.
     void refuse(const cache::GridName& name);
     // Returns true if the machine has the partial, and it was not refused.
     [[nodiscard]] bool has(const cache::GridName& name) const;
-    // The partials that were seen, are not news and were not refused.
+    // Returns the partials that were seen, are not news and were not refused.
     [[nodiscard]] std::vector<cache::GridName> known() const;
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
@@ -72,7 +72,7 @@ class MachineDirectory final : public WatchListener {
     std::map<cache::GridName, Seen> seen_;
     std::set<cache::GridName, Newest> news_;
     bool is_lost_ = false;
-    Watcher watcher_;  // the last: it calls this object
+    Watcher watcher_;  // declared last: it calls this object
 };
 
 }  // namespace stormcellar::daemon

@@ -16,9 +16,9 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr std::chrono::milliseconds longest_poll{1000};
-// A file that is not whole may still be written to: it is complained of when it is older.
+// An incomplete file may still be written to; complain only if it is older than this.
 constexpr std::chrono::seconds settled_after{30};
-// After a frame could not be made again, or there was no memory.
+// Pause after a failure to make a frame again, or a lack of memory.
 constexpr std::chrono::milliseconds pause_after_failure{5000};
 
 bool is_unsettled(const std::filesystem::path& file) {
@@ -73,7 +73,7 @@ void PartialsKeeper::run() {
     while (!stopping_) {
         try {
             turn();
-        } catch (const std::exception& error) {  // no memory; a scan finds what was left
+        } catch (const std::exception& error) {  // memory is short; a scan finds the rest
             log_error({Event::partial_refused},
                       "cannot take partials of other machines: {}; the service tries again",
                       error.what());
@@ -123,7 +123,7 @@ void PartialsKeeper::scan(Machine& machine) {
     take_lost(machine);
 }
 
-// Partials that the cache no longer has, though it would keep them, are news again.
+// Treats partials that the cache lost, though it would keep them, as news again.
 void PartialsKeeper::take_lost(Machine& machine) {
     for (const cache::GridName& name : machine.directory->known()) {
         pulse_.beat();
@@ -135,7 +135,7 @@ void PartialsKeeper::take_lost(Machine& machine) {
     }
 }
 
-// Takes the newest partial of all machines. Returns true if there was one.
+// Ingests the newest partial of all machines. Returns true if there was one.
 bool PartialsKeeper::take_one() {
     bool took = false;
     std::exception_ptr failure;
@@ -146,7 +146,7 @@ bool PartialsKeeper::take_one() {
         pulse_.beat();
         try {
             take(machine, *name);
-        } catch (...) {  // it may be in the cache, and its frames not made
+        } catch (...) {  // the partial may be in the cache without its frames
             machine.directory->forget(*name);
             failure = std::current_exception();
         }
@@ -156,7 +156,7 @@ bool PartialsKeeper::take_one() {
     return took;
 }
 
-// Looks at a frame that may lack a partial. Returns true if there was one.
+// Checks a frame that may lack a partial. Returns true if there was one.
 bool PartialsKeeper::mend_one() {
     if (stopping_ || steady_now() < next_mending_) return false;
     pulse_.beat();
@@ -180,14 +180,16 @@ bool PartialsKeeper::mend_one() {
     return true;
 }
 
-// A machine may have domains that this one does not, and older grids than this one keeps.
+// Returns true if the partial is of use: a machine may have domains that this one does not, and
+// grids older than this one keeps.
 bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
     return !of_.mosaics.is_idle() &&
            of_.mosaics.find(cache::group_of(name.domain), name.moment) != nullptr &&
            of_.store.would_keep(name.domain, name.moment, name.time);
 }
 
-// Each station of a mosaic takes a descriptor and time of all its frames, so nobody may invent one.
+// Checks the station. Each station of a mosaic takes a descriptor and time in all its frames, so a
+// machine must not invent one.
 Status PartialsKeeper::check_station(const Machine& machine, const cache::GridName& name,
                                      const std::string& station) const {
     if (!config_.may_bring(machine.facts.name, station))
@@ -221,7 +223,7 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
     const About about{
         .event = Event::partial_taken, .volume = name.time, .file = file, .domain = name.domain};
     if (!kept) {
-        if (kept.error().code == ErrorCode::not_found) return;  // it was removed meanwhile
+        if (kept.error().code == ErrorCode::not_found) return;  // the file was removed meanwhile
         const bool is_of_data = kept.error().cause() == Cause::data;
         const bool may_change = is_of_data && is_unsettled(file);
         const bool is_tried_again = may_change || kept.error().cause() == Cause::system;
@@ -240,8 +242,8 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
               name.domain, format_utc(name.time), kept->frames.size(), 1000 * seconds_since(start));
 }
 
-// Machines with the same files bring the same partials, so two partials of a whole volume differ
-// only if the files do, or if a machine lies.
+// Reports a rival. Machines with the same files bring the same partials, so two partials of a
+// complete volume differ only if the files do, or if a machine sends wrong data.
 void PartialsKeeper::note_rival(Machine& machine, const cache::GridName& name, bool won) {
     for (Machine& other : machines_) {
         if (&other == &machine || !other.directory->has(name)) continue;
@@ -274,7 +276,7 @@ void PartialsKeeper::refuse(Machine& machine, const cache::GridName& name, const
 void PartialsKeeper::judge() {
     std::optional<UtcTime> newest;
     for (Machine& machine : machines_) {
-        // A volume of the future makes no other machine late.
+        // A volume from the future must not make other machines late.
         machine.facts.newest = of_.sources->newest_of(machine.facts.name);
         if (machine.facts.newest) machine.facts.newest = std::min(*machine.facts.newest, now_utc());
         if (machine.facts.newest)
@@ -296,7 +298,7 @@ void PartialsKeeper::judge() {
                         machine.facts.name, why);
         if (!is_late && machine.facts.is_late)
             log_info({Event::machine_back}, "machine {} has caught up", machine.facts.name);
-        // The status need not count seconds.
+        // The status need not change every second.
         if (is_late != machine.facts.is_late) machine.facts.why = why;
         machine.facts.is_late = is_late;
     }

@@ -1,21 +1,21 @@
-// daemon/partials/partials_keeper.h -- takes partials of mosaics out of the directories of other
+// daemon/partials/partials_keeper.h -- ingests partials of mosaics from the directories of other
 // machines, in a thread of its own.
 //
-// A partial is copied into the cache, and the frames that it changes are made, as soon as it is
-// whole; newest first. What is damaged or cut is looked at again when it changes, and at each scan.
-// A partial that the cache has lost is taken again. When no news wait, the frames around partials
-// that the cache had already are looked at, and made again if they lack one.
+// As soon as a partial is complete, it is copied into the cache and the frames that it changes are
+// made, the newest partial first. A damaged or truncated file is checked again when it changes, and
+// at each scan. A partial that the cache has lost is copied again. While no news wait, the frames
+// around partials that the cache already had are checked, and made again if they lack one.
 //
-// Partials come from stations that are known, as raw files do ([ingest] stations), or that are
-// listed for their machine or their mosaic. Stations that the configuration lists for a machine
-// ([partials.stations]) come from the machines that list them, and from no other. Of other
-// stations, the better of two different partials of a volume counts, whoever brought it, so that
-// the frames do not depend on which came first. If a partial takes the place of that of another
-// machine, the log and the status say so.
+// Partials are accepted from stations that are known, as for raw files ([ingest] stations), or that
+// are listed for their machine or their mosaic. Stations that the configuration lists for a machine
+// ([partials.stations]) are accepted only from the machines that list them. For other stations, the
+// better of two different partials of a volume counts, whichever machine brought it, so that the
+// frames do not depend on their order. If a partial replaces that of another machine, the log and
+// the status say so.
 //
 // A machine is late while it has brought nothing for the allowed time, or while its newest volume
-// is that much older than the newest of any machine. The frames themselves decide for each instant
-// (pipeline/options/partial_sources.h); this is what the log, the status and the metrics say.
+// is that much older than the newest of any machine. This is reported in the log, the status and
+// the metrics; the frames decide separately for each instant (pipeline/options/partial_sources.h).
 //
 // Threads   facts(), scans() and pulse() from any thread. The destructor waits for what has begun
 // (one
@@ -43,7 +43,7 @@ struct PartialsOf {
     pipeline::MosaicMaker& mosaics;
     const cache::StoreWriter& store;  // of the mosaics
     std::shared_ptr<const pipeline::PartialSources> sources;
-    std::shared_ptr<StationRule> stations;  // knows those beyond the station table
+    std::shared_ptr<StationRule> stations;  // knows stations beyond the station table
     int threads = 1;
 };
 
@@ -54,7 +54,7 @@ struct PartialsTimes {
 
 class PartialsKeeper {
   public:
-    // Without directories it has no thread. What it refers to must outlive it.
+    // Without directories it has no thread. The objects that it refers to must outlive it.
     PartialsKeeper(PartialsConfig config, PartialsOf of, PartialsTimes times);
     PartialsKeeper(const PartialsKeeper&) = delete;
     PartialsKeeper& operator=(const PartialsKeeper&) = delete;

@@ -1,5 +1,5 @@
-// daemon/process/main_loop.h -- what the main loops of the service and of the loops' service do in
-// each turn: take signals and feed the watchdog.
+// daemon/process/main_loop.h -- what the main loops of the service and of the loops' service share:
+// they take signals and feed the watchdog.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -14,7 +14,7 @@
 namespace stormcellar::daemon {
 
 // Takes all pending signals and calls `reload` for each SIGHUP. Returns true if one of them asked
-// for the end, which is logged. A null `signals` has none.
+// for the end, which is logged. With a null `signals` it does nothing.
 [[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
 // Feeds the watchdog if it is due, and logs a thread that hangs.

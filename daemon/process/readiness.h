@@ -1,10 +1,10 @@
 // daemon/process/readiness.h -- whether the service has everything that it needs, so that it may
 // report READY.
 //
-// Whoever waits for READY (systemd, or a script that starts LDM next) relies on this: the state and
-// the cache can be written, and the status is served. Until then the service works as far as it
-// can, reports what it waits for, and checks again every second. The drop directory is LDM's: it
-// may come late, and nothing else on the machine waits for it.
+// Programs that wait for READY (systemd, or a script that starts LDM next) rely on this: the state
+// and the cache can be written, and the status is served. Until then the service works as far as it
+// can, reports what it waits for, and checks again every second. The drop directory belongs to LDM:
+// it may appear late, and nothing else on the machine waits for it.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -1,4 +1,4 @@
-// daemon/queue/growing_files.h -- files that are not complete yet, and when to look at them again.
+// daemon/queue/growing_files.h -- files that are not complete yet, and when to check them again.
 //
 // There are two kinds. A NEW file was created and not closed (its writer keeps it open, or it is a
 // hard link), or a scan found it a moment after it was written. It is ingested once it has been
@@ -39,11 +39,11 @@ class GrowingFiles {
     // This many stamps are read in a second. If there are more files, each is polled less often.
     static constexpr std::size_t most_looks = 512;
     static constexpr std::size_t most_looks_at_once = 64;
-    // A file that is kept open and written fast must be followed soon. A large copy is ingested
-    // once in vain.
+    // A file that is kept open and written fast must be followed soon. The price is that a large
+    // copy is ingested once in vain.
     static constexpr Duration busy = std::chrono::seconds{3};
-    // The sweeps of a followed file are shown anyway, and a file that is finished too early has to
-    // be started anew when more comes. So it is given this many times `quiet`.
+    // The sweeps of a followed file are shown anyway, and a file that is finished too early must be
+    // started anew when more comes. So it is given this many times `quiet`.
     static constexpr int patience = 10;
 
     GrowingFiles(Duration quiet, std::size_t limit) : quiet_(quiet), limit_(limit) {}
@@ -53,13 +53,13 @@ class GrowingFiles {
     // unknown stations share the empty `station`.
     bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                  const std::string& station = {});
-    // `stamp` is that of the file before it was read. None: the file is gone, but is still returned
-    // by polls, because the chunks of a volume wait under its name. Replaces what was known about
-    // the path.
+    // Adds a file. `stamp` is its stamp from before it was read; none if the file is gone. A gone
+    // file is still returned by polls, because the chunks of a volume wait under its name. Replaces
+    // earlier information about the path.
     bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                         bool followed = false, const std::string& station = {});
     void forget(const std::filesystem::path& path);
-    // Returns the files that had to give their places to others since the last call.
+    // Returns the files that lost their places to others since the last call.
     [[nodiscard]] std::vector<std::filesystem::path> take_displaced() {
         return std::exchange(displaced_, {});
     }
@@ -106,7 +106,7 @@ class GrowingFiles {
     using Files = std::map<std::string, File>;
     bool has_room_for(const std::string& station);
     void add(const std::filesystem::path& path, File file, SteadyTime now);
-    // Looks at a file whose turn it is, and returns the next one.
+    // Checks a file whose turn it is, and returns the next one.
     Files::iterator look_at(Files::iterator entry, SteadyTime now, const Look& look,
                             std::vector<Due>& due);
     Files::iterator erase(Files::iterator file);

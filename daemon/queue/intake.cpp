@@ -27,7 +27,7 @@ std::string volume_of(const std::filesystem::path& path) {
     return chunk ? std::move(chunk->key) : path.native();
 }
 
-// Returns true if something was gridded or shown. The station is the one that the file's name gave.
+// Returns true if something was gridded or shown. The station is the one in the file's name.
 bool is_good(const Finished& finished) {
     if (!finished.taken) return false;
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
@@ -72,7 +72,7 @@ void Intake::leave_to_scan(const std::filesystem::path& path) {
     seen_.forget(path);
 }
 
-// Jobs of a volume that already has sweeps come before new volumes.
+// Notes that a volume already has sweeps. Its jobs come before those of new volumes.
 void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
     if (!goes_on) {
         going_on_.erase(volume_of(path));
@@ -91,7 +91,7 @@ void Intake::note_displaced() {
     }
 }
 
-// A followed file has had its row since it began.
+// Makes a job. A followed file has had its row since following began.
 Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     Job job;
     job.path = path;
@@ -134,7 +134,8 @@ void Intake::hold(Job& job) {
     job.newest_ns = 0;
 }
 
-// Files keep the order in which they were closed, even if the wall clock is set back.
+// Returns the time of a close, never earlier than the last one, so that files keep their order even
+// if the wall clock is set back.
 std::int64_t Intake::closed_now_ns() {
     const std::int64_t now_ns = clock_.wall_ns();
     newest_closed_ns_ = now_ns >= newest_closed_ns_ ? now_ns : newest_closed_ns_ + 1;
@@ -165,22 +166,22 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
         seen_.found_again(path);
         return;
     }
-    // It was written at this very moment, so most likely there is more to come.
+    // It was written at this very moment, so there is probably more to come.
     const std::int64_t age_ns = clock_.wall_ns() - stamp.modified_ns;
     if (age_ns >= 0 && age_ns < recent_ns) {
         file_created(path, stamp);
     } else {
         const bool is_live = age_ns >= -live_ns && age_ns < live_ns;
         Job job = job_for(path, is_live ? Urgency::live : Urgency::backlog);
-        // A time in the future must not come before files that are closed now.
+        // A time in the future must not take precedence over files that are closed now.
         job.newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
         offer(std::move(job), stamp);
     }
 }
 
-// The sink finds nothing there and marks the rows. There is no hurry, so this comes after
-// everything else. If it is refused, nothing is lost: the row is corrected when it is next looked
-// at.
+// Queues the file, so that the sink finds it missing and marks its rows. This is not urgent and
+// comes after everything else. If it is refused, nothing is lost: the row is corrected when it is
+// next checked.
 void Intake::file_gone(const std::filesystem::path& path) {
     growing_.forget(path);
     followed_.erase(path);
@@ -190,8 +191,8 @@ void Intake::file_gone(const std::filesystem::path& path) {
     schedule_.offer(std::move(job), clock_.steady());
 }
 
-// The kernel reports only the directory. If it was moved away, its files go with it, of which we
-// know only hashes; a scan marks their rows.
+// Handles the loss of a directory; the kernel reports only the directory itself. If it was moved
+// away, its files go with it. Only their hashes are known, so a scan marks their rows.
 void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
     std::vector<std::filesystem::path> gone;
     const auto is_below = [&](const std::filesystem::path& file) {
@@ -252,21 +253,21 @@ void Intake::poll_growing() {
     }
 }
 
-// It was tried often enough, and not even its rejection could be stored. That is a fault of a
-// database; the file is tried again with the next scan.
+// Handles a job that was tried often enough and whose rejection could not even be stored. The cause
+// is a database; the next scan offers the file again.
 void Intake::job_failed(const Finished& finished) {
     const ErrorCode code = finished.taken.error().code;
     const bool was_last = finished.job.failures + 1 >= most_tries && !is_shortage(code);
     if (was_last) schedule_.finished(finished.job.path);
     if (was_last || !schedule_.retry(finished.job, finished.ended))
         leave_to_scan(finished.job.path);
-    // A full disk stops all jobs, so there is no use in decoding the next one.
+    // A full disk stops all jobs, so it is useless to decode the next one.
     if (code == ErrorCode::no_space) {
         schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
     }
 }
 
-// Puts it after everything that has arrived meanwhile.
+// Queues the job behind everything that has arrived meanwhile.
 void Intake::give_next_turn(const Finished& finished) {
     schedule_.finished(finished.job.path);
     Job job = job_for(finished.job.path, Urgency::backlog);
@@ -275,8 +276,9 @@ void Intake::give_next_turn(const Finished& finished) {
     offer(std::move(job), finished.taken->stamp);
 }
 
-// Two jobs may be collected in the other order than they looked at their volume. A chunk whose job
-// comes later than that of the chunk that relieved it must not be waited for.
+// Notes which chunk represents the volume. Two jobs may be collected in another order than that in
+// which they looked at their volume. If a chunk's job is collected after that of the chunk that
+// relieved it, the first chunk must not be polled.
 void Intake::note_represented(const std::filesystem::path& former,
                               const std::filesystem::path& by) {
     if (former.empty() || former == by) return;
@@ -298,7 +300,7 @@ void Intake::job_ended(const Finished& finished) {
         if (rest->has_next_turn) return give_next_turn(finished);
         if (!rest->is_followed) again = finished.ended + reread_;
         if (is_relieved) {
-            // Another chunk stands for its volume.
+            // Another chunk represents its volume.
         } else if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
                                             rest->is_followed, station_of(path))) {
             leave_to_scan(path);
@@ -313,7 +315,8 @@ void Intake::job_ended(const Finished& finished) {
     note_displaced();
 }
 
-// What could not be registered is registered when the file is ingested.
+// Notes a registered file. A file that could not be registered now is registered when it is
+// ingested.
 void Intake::registered(const Finished& noted) {
     if (noted.taken && std::holds_alternative<ended::Vanished>(noted.taken->ingest.ending)) {
         job_ended(noted);
@@ -340,7 +343,7 @@ void Intake::end_scan(bool whole) {
     if (!look_again_at_) looks_in_vain_ = 0;
     seen_.end_scan();
     told_.end_scan();
-    // Those without an event: it was lost, or never sent.
+    // Report followed files that are gone without an event: it was lost, or never sent.
     const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
     for (const std::filesystem::path& path : followed) {
         const Standing standing = look(path).standing;

@@ -1,4 +1,4 @@
-// daemon/queue/intake.h -- turns what the watcher sees into jobs that are due.
+// daemon/queue/intake.h -- turns the watcher's reports into jobs that are due.
 //
 // It owns the memory of files already seen (seen_files.h), the files that are not complete yet
 // (growing_files.h) and the schedule, and keeps the three consistent. Nothing is lost if one of
@@ -43,8 +43,8 @@ class Intake final : public WatchListener {
     // short of disk, memory or descriptors, it is tried for as long as that lasts.
     static constexpr int most_tries = 8;
 
-    // These files were being ingested when the process last ended. They wait so long from now, and
-    // are then the last of the backlog.
+    // Delays files that were being ingested when the process last ended. They wait this long from
+    // now, and are then the last of the backlog.
     void hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits);
     // Sets new waiting times and another number of workers.
     void reload(const ReloadableConfig& config);
@@ -67,8 +67,8 @@ class Intake final : public WatchListener {
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
 
-    // Rows of ingested files may have been lost: the next scan, which is due now, offers all files
-    // again.
+    // Call when rows of ingested files may have been lost. The next scan, which is due now, offers
+    // all files again.
     void forget_seen();
 
     // Offers the growing files that are due.
@@ -79,13 +79,13 @@ class Intake final : public WatchListener {
     void registered(const Finished& noted);
     void job_ended(const Finished& finished);
 
-    // Encloses a scan of the watcher; `whole`: the drop directory could be read.
+    // These enclose a scan of the watcher. `whole` says that the drop directory could be read.
     void begin_scan();
     void end_scan(bool whole);
     // Returns true if events were lost, the drop directory vanished, there is room again for
-    // refused files, or it is time to try again what could not be looked at.
+    // refused files, or it is time to retry entries that could not be examined.
     [[nodiscard]] bool needs_scan() const;
-    // Returns that time: a second later, and twice as long after each failure, up to a minute.
+    // Returns the time of that retry: after a second, doubled after each failure, up to a minute.
     [[nodiscard]] std::optional<SteadyTime> look_again_at() const { return look_again_at_; }
 
     // Returns when there is something to do: growing files to poll and, if a job can start, a job.
@@ -94,14 +94,14 @@ class Intake final : public WatchListener {
     [[nodiscard]] std::vector<GrowingFiles::Wait> growing_waits(std::size_t most) const {
         return growing_.waits(clock_.steady(), most);
     }
-    // Returns how long the job that has waited longest could have run.
+    // Returns how long the job that has waited longest could already have run.
     [[nodiscard]] SteadyTime::duration longest_wait() const;
     // Returns how often the kernel dropped events since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
-    // Returns how often something could not be looked at since the last call.
+    // Returns how often an entry could not be examined since the last call.
     std::uint64_t take_unseen() { return std::exchange(unseen_, 0); }
-    // Problems of directories, and of entries that are no files (not_a_file). Each is returned once
-    // as long as scans find it.
+    // Returns problems of directories, and of entries that are not files (not_a_file). Each is
+    // returned once while scans find it.
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
@@ -114,7 +114,7 @@ class Intake final : public WatchListener {
     [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
     void job_failed(const Finished& finished);
     void give_next_turn(const Finished& finished);
-    // A scan finds again the files that had to give up their places.
+    // Notes files that lost their places; a scan finds them again.
     void note_displaced();
     void note_represented(const std::filesystem::path& former, const std::filesystem::path& by);
     void note_going_on(const std::filesystem::path& path, bool goes_on);
@@ -132,12 +132,12 @@ class Intake final : public WatchListener {
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;
-    // Growing files of which only new data are read, without a wait.
+    // Growing files of which only new data are read. They need no wait.
     std::set<std::filesystem::path> followed_;
-    // Chunks whose jobs are still to be collected, and that another chunk has relieved meanwhile:
-    // by which one.
+    // Chunks that another chunk has relieved while their jobs are not yet collected, with that
+    // other chunk.
     std::map<std::filesystem::path, std::filesystem::path> relieved_;
-    // Volumes of which sweeps have closed: files, and keys of volumes in chunks
+    // Volumes that have closed sweeps: paths of files, and keys of volumes in chunks
     // (pipeline/drop/chunk_path.h).
     std::unordered_set<std::string> going_on_;
     bool refused_ = false;  // something had no room since the last scan began
@@ -145,7 +145,7 @@ class Intake final : public WatchListener {
     std::uint64_t overflows_ = 0, unseen_ = 0;
     std::optional<SteadyTime> look_again_at_;
     int looks_in_vain_ = 0;
-    bool is_looking_again_ = false;  // the current scan is for that
+    bool is_looking_again_ = false;  // the current scan is that retry
     std::vector<Error> problems_;
     SeenFiles told_;                     // problems that were reported, by their text
     std::int64_t newest_closed_ns_ = 0;  // as in Job

@@ -46,11 +46,11 @@ class ReadyJobs {
     };
 
     void add(const Key& key, void* job);
-    // Replaces a key in one step, so that a station whose only job is merged keeps its turn.
+    // Replaces a key in one step, so that a station keeps its turn when its only job is merged.
     void replace(const Key& old, const Key& key, void* job);
     void remove(const Key& key);
     // Returns the next job of a station for which `may_begin` is true (null: any station), or null
-    // if there is none. Of the backlog at most most_looked_at jobs are tried.
+    // if there is none. At most most_looked_at jobs of the backlog are tried.
     using MayBegin = std::function<bool(const std::string& station)>;
     static constexpr int most_looked_at = 64;
     void* take_next(const MayBegin& may_begin = {});

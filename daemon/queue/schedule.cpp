@@ -6,7 +6,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// How long to wait if all ready jobs belong to stations that have used their share of the workers.
+// How long to wait if all ready jobs are of stations that have used up their share of the workers.
 constexpr std::chrono::milliseconds look_at_shares{50};
 
 }  // namespace
@@ -29,7 +29,7 @@ ReadyJobs::Key Schedule::key_of(const Entry& entry) {
             entry.sequence,    entry.job.station,  entry.job.closed_at.has_value()};
 }
 
-// A job that must wait for a time is kept among the delayed ones and becomes ready at that time.
+// Queues a job. If it must wait for a time, it becomes ready at that time.
 void Schedule::enqueue(Entry& entry) {
     entry.running = false;
     entry.sequence = next_sequence_++;
@@ -47,7 +47,7 @@ void Schedule::enqueue(Entry& entry) {
 Schedule::Worth Schedule::worth_of(const Job& job, std::uint64_t place) {
     int kind = 0;
     if (job.urgency == Urgency::live) kind = job.is_begun ? 3 : job.closed_at ? 2 : 1;
-    return {kind, job.newest_ns, ~place};  // of equal ones the last is dropped first
+    return {kind, job.newest_ns, ~place};  // among equal jobs, the last one is dropped first
 }
 
 void Schedule::claim(const Entry& entry) {
@@ -131,7 +131,7 @@ Offered Schedule::offer(Job job, SteadyTime now) {
     return Offered::queued;
 }
 
-// The job waits for us since `time`, and not since it first failed.
+// Sets the start of the job's wait, which is not the time of its first failure.
 void Schedule::wait_since(Entry& entry, SteadyTime time) {
     const bool was_unregistered = unregistered_.erase(entry.place) > 0;
     waiting_.erase(entry.place);

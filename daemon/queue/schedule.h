@@ -13,8 +13,8 @@
 // its own station has fewer, or of a less valuable job of its own station; otherwise it is refused.
 // The least valuable job is the one that would be served last: first the backlog, then files that a
 // scan found, then files that an event reported, then volumes that are going on, and within each
-// kind the oldest. The caller finds dropped files again by a scan, once there is room. This is pure
-// bookkeeping: the caller passes the current time.
+// kind the oldest. Once there is room, the caller finds dropped files again by a scan. This class
+// only keeps books: the caller passes the current time.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -90,7 +90,7 @@ class Schedule {
     void worked(const std::filesystem::path& path, SteadyTime::duration took, SteadyTime now,
                 bool is_good = false);
     void set_workers(int workers) { shares_.set_workers(workers); }
-    // Returns the files that had to give their places to others since the last call.
+    // Returns the files that lost their places to others since the last call.
     [[nodiscard]] std::vector<std::filesystem::path> take_displaced() {
         return std::exchange(displaced_, {});
     }
@@ -102,7 +102,7 @@ class Schedule {
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     // Returns when the next job is to be registered; none if all are registered.
     [[nodiscard]] std::optional<SteadyTime> next_unregistered_time() const;
-    // Returns since when the job that has waited longest has been waiting, of those that may run.
+    // Returns since when the longest waiting job has been waiting, among jobs that may run.
     [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
     [[nodiscard]] std::size_t waiting_count() const {
         return ready_.count() + delayed_.size() - retrying_;
@@ -152,13 +152,13 @@ class Schedule {
     std::unordered_map<std::string, Entry> entries_;
     ReadyJobs ready_;
     std::map<DelayedKey, Entry*> delayed_;
-    std::map<std::uint64_t, Entry*> waiting_;       // all that wait, by place
-    std::map<std::uint64_t, Entry*> unregistered_;  // those of them that are not registered
+    std::map<std::uint64_t, Entry*> waiting_;       // all waiting entries, by place
+    std::map<std::uint64_t, Entry*> unregistered_;  // the waiting entries that are not registered
     // the waiting jobs of each station, without those to be tried again
     std::unordered_map<std::string, std::set<Worth>> claims_;
     std::size_t retrying_ = 0;
     WorkShares shares_;
-    // nothing that is ready may begin before this time, unless more arrives
+    // no ready job may begin before this time, unless more arrives
     SteadyTime shares_looked_at_{};
     std::vector<std::filesystem::path> displaced_;
 };

@@ -25,7 +25,7 @@ class SeenFiles {
     void forget_all() { files_.clear(); }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
 
-    // Encloses a whole scan: files that are neither found nor added between the two calls are
+    // These enclose a whole scan: files that are neither found nor added between the two calls are
     // forgotten.
     void begin_scan() { ++scan_; }
     void found_again(const std::filesystem::path& path);

@@ -1,6 +1,6 @@
-// daemon/queue/sink.h -- what the service does with a file, as an interface, so that the service
-// can be tested without radar data. Thread contract: several workers call take() at once, never
-// twice at a time for one path.
+// daemon/queue/sink.h -- processes files for the service, as an interface, so that the service can
+// be tested without radar data. Thread contract: several workers call take() at once, but never for
+// the same path.
 #pragma once
 
 #include <chrono>
@@ -38,7 +38,7 @@ struct CatalogState {
     bool operator==(const CatalogState&) const = default;
 };
 
-// What a roll of the cache did, and what the cache holds now; no usage if the cache has no limits.
+// The result of a roll of the cache, and the cache's contents; no usage if the cache has no limits.
 struct CacheRolled {
     cache::RollReport report;
     std::optional<cache::StoreUsage> usage;
@@ -51,43 +51,45 @@ class Sink {
     Sink& operator=(const Sink&) = delete;
     virtual ~Sink() = default;
 
-    // An error is never the file's fault (the catalog or the cache cannot be written): the file is
-    // tried again later. After the last try the file is rejected with the reason, if that can be
-    // stored.
+    // Ingests a file. An error is never the file's fault (the catalog or the cache cannot be
+    // written); the file is tried again later. After the last try the file is rejected with the
+    // reason, if that can be stored.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) = 0;
-    // The files that were being taken when the process last ended, and how long each has to wait.
+    // Returns the files that were being ingested when the process last ended, and how long each has
+    // to wait.
     [[nodiscard]] virtual std::map<std::filesystem::path, std::chrono::seconds> waits() const {
         return {};
     }
-    // For a file that must wait: writes it into the catalog unread (stands), or marks its rows if
-    // it is gone (gone; then nothing is left to do). May run beside take() of other paths.
+    // Handles a file that must wait: writes it into the catalog unread (stands), or marks its rows
+    // if it is gone (gone; then nothing is left to do). May run beside take() for other paths.
     virtual Result<pipeline::Noted> note(const std::filesystem::path& /*path*/) {
         return pipeline::Noted::stands;
     }
-    // Tells whether more files wait than the workers can soon ingest; then optional work is left
+    // Says whether more files wait than the workers can soon ingest; then optional work is left
     // out.
     virtual void set_pressed(bool /*pressed*/) {}
-    // Functions that may take long call this from their own thread now and then, to show progress.
+    // Long functions call this now and then, from the thread that runs them, to show progress.
     using OnStep = std::function<void()>;
-    // Marks known files that are no longer there, after a scan; returns how many. May run beside
+    // Marks known files that no longer exist, after a scan. Returns how many. May run beside
     // take().
     virtual Result<int> mark_missing(const OnStep& step) = 0;
-    // Deletes rows of files that are gone and were last registered before that time; returns how
+    // Deletes rows of files that are gone and were last registered before that time. Returns how
     // many. May run beside take().
     virtual Result<int> forget_gone(UtcTime /*before*/, const OnStep& /*step*/) { return 0; }
-    // Deletes rows of files that are gone if rows take more room than they may; returns how many.
-    // May run beside take().
+    // Deletes rows of files that are gone if the rows exceed their limit. Returns how many. May run
+    // beside take().
     virtual Result<std::int64_t> roll_rows(const OnStep& /*step*/) { return 0; }
-    // The state of the catalog now. May be called beside the other functions.
+    // Returns the present state of the catalog. May be called beside the other functions.
     [[nodiscard]] virtual CatalogState catalog_state() { return {}; }
     // Keeps the cache within these limits from now on. May run beside take(); one call at a time.
     virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
         return {};
     }
-    // Fails if the catalog or the cache cannot be written now. Called until it succeeds once.
+    // Returns an error if the catalog or the cache cannot be written now. Called until it succeeds
+    // once.
     [[nodiscard]] virtual Status can_store() { return {}; }
-    // What was found damaged and mended since the last call, one line each, fit for the log. The
+    // Returns what was found damaged and repaired since the last call, one printable line each. The
     // files of the drop directory must then be offered again. May be called beside the other
     // functions.
     virtual std::vector<std::string> take_repairs() { return {}; }

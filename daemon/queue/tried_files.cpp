@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::uint64_t most_tried_bytes = std::uint64_t{1} << 20;
 
-// Files that ran together wait for each other, so that the one that ends the process does so alone.
+// Files that ran together wait for each other, so that the one that ends the process is alone then.
 constexpr std::chrono::seconds apart{10};
 
-// Takes a number and the blank behind it.
+// Reads a number and the blank behind it.
 std::optional<std::int64_t> take_number(std::string_view& text) {
     std::int64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -45,8 +45,8 @@ TriedFiles::TriedFiles(const std::filesystem::path& file) {
     write();
 }
 
-// Each entry is "ENDS RUNNING SIZE TIME PATH" and a zero; an empty entry ends the list. What makes
-// no sense is passed over.
+// Reads the list. Each entry is "ENDS RUNNING SIZE TIME PATH" and a zero; an empty entry ends the
+// list. Invalid entries are skipped.
 void TriedFiles::read(const std::string& text) {
     std::string_view rest = text;
     while (!rest.empty()) {
@@ -76,7 +76,8 @@ void TriedFiles::write() {
                             tried.stamp.size_bytes, tried.stamp.modified_ns, path);
         text += '\0';
     }
-    // A process that ends before the file is cut leaves the rest of an older, longer list.
+    // End the list with a zero: if the process ends before the file is cut, the rest of an older,
+    // longer list follows.
     text += '\0';
     const ssize_t written = ::pwrite(file_.number(), text.data(), text.size(), 0);
     if (::ftruncate(file_.number(), std::max<ssize_t>(0, written)) != 0) file_ = Descriptor{};

@@ -1,14 +1,14 @@
-// daemon/queue/work_shares.h -- how many of the workers one station may use.
+// daemon/queue/work_shares.h -- limits how many of the workers one station may use.
 //
 // A file determines how long its job takes, and a job is not interrupted. So one worker is reserved
 // for light stations. A station is light if something good came from it within the last hour (one
-// of its files was gridded or showed a sweep) and it has not used too much time. The time that its
-// jobs take is added to its debt, which decreases by a fifth of a second each second; a station
-// that owes more than two seconds is not light. All stations that are not light share all workers
-// but one. Each single station also has at most all workers but one. A single worker serves
-// everybody. So files that take long can never hold the last worker against other stations. A site
+// of its files was gridded or showed a sweep) and it has not used too much time. The time of its
+// jobs is added to its debt, which decreases by a fifth of a second each second; a station that
+// owes more than two seconds is not light. All stations that are not light share all workers but
+// one. Each single station may also use at most all workers but one. If there is only one worker,
+// it serves every station. So slow files can never keep the last worker from other stations. A site
 // of a real feed takes half a second every five minutes. All unknown stations count as one station,
-// which is never light. This is pure bookkeeping.
+// which is never light. This class only keeps books.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -30,7 +30,8 @@ class WorkShares {
     // Returns true if a job of the station (empty: no known station) may begin now.
     [[nodiscard]] bool may_begin(const std::string& station, Time now) const;
     void begun(const std::string& station, Time now);
-    // A job of the station has ended after `took`. `is_good`: something was gridded or shown.
+    // Notes that a job of the station has ended after `took`. `is_good`: something was gridded or
+    // shown.
     void ended(const std::string& station, Time::duration took, bool is_good, Time now);
 
   private:
@@ -48,7 +49,7 @@ class WorkShares {
 
     int workers_ = 1;
     std::unordered_map<std::string, Account> accounts_;
-    std::unordered_map<std::string, int> running_;   // those that have running jobs
+    std::unordered_map<std::string, int> running_;   // stations with running jobs
     std::unordered_map<std::string, Time> good_at_;  // of known stations
 };
 

@@ -28,7 +28,7 @@ struct Finished {
 
 class WorkerPool {
   public:
-    // What a worker does with a job; called from all workers.
+    // Processes a job; called from all workers.
     using Work = std::function<Result<Taken>(const Job&)>;
 
     WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake);
@@ -39,7 +39,7 @@ class WorkerPool {
     // Additional threads start at once; surplus ones end after their current job.
     void resize(int workers);
     [[nodiscard]] bool has_free_worker() const;
-    void submit(Job job);  // Call it only if a worker is free.
+    void submit(Job job);  // call it only if a worker is free
     // Returns the jobs that have ended since the last call.
     std::vector<Finished> collect();
     // Returns the file of the job that has run longest; none if all workers are idle.

@@ -9,7 +9,7 @@ namespace stormcellar::daemon {
 namespace {
 
 // Returns true if the cache protects the newest grid of the group. Stations that `any` admitted are
-// not known to be real.
+// not protected, because they may not be real.
 bool is_known_group(std::string_view group, const StationRule& stations) {
     if (cache::is_known_group(group)) return true;
     return stations.kind() == StationRule::Kind::listed && stations.knows(group);
@@ -66,7 +66,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.living.chunk_timeout = config.ingest.chunk_timeout;
     options.living.chunk_grace = config.ingest.chunk_grace;
     options.living.count = growing_;
-    // far below what the watchdog takes for a hang
+    // much less than the watchdog's limit for a hang
     options.archive_turn = std::chrono::seconds{20};
     options.living.has_time = [pressed = pressed_] { return !*pressed; };
     return options;
@@ -149,7 +149,7 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_as
     const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
-        taken.ingest.ending = pipeline::ended::Vanished{};  // another file has taken its name
+        taken.ingest.ending = pipeline::ended::Vanished{};  // another file now has its name
         return taken;
     }
     if (tried_.is_given_up(path, found.stamp)) return give_up(path, std::move(taken));

@@ -1,7 +1,7 @@
-// daemon/service/scan_times.h -- when the drop directory is scanned.
+// daemon/service/scan_times.h -- decides when the drop directory is scanned.
 //
-// Scans take at most about a tenth of the time, however often something asks for one. A regular
-// scan comes every rescan_seconds. If changes come without events, polls come between them. Thread
+// Scans take at most about a tenth of the time, however often one is requested. A regular scan
+// comes every rescan_seconds. If changes come without events, polls come in between. Thread
 // contract: one thread.
 #pragma once
 
@@ -14,8 +14,8 @@ namespace stormcellar::daemon {
 
 class ScanTimes {
   public:
-    // `is_needed`: something asks for a scan, which comes as soon as the rest after the last one is
-    // over.
+    // Returns true if a scan is due. `is_needed` requests one as soon as the rest after the last
+    // scan is over.
     [[nodiscard]] bool is_due(SteadyTime now, bool is_needed) const {
         return now >= next_ || (is_needed && now >= rested_);
     }
@@ -23,14 +23,14 @@ class ScanTimes {
     [[nodiscard]] SteadyTime next() const { return next_; }
     [[nodiscard]] SteadyTime rested() const { return rested_; }
 
-    // Tells when a scan began and ended; the next one comes after `gap`.
+    // Notes when a scan began and ended; the next one comes after `gap`.
     void scanned(SteadyTime began, SteadyTime ended, SteadyTime::duration gap) {
         const SteadyTime::duration rest = rest_factor * (ended - began);
         rested_ = ended + std::max<SteadyTime::duration>(least_gap, rest);
         next_ = std::max(ended + gap, rested_);
     }
     void set_next_regular(SteadyTime time) { next_regular_ = time; }
-    // The next scan comes at that time, if not sooner.
+    // Makes the next scan come at that time, if not sooner.
     void no_later_than(SteadyTime time) { next_ = std::min(next_, time); }
 
   private:

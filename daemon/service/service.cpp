@@ -20,11 +20,11 @@ constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
 constexpr std::chrono::seconds between_held_back{1};
 constexpr std::chrono::milliseconds between_memory_looks{250};
-// A missing drop directory is looked for this often.
+// Time between searches for a missing drop directory.
 constexpr std::chrono::seconds between_drop_looks{1};
 
-// Free memory beyond this is returned to the system. Volumes that are decoded one after the other
-// leave less, which is used again at once.
+// Returns the limit of free memory; memory beyond it is returned to the system. Volumes that are
+// decoded one after the other leave less, which is reused at once.
 constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
@@ -109,8 +109,8 @@ void Service::start() {
     if (parts_.runs_loops) loop_keeper_.set(config_.loops);
 }
 
-// Systemd ends the wait after TimeoutStartSec and starts the service again, so the machine's boot
-// does not wait for ever for a disk that does not come.
+// Waits until the service is ready. Systemd ends the wait after TimeoutStartSec and starts the
+// service again, so the machine's boot does not wait forever for a disk that does not come.
 void Service::get_ready() {
     if (!readiness_.look(parts_.clock.steady())) return;
     if (!readiness_.is_ready()) {
@@ -190,12 +190,12 @@ void Service::reload() {
                   "reload failed: {}; the service keeps its previous configuration",
                   printable(fresh.error().message));
     }
-    // A service that is not ready yet says so once it is.
+    // If the service is not ready yet, it reports READY later.
     if (readiness_.is_ready()) parts_.notifier.send("READY=1");
 }
 
 void Service::apply(const Config& fresh) {
-    const auto& [fixed, reloadable] = fresh;  // all that there is
+    const auto& [fixed, reloadable] = fresh;  // both parts of the configuration
     for (const std::string& sentence : needs_restart(fixed, fixed_))
         log_warning({Event::reload_ignored}, "reload: {}", sentence);
     if (reloadable.budgets != config_.budgets) cache_keeper_.roll_soon();
@@ -229,8 +229,8 @@ void Service::scan_if_due() {
     if (scan_times_.is_due(parts_.clock.steady(), intake_.needs_scan())) scan();
 }
 
-// Called between two parts of long work: a scan of many files takes seconds, a burst of events a
-// tenth of a second.
+// Starts waiting jobs. Called between two parts of long work: a scan of many files takes seconds, a
+// burst of events a tenth of a second.
 void Service::keep_workers_busy() {
     collect();
     start_jobs();
@@ -291,7 +291,7 @@ void Service::look_at_catalog(SteadyTime now) {
     if (catalog_trouble_.look(now, parts_.sink, status_)) status_file_.changed();
 }
 
-// Failures that come from a database in trouble are logged once, with the trouble.
+// Reports a job. Failures caused by a database in trouble are logged once, with the trouble.
 void Service::report(const Finished& finished) {
     if (!finished.taken) {
         catalog_trouble_.look_soon();

@@ -76,17 +76,18 @@ class Service {
     // `config_file` is read again on SIGHUP.
     Service(const Config& config, std::filesystem::path config_file, ServiceParts parts);
 
-    // Call it before run(), with a station of the catalog and its newest volume.
+    // Notes a station of the catalog with its newest volume. Call it before run().
     void know_station(const std::string& station, UtcTime newest_volume);
     Stopped run();
     void request_stop();
     // Returns true if no file waits, so that other work may begin. May be called from any thread.
     [[nodiscard]] bool is_idle() const { return idle_; }
-    // Reports how two sites differ to the log and the status. May be called from any thread.
+    // Reports the differences between two sites to the log and the status. May be called from any
+    // thread.
     void sites_compared(pipeline::PairReport report);
-    // Call it before run(): adds a check that must succeed before READY.
+    // Adds a check that must succeed before READY. Call it before run().
     void need(Readiness::Check check) { readiness_.need(std::move(check)); }
-    // Call it before run(): adds a thread to be watched by the watchdog. Its pulse must exist until
+    // Adds a thread for the watchdog to check. Call it before run(); the pulse must exist until
     // run() has returned.
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
@@ -140,7 +141,7 @@ class Service {
     OthersLoops others_loops_;
     ScanTimes scan_times_;
     SteadyTime next_held_back_{}, next_memory_look_{};
-    WorkerPool pool_;  // at the end: its threads, and those of the next one, use the members above
+    WorkerPool pool_;  // near the end: its threads, and the registrar's, use the members above
     WorkerPool registrar_;
     // The last members: their threads are waited for before the others are destroyed.
     RowKeeper row_keeper_;

@@ -129,8 +129,7 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
     }
 }
 
-// The metrics of this service include loops that a service of its own runs, because that service
-// serves no metrics.
+// Adds loops that another service runs to this service's metrics, because that one serves none.
 bool OthersLoops::look(SteadyTime now, const std::filesystem::path& state,
                        const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status) {
     if (now < next_) return false;

@@ -1,9 +1,8 @@
-// daemon/service/troubles.h -- troubles that may last for a while: the log reports each once when
-// it begins and once when it is over, the status as long as it lasts.
+// daemon/service/troubles.h -- troubles that may last for a while. The log reports each once when
+// it begins and once when it is over; the status shows it as long as it lasts.
 //
-// Each class remembers whether the log has reported its trouble. look() may be called at every turn
-// of the service; each class limits how often it really looks. Thread contract: the service's
-// thread.
+// Each class remembers whether the log has reported its trouble. The service may call look() at
+// every turn; each class limits how often it really checks. Thread contract: the service's thread.
 #pragma once
 
 #include <chrono>
@@ -33,7 +32,8 @@ class DropTrouble {
 // The state directory was deleted and cannot be made again.
 class StateTrouble {
   public:
-    // Returns true if it was made again: files that could not be stored meanwhile are tried again.
+    // Returns true if it was made again; files that could not be stored meanwhile are then tried
+    // again.
     bool look(SteadyTime now, StateKeeper& keeper, const std::filesystem::path& state);
 
   private:
@@ -46,14 +46,14 @@ class CatalogTrouble {
   public:
     // Returns true if the status changed.
     bool look(SteadyTime now, Sink& sink, StatusBook& status);
-    // Lets the next look() look at once, because a file could not be stored.
+    // Makes the next look() check at once, because a file could not be stored.
     void look_soon() { next_ = {}; }
 
   private:
     SteadyTime next_{};
 };
 
-// More files come than the service can ingest. While that lasts the log says so once a minute.
+// More files come than the service can ingest. While that lasts, the log says so once a minute.
 class BacklogTrouble {
   public:
     void look(SteadyTime now, const Intake& intake, StatusBook& status);

@@ -27,7 +27,7 @@ bool is_port(std::string_view text) noexcept {
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Checks every Host field: a client that sends two may mean either.
+// Checks every Host field, because a client that sends two may mean either.
 MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
     if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
         !is_loopback_host(value == nullptr ? "" : value)) {
@@ -37,7 +37,7 @@ MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const c
 }
 
 bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
-    if (!port) return false;  // whoever may open a Unix socket is not a web page
+    if (!port) return false;  // web pages cannot open a Unix socket
     bool are_ours = true;
     MHD_get_connection_values(connection, MHD_HEADER_KIND, &look_at_host, &are_ours);
     return !are_ours;
@@ -54,7 +54,7 @@ bool is_loopback_host(std::string_view host) noexcept {
     return false;
 }
 
-// The functions that libmicrohttpd calls, always from within turn() or the destructor.
+// The callbacks of libmicrohttpd, which are always called from within turn() or the destructor.
 struct HttpListener::Callbacks {
     static MHD_Result answer(void* self, MHD_Connection* connection, const char* url,
                              const char* method, const char* /*version*/, const char* /*data*/,
@@ -122,8 +122,8 @@ std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
     return next;
 }
 
-// A client that asks is answered at once, so the connections that have been open longest ask for
-// nothing.
+// Makes room. Requests are answered at once, so the connections that have been open longest have no
+// request.
 void HttpListener::make_room() {
     const auto stands = [](const auto& one) { return !one.second.is_cut; };
     const auto standing = std::count_if(open_.begin(), open_.end(), stands);
@@ -139,7 +139,7 @@ void HttpListener::make_room() {
 }
 
 void HttpListener::turn(SteadyTime now) {
-    // We shut the connections down; libmicrohttpd sees their end and closes them.
+    // Shut the connections down; libmicrohttpd notices their end and closes them.
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.ends > now) continue;
         ::shutdown(open.descriptor, SHUT_RDWR);

@@ -1,4 +1,4 @@
-// daemon/status/http_listener.h -- one address at which pages are requested, by libmicrohttpd.
+// daemon/status/http_listener.h -- serves pages at one address, with libmicrohttpd.
 //
 // Used only inside the daemon room, by status_server.h. Everything happens in turn(), which never
 // waits: the caller polls descriptor() until next_time() at most.
@@ -23,13 +23,13 @@ struct MHD_Response;
 
 namespace stormcellar::daemon {
 
-// Whether `host`, the value of a Host field, is 127.0.0.1, localhost (in any case) or [::1], with
-// nothing behind it or ":" and a port. Any port: at the other end of a tunnel it is another one,
-// and no page can give the names of loopback addresses to itself.
+// Returns true if `host`, the value of a Host field, is 127.0.0.1, localhost (in any case) or
+// [::1], alone or with ":" and a port. Any port is accepted, because a tunnel may have another port
+// at its other end and a web page cannot use the names of loopback addresses for itself.
 //
 // A page of the web may give its own name the address 127.0.0.1 (DNS rebinding). A browser then
-// takes what is answered there for that page's own data and hands it over. It sends the page's name
-// as Host, so whoever answers only names of the loopback addresses tells such a page nothing.
+// takes the answers for that page's own data and hands them over. It sends the page's name as Host,
+// so a server that answers only the names of loopback addresses tells such a page nothing.
 [[nodiscard]] bool is_loopback_host(std::string_view host) noexcept;
 
 class HttpListener {
@@ -37,9 +37,9 @@ class HttpListener {
     struct Request {
         const char* method;
         const char* url;
-        // On a port: a Host field is not one of is_loopback_host(). A request without the field is
-        // accepted: HTTP/1.0 allows it, and browsers, whose pages this check is against, always
-        // send one.
+        // True if, on a port, a Host field is not a name of is_loopback_host(). A request without
+        // the field is accepted: HTTP/1.0 allows it, and browsers, against whose pages this check
+        // is made, always send it.
         bool names_another_host;
     };
     // The answer to a request, and its HTTP status.
@@ -64,8 +64,8 @@ class HttpListener {
     [[nodiscard]] int descriptor() const { return epoll_; }
     // Returns when turn() is due even if nothing arrives; none: never.
     [[nodiscard]] std::optional<SteadyTime> next_time(SteadyTime now) const;
-    // Accepts, reads, answers and ends connections as far as possible without waiting. If three
-    // quarters of the allowed connections are open, the oldest one is ended for each new one.
+    // Accepts, reads, answers and closes connections as far as possible without waiting. If three
+    // quarters of the allowed connections are open, each new one closes the oldest.
     void turn(SteadyTime now);
 
   private:
@@ -85,7 +85,7 @@ class HttpListener {
     Answerer answerer_;
     std::map<MHD_Connection*, Open> open_;
     std::uint64_t changes_ = 0;  // number of connections opened or closed
-    bool is_behind_ = false;  // the last turn ended before everything that had arrived was handled
+    bool is_behind_ = false;     // the last turn ended with work left
     MHD_Daemon* daemon_ = nullptr;
     int epoll_ = -1;
 };

@@ -1,10 +1,10 @@
 // daemon/status/listening_socket.h -- the address at which the status is served: a Unix socket or a
 // loopback port, and never another address.
 //
-// A Unix socket has mode 0660, minus the umask of the thread that opens it, from the moment at
-// which it exists: nothing is changed by name afterward, which could follow a link in its place. A
-// socket that a killed daemon left at the path is removed, but only if nobody answers there;
-// anything else at the path is an error.
+// A Unix socket has mode 0660, minus the umask of the thread that opens it, from its creation on;
+// its mode is never changed by name, which could follow a link in its place. If a killed daemon
+// left a socket at the path, it is removed, but only if no program answers there; anything else at
+// the path is an error.
 //
 // Threads   One thread at a time.
 // Errors    bad_argument (a path of more than 107 bytes), permission, not_found (no such
@@ -35,11 +35,11 @@ class ListeningSocket {
     ~ListeningSocket();
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    // none: it is a Unix socket
+    // none for a Unix socket
     [[nodiscard]] std::optional<int> port() const { return port_; }
     // for a Unix socket: the permissions that it has
     [[nodiscard]] mode_t mode() const { return mode_; }
-    // Returns false if somebody removed or replaced the path.
+    // Returns false if the path was removed or replaced.
     [[nodiscard]] bool still_stands() const;
 
   private:

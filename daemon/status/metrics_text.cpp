@@ -173,8 +173,8 @@ void write_station_files(MetricsWriter& out, PerStation& each) {
         });
 }
 
-// The newest data of any station. If nothing has arrived, the start of the service, so that a feed
-// that is dead from the start also counts as silent.
+// Returns the time of the newest data of any station. If nothing has arrived, this is the start of
+// the service, so that a feed that is dead from the start also counts as silent.
 UtcTime last_data(const StatusFacts& facts) {
     std::optional<UtcTime> last;
     for (const auto& [station, state] : facts.stations.stations())

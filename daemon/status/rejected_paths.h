@@ -1,5 +1,5 @@
-// daemon/status/rejected_paths.h -- which files were already rejected, and why, so that a file that
-// is ingested again and again (for example each time something is appended) is counted and logged
+// daemon/status/rejected_paths.h -- remembers which files were rejected and why, so that a file
+// that is ingested repeatedly (for example each time something is appended) is counted and logged
 // once.
 //
 // Two reasons are the same if the kind of error is the same and the texts differ only in their

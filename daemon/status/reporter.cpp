@@ -143,7 +143,8 @@ void Reporter::report_directory(const Error& error) {
         is_blind ? "; the service polls the drop directory instead ([watch] poll_seconds)" : "");
 }
 
-// In clear air nothing can be determined, and that is not worth a line every hour.
+// Reports on two sites. In clear air nothing can be determined, which is not worth a line every
+// hour.
 void Reporter::report_sites(const pipeline::PairReport& report) {
     const About compared{
         .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};

@@ -11,8 +11,8 @@
 
 namespace stormcellar::daemon {
 
-// Returns the line for a job that ended, with names escaped, and what it is about; also used by
-// tests.
+// Returns the line for a job that ended, with its subject and with names escaped; tests use it,
+// too.
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
@@ -24,7 +24,7 @@ class Reporter {
     static void report(const Finished& finished, Named named = Named::not_yet);
     // Reports a directory that cannot be watched or read.
     static void report_directory(const Error& error);
-    // Reports in what two sites of a mosaic disagree: a warning for each fault.
+    // Reports the differences between two sites of a mosaic: a warning for each fault.
     static void report_sites(const pipeline::PairReport& report);
 };
 

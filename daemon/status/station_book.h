@@ -1,14 +1,14 @@
-// daemon/status/station_book.h -- what arrived from each station: when, how fast, and what was
-// wrong.
+// daemon/status/station_book.h -- records for each station when data arrived, how fast, and what
+// was wrong.
 //
 // Times are of two clocks. The radar's clock gives the start of a volume and its newest radial;
-// times more than 10 minutes ahead of our clock do not count. Our clock gives when data were last
-// seen and when a volume was last put into the cache.
+// times more than 10 minutes ahead of this machine's clock do not count. This machine's clock gives
+// when data were last seen and when a volume was last put into the cache.
 //
 // antenna_to_cache is the time from the newest radial of a volume to its grids in the cache. Only
-// values that can be those of live data (at most an hour old, not more than 10 minutes ahead) enter
-// the timings. Others, for example of old data that are replayed, are only counted, and the last
-// one is kept unchanged.
+// values that may be of live data (at most an hour old, not more than 10 minutes ahead) enter the
+// timings. Others, for example of old data that are replayed, are only counted, and the last value
+// is kept unchanged.
 //
 // Memory is bounded however many stations the files claim: beyond `most_stations` a new station is
 // left out, and its files are counted.
@@ -47,9 +47,9 @@ struct StationState {
     std::uint64_t partial = 0;             // gridded files whose volume was not complete
     Timings close_to_cache{128};
     std::uint64_t living = 0;      // grids of volumes that had not ended, counted each time
-    Timings close_to_living{128};  // from the close with which a sweep was complete to its grid
+    Timings close_to_living{128};  // from the close of the file that completed a sweep to its grid
     Timings antenna_to_cache{128};
-    std::optional<double> last_antenna_s;  // also if it is not live
+    std::optional<double> last_antenna_s;  // the last value, even if it is not live
     std::uint64_t not_live = 0;            // volumes that antenna_to_cache leaves out
     std::uint64_t missing_chunks = 0;
     std::deque<MissingChunks> missing;  // the last 8 volumes with missing chunks, oldest first
@@ -69,8 +69,8 @@ class StationBook {
     // that never came, once the service gives up waiting for them.
     void add_data(const std::string& station, UtcTime at);
     void add_missing_chunks(const std::string& station, MissingChunks missing);
-    // Adds what was known before the start: the newest volume of the catalog. So a restart does not
-    // forget a station that fell silent, unless it has been silent for more than a week.
+    // Adds a fact from before the start: the newest volume of the catalog. So a restart does not
+    // forget a silent station, unless it has been silent for more than a week.
     void add_known(const std::string& station, UtcTime newest_volume, UtcTime now);
 
     [[nodiscard]] const std::map<std::string, StationState>& stations() const { return stations_; }
@@ -86,7 +86,7 @@ class StationBook {
 // Returns the seconds from the newest radial of the volume to `at`; none if no radial has a time.
 [[nodiscard]] std::optional<double> antenna_latency_of(const pipeline::IngestOutcome& outcome,
                                                        UtcTime at);
-// Returns true if such a latency can be that of live data.
+// Returns true if such a latency may be that of live data.
 [[nodiscard]] bool is_live(double antenna_latency_s);
 
 }  // namespace stormcellar::daemon

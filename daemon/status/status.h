@@ -41,7 +41,7 @@ struct RecentVolume {
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
 };
 
-// A file whose volume has no end and to which nothing is added.
+// A file whose volume has no end and that no longer grows.
 struct WaitingFile {
     std::string file;
     double left_s = 0;  // until it is ingested as it is
@@ -62,7 +62,7 @@ struct StatusFacts {
     std::string state = "starting";
     std::uint64_t ingested = 0, grids = 0, partial = 0, failures = 0;
     PerResult<std::uint64_t> results{};      // files
-    PerErrorCode<std::uint64_t> rejected{};  // of results: by what was wrong with the file
+    PerErrorCode<std::uint64_t> rejected{};  // of the rejected results: by the fault of the file
     PerErrorCode<std::uint64_t> failed{};    // of failures: by their cause
     std::uint64_t overflows = 0, scans = 0;
     std::uint64_t unseen = 0;  // entries that could not be looked at when an event reported them
@@ -71,18 +71,19 @@ struct StatusFacts {
     std::vector<WaitingFile> waiting_files;  // of the growing files, the soonest first
     std::uint64_t lone_chunks = 0;  // files that look like one chunk but are not named like one
     std::uint64_t not_kept = 0;     // files of which the cache keeps nothing, because of its limits
-    std::uint64_t living_left_out = 0;  // living grids, for lack of time
-    std::uint64_t given_up = 0;         // growing volumes, for lack of room; they are read again
+    std::uint64_t living_left_out = 0;  // living grids that were skipped because there was no time
+    std::uint64_t given_up = 0;         // growing volumes given up because there was no room; they
+                                        // are read again
     std::optional<cache::StoreUsage> usage;
     CatalogState catalog;
     std::vector<LoopState> loops;
     std::vector<LoopState> others_loops;  // those that another process keeps (others_loops.h)
     Timings close_to_cache{4096};
     std::uint64_t living = 0;          // grids of volumes that had not ended, counted each time
-    Timings close_to_living{4096};     // from the chunk with which a sweep was complete
+    Timings close_to_living{4096};     // from the close of the chunk that completed a sweep
     Timings antenna_to_cache{4096};    // of data that can be live
-    std::uint64_t not_live = 0;        // volumes that it leaves out
-    std::deque<RecentVolume> volumes;  // the last 64, oldest first; so is the next
+    std::uint64_t not_live = 0;        // volumes that antenna_to_cache leaves out
+    std::deque<RecentVolume> volumes;  // the last 64, oldest first, as in the next member
     std::deque<RejectedFile> rejected_files;  // each path once
     StationBook stations;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
@@ -105,7 +106,7 @@ class StatusBook {
     void count_scan() { ++facts_.scans; }
     void set_directories(std::size_t watched) { facts_.directories = watched; }
     void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }
-    // Returns true if they are others than before.
+    // Returns true if they have changed.
     bool set_unreadable(const Unreadable& directories);
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);
@@ -141,8 +142,8 @@ class StatusBook {
                                      UtcTime started, UtcTime now);
 [[nodiscard]] std::string loops_line(const std::vector<LoopState>& loops);
 
-// Returns the seconds from the last close that was seen to the end of the job; none if none was
-// seen.
+// Returns the seconds from the file's last close that was seen to the end of the job; none if no
+// close was seen.
 [[nodiscard]] std::optional<double> latency_of(const Finished& finished);
 
 }  // namespace stormcellar::daemon

@@ -1,4 +1,4 @@
-// daemon/status/status_board.h -- the status as it was last published, for other threads.
+// daemon/status/status_board.h -- holds the last published status for other threads.
 //
 // The service posts a copy at most once a second. Readers render pages from that copy in their own
 // thread, so that requests, however many, cost the service nothing.

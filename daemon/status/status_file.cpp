@@ -17,7 +17,7 @@ StatusFile::StatusFile(FileSystem& file_system, const std::filesystem::path& sta
       notifier_(notifier) {}
 
 Status StatusFile::write(const std::string& text) {
-    (void)file_system_.remove(temporary_);  // left by a daemon that was killed in between
+    (void)file_system_.remove(temporary_);  // left by a daemon that was killed while writing
     const Result<int> descriptor = file_system_.create_exclusive(temporary_);
     if (!descriptor) return pass_on(descriptor);
     Status written = file_system_.write_at(*descriptor, 0, std::as_bytes(std::span{text}));
@@ -40,7 +40,7 @@ bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyT
                   printable(written.error().message));
     }
     failing_ = !written;
-    changed_ = failing_;  // to be tried again
+    changed_ = failing_;  // try again
     return true;
 }
 

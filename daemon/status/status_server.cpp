@@ -42,8 +42,8 @@ ResponsePointer response_of(std::string_view text, const char* type) {
 
 constexpr const char* plain = "text/plain; charset=utf-8";
 
-// The umask of the service is meant for its files and would keep the group from the socket. This
-// thread makes nothing else and gets a umask of its own. If the system refuses that, the socket is
+// Gives this thread, which creates nothing else, its own umask. The service's umask is meant for
+// its files and would keep the group from the socket. If the system refuses, the socket is
 // restricted by the umask, and Worker::open() reports it.
 void take_own_umask() {
     if (::unshare(CLONE_FS) == 0) ::umask(0117);
@@ -76,7 +76,7 @@ class StatusServer::Worker {
     struct Address {
         std::string name;
         std::function<Result<ListeningSocket>()> listen;
-        bool may_lack = false;  // a machine without IPv6 is no error
+        bool may_lack = false;  // not an error on a machine without IPv6
         std::unique_ptr<HttpListener> listener = nullptr;
         bool failing = false;   // logged once, until it works again
         bool hopeless = false;  // not tried again

@@ -39,7 +39,7 @@ struct StatusServerOptions {
     int http_port = 0;             // 0: none
     std::chrono::milliseconds retry{15'000};
     std::chrono::milliseconds longest_connection{10'000};
-    // how long a page is served again before it is rendered anew
+    // how long a page is served before it is rendered anew
     std::chrono::milliseconds freshness{200};
     unsigned most_connections = 32;  // of each address
 };
@@ -56,8 +56,8 @@ class StatusServer {
     StatusServer& operator=(const StatusServer&) = delete;
     ~StatusServer();
 
-    // Returns ok if every address is served, apart from those that never can be; else the problem
-    // of the first that is not. May be called from any thread.
+    // Returns ok if every address is served, apart from those that never can be; else the first
+    // problem. May be called from any thread.
     [[nodiscard]] Status answers() const;
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 

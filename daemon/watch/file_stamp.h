@@ -1,4 +1,4 @@
-// daemon/watch/file_stamp.h -- tells whether a raw file has changed, without reading it.
+// daemon/watch/file_stamp.h -- detects whether a raw file has changed, without reading it.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -15,7 +15,7 @@ struct FileStamp {
     std::uint64_t inode = 0;
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;  // since the epoch
-    // of the last change of rights or owner: shows that an unreadable file was repaired
+    // last change of rights or owner, which shows that an unreadable file was repaired
     std::int64_t changed_ns = 0;
 
     bool operator==(const FileStamp&) const = default;
@@ -30,8 +30,8 @@ struct FileFound {
     FileStamp stamp;
     mode_t mode = 0;
 };
-// A path that we may not look at counts as missing. A path that cannot be looked at now, for
-// example because there are no descriptors left, is unknown.
+// Returns what exists at the path. A path that may not be examined counts as missing. A path that
+// cannot be examined now, for example because descriptors have run out, is unknown.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
 // Does the same below a directory: a path behind a symbolic link counts as missing, too
 // (base/beneath.h).

@@ -36,12 +36,12 @@ ErrorCode code_of(int error_number) {
     }
 }
 
-// Returns for example "fs.inotify.max_user_watches (16384 now)": the smallest of the limits that
-// apply to the user. `name` has no "max_".
+// Returns, for example, "fs.inotify.max_user_watches (16384 now)": the smallest of the limits that
+// apply to the user. `name` is given without "max_".
 std::string limit_named(std::string_view name) {
     std::string least_name = fmt::format("fs.inotify.max_{}", name);
     std::optional<std::uint64_t> least;
-    // The second one applies to the users of a container.
+    // The second limit applies to the users of a container.
     const std::string_view kind = name.substr(name.find('_') + 1);
     for (const std::string& sysctl :
          {fmt::format("fs.inotify.max_{}", name), fmt::format("user.max_inotify_{}", kind)}) {
@@ -93,7 +93,7 @@ class Inotify final : public EventSource {
             inotify_event event{};
             std::memcpy(&event, buffer.data() + at, sizeof event);
             const char* name = buffer.data() + at + sizeof event;
-            // The name is padded with zeros to `len` bytes.
+            // The kernel pads the name with zeros to `len` bytes.
             events.push_back({event.wd, event.mask, {name, ::strnlen(name, event.len)}});
             at += sizeof event + event.len;
         }

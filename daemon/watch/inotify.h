@@ -1,4 +1,4 @@
-// daemon/watch/inotify.h -- what the kernel reports about directories, behind an interface so that
+// daemon/watch/inotify.h -- the kernel's reports about directories, behind an interface so that
 // tests can force rare cases: an overflowing queue, no watches left.
 //
 // Threads   One thread at a time.
@@ -31,12 +31,12 @@ class EventSource {
     // readable when events are waiting; -1: nothing to poll
     [[nodiscard]] virtual int descriptor() const = 0;
     // Watches a directory and returns the number of the watch; a directory that is already watched
-    // keeps its number. "DIR/." may be reached through a link, DIR itself may not be one. Errors:
-    // no_space when the system's limit of watches is reached; not_found, permission, io.
+    // keeps its number. "DIR/." may go through a link, DIR itself may not be one. Errors: no_space
+    // when the system's limit of watches is reached; not_found, permission, io.
     virtual Result<int> watch(const std::filesystem::path& directory) = 0;
     virtual void unwatch(int watch) = 0;
     // Returns why changes in the directory may come without events, so that it must be polled; none
-    // if all are reported. An empty text: the reason was given before.
+    // if all are reported. An empty text means that the reason was given before.
     virtual std::optional<std::string> silence(const std::filesystem::path& /*directory*/) {
         return std::nullopt;
     }
@@ -48,8 +48,8 @@ class EventSource {
 // Fails if the system has no inotify instance left; the message names the sysctl.
 [[nodiscard]] Result<std::unique_ptr<EventSource>> open_inotify();
 
-// Has no events at all: every directory is silent and must be polled. Used when open_inotify()
-// fails.
+// Returns a source without events: every directory is silent and must be polled. Used when
+// open_inotify() fails.
 [[nodiscard]] std::unique_ptr<EventSource> no_events();
 
 }  // namespace stormcellar::daemon

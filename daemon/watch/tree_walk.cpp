@@ -59,7 +59,7 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     if (directory) {
         (void)walk_entries(directory.get(), path, depth, visitor);
     } else if (errno != ENOENT && errno != ENOTDIR &&
-               errno != ELOOP) {  // it went meanwhile: no problem
+               errno != ELOOP) {  // it was removed meanwhile, which is not a problem
         const int error_number = errno;
         visitor.problem(path, {code_of(error_number),
                                fmt::format("{}: {}", path.native(), reason_of(error_number))});
@@ -69,7 +69,7 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     }
 }
 
-// Reports once for a directory what makes some of its names unusable.
+// Reports, once for a directory, why some of its names cannot be used.
 class NameProblem {
   public:
     NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)
@@ -125,7 +125,7 @@ bool walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
     }
 }
 
-// A mount keeps a directory after it was deleted; then it has no link.
+// Returns true if the directory was deleted. A mount keeps it, but it then has no link.
 bool is_deleted(DIR* directory) {
     struct stat facts {};
     return ::fstat(::dirfd(directory), &facts) == 0 && facts.st_nlink == 0;

@@ -40,9 +40,10 @@ struct WalkVisitor {
     std::function<void()> step = {};
 };
 
-// `depth` is the depth of the root below the directory from which depth is counted; a root of depth
-// 0 may itself be a link. Errors: not_found, permission or io if the root itself cannot be read;
-// io also if it was deleted and lives on in a mount alone, where nothing will ever come.
+// Walks a tree. `depth` is the depth of the root below the directory from which depth is counted; a
+// root of depth 0 may itself be a link. Errors: not_found, permission or io if the root cannot be
+// read; io also if it was deleted and only a mount keeps it, so that nothing will ever appear
+// there.
 [[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor,
                           int depth = 0);
 

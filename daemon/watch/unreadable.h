@@ -1,4 +1,4 @@
-// daemon/watch/unreadable.h -- directories that the service cannot read, and what may help.
+// daemon/watch/unreadable.h -- directories that the service cannot read, and possible remedies.
 //
 // Threads   A plain value and a pure function.
 #pragma once
@@ -24,9 +24,9 @@ struct Unreadable {
     [[nodiscard]] bool operator==(const Unreadable&) const = default;
 };
 
-// Returns what makes a directory readable to the service, as the end of a sentence. Empty: nothing
-// is known that helps. The first is for the drop directory, which the unit may hide (ProtectHome=);
-// the second for directories in it, for which a group is missing.
+// Returns how to make a directory readable to the service, as the end of a sentence; empty if no
+// remedy is known. The first function is for the drop directory, which the unit may hide
+// (ProtectHome=); the second is for directories in it, for which a group is missing.
 [[nodiscard]] std::string remedy_for(const std::filesystem::path& drop, ErrorCode code);
 [[nodiscard]] std::string remedy_below(ErrorCode code);
 

@@ -17,9 +17,9 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr int events_a_step = 32;
-// Limit of the time that directories that came or went may take from the thread; a tenth of real
-// time is paid back. Beyond the limit they are left to the next scan, which rests after each look
-// for as long as the look took.
+// Limit of the thread's time for directories that come or go; a tenth of real time is paid back.
+// Beyond the limit they are left to the next scan, which rests after each look for as long as the
+// look took.
 constexpr double most_owed_s = 0.2;
 constexpr double paid_back_each_second = 0.1;
 
@@ -76,7 +76,7 @@ void Watcher::report_problem(const std::filesystem::path& directory, const Error
             std::min(problem.message.size(), directory.native().size() + std::size(": ") - 1));
         unreadable_.add(directory, reason + remedy);
     }
-    // The codes `unsupported` and `no_space` are for directories that are not watched.
+    // The codes `unsupported` and `no_space` are reserved for directories that are not watched.
     const ErrorCode code =
         problem.code == ErrorCode::permission ? ErrorCode::permission : ErrorCode::io;
     listener_.directory_problem({code, problem.message + remedy});
@@ -92,18 +92,18 @@ void Watcher::look_for_silence(const std::filesystem::path& directory) {
 
 void Watcher::add_watch(const std::filesystem::path& directory) {
     look_for_silence(directory);
-    // The drop directory itself may be reached through a link.
+    // The drop directory itself may be a link.
     const Result<int> watch = events_.watch(directory == drop_ ? drop_ / "." : directory);
     if (!watch) {
-        // A directory that vanished in the meantime is no problem, and one that may not be read is
-        // reported by the walk.
+        // A directory that vanished in the meantime is not a problem, and the walk reports a
+        // directory that may not be read.
         const ErrorCode code = watch.error().code;
         if (code == ErrorCode::not_found || code == ErrorCode::permission) return;
         ++unwatched_;
         if (!std::exchange(told_unwatched_, true)) listener_.directory_problem(watch.error());
         return;
     }
-    // A directory that was renamed keeps its watch, and a name may now belong to another directory.
+    // A renamed directory keeps its watch, and a name may now belong to another directory.
     const std::string& path = directory.native();
     if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second.path != path) {
         watch_of_.erase(old->second.path);
@@ -173,7 +173,7 @@ void Watcher::handle(const DirectoryEvent& event) {
         return;
     }
     const auto found = path_of_.find(event.watch);
-    if (found == path_of_.end()) return;  // an event from before its watch was removed
+    if (found == path_of_.end()) return;  // an event from before the watch was removed
     const std::filesystem::path directory = found->second.path;
     if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0 && directory == drop_) {
         unwatch_tree(drop_);
@@ -200,7 +200,7 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
     owed_at_ = began;
     const bool has_time = owed_s_ < most_owed_s;
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
-        // Otherwise its watches are removed by the next scan, or with the directory.
+        // Otherwise the next scan removes its watches, or they end with the directory.
         if (has_time) unwatch_tree(path);
         listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {

@@ -53,11 +53,11 @@ class WatchListener {
     // An entry is neither file nor directory; `kind` names it ("a FIFO"). Reported again by each
     // scan.
     virtual void entry_left_out(const std::filesystem::path& /*path*/, std::string_view /*kind*/) {}
-    // Directories come or go faster than they can be read. This one was left to a scan, which is
+    // Directories come or go faster than they can be read. This one is left to a scan, which is
     // needed.
     virtual void directory_unread() {}
-    // An entry that an event reported, or a directory of a scan, could not be looked at now, for
-    // example because there are no descriptors left. A scan is needed, but it is of no use at once.
+    // An entry that an event reported, or a directory of a scan, could not be examined now, for
+    // example because descriptors have run out. A scan is needed, but not at once.
     virtual void entry_unseen() {}
     // The kernel dropped events. A scan is needed.
     virtual void events_lost() = 0;
