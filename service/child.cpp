@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int lower_priority = 10;
 constexpr int first_to_go = 500;
 
-// The programs that are started get neither end.
+// A pipe. Programs that are started later inherit neither end.
 struct Pipe {
     std::array<int, 2> ends{-1, -1};
 
@@ -38,7 +38,7 @@ struct Pipe {
             if (end >= 0) ::close(end);
         }
     }
-    // Hands over the reading end, which never blocks.
+    // Returns the reading end, which never blocks, and gives up ownership.
     int take_reader() {
         ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
         return std::exchange(ends[0], -1);
@@ -103,7 +103,7 @@ Result<Child> Child::start(const fs::path& program, const std::vector<std::strin
         spawn(program, arguments, {.out = out.ends[1], .err = err.ends[1]});
     if (!started) return pass_on(started);
     const pid_t id = *started;
-    // If the service may not change these, it goes on without.
+    // If the service may not change these, the program runs without them.
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(id), lower_priority);
     std::ofstream(fmt::format("/proc/{}/oom_score_adj", id)) << first_to_go;
     // The C library's own declaration lacks its extern "C" (glibc 2.36). The descriptor is closed

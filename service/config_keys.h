@@ -1,6 +1,6 @@
-// service/config_keys.h -- keys of the configuration that more than one service has.
+// service/config_keys.h -- reads configuration keys that several services have.
 //
-// Threads   Pure functions, but for the table that they read.
+// Threads   Pure functions, except that they use the table.
 // Errors    Complaints of the table.
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace stormcellar {
 
-// Returns true for http:// or https:// with a host, without a query and without anything that a
-// request or a log should not hold.
+// Returns true for http:// or https:// with a host, without a query and without characters that do
+// not belong in a request or a log.
 [[nodiscard]] bool is_web_address(std::string_view url);
-// Reads an amount of bytes, as a number or as "20 GB"; it must be 1 MB at least.
+// Reads an amount of bytes, as a number or as "20 GB"; it must be at least 1 MB.
 void read_bytes(TomlTable& table, std::string_view key, std::uint64_t& bytes);
 // Reads [log] level.
 void read_log_level(TomlTable root, std::string& level);

@@ -23,7 +23,8 @@ constexpr std::array<LevelFacts, 4> facts_of_levels = {
 
 std::atomic<LogLevel> least_level{LogLevel::info};
 
-// systemd sets this variable where the journal takes stdout or stderr.
+// Returns true if the journal takes stderr. systemd sets this variable if it takes stdout or
+// stderr.
 bool journal_takes_stderr() {
     static const bool takes = std::getenv("JOURNAL_STREAM") != nullptr && ::isatty(2) == 0;
     return takes;
@@ -46,7 +47,7 @@ void write_log(LogLevel level, std::string_view text) {
         journal_takes_stderr()
             ? fmt::format("<{}>{}\n", facts.priority, printable(text))
             : fmt::format("{} {}: {}\n", format_utc(now_utc()), facts.name, printable(text));
-    // One write, so that lines of several threads do not mix. Nobody can be told if it fails.
+    // Use one write, so that lines of several threads do not mix. A failure cannot be reported.
     (void)!::write(STDERR_FILENO, line.data(), line.size());
 }
 

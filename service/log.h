@@ -17,7 +17,7 @@ namespace stormcellar {
 
 enum class LogLevel { debug, info, warning, error };
 
-// `name` is debug, info, warning or error. Lines below this level are not written.
+// Sets the lowest level that is written: `name` is debug, info, warning or error.
 void set_log_level(std::string_view name);
 [[nodiscard]] bool is_logged(LogLevel level);
 void write_log(LogLevel level, std::string_view text);

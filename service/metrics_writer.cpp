@@ -23,8 +23,8 @@ std::string_view word_of(MetricsWriter::Type type) {
     return "untyped";
 }
 
-// printable() leaves neither line ends nor broken UTF-8. A backslash that it wrote is escaped like
-// any other.
+// Escapes a label value. printable() leaves neither line ends nor broken UTF-8. A backslash that it
+// wrote is escaped like any other.
 std::string escaped(std::string_view text) {
     std::string result;
     for (const char letter : printable(text)) {

@@ -1,5 +1,4 @@
-// service/metrics_writer.h -- writes the text format in which Prometheus reads metrics,
-// version 0.0.4.
+// service/metrics_writer.h -- writes metrics in the text format of Prometheus, version 0.0.4.
 //
 // Families follow each other: "# HELP", "# TYPE", then the samples, one line each:
 //   name{label="value",...} 12.5
@@ -37,12 +36,12 @@ class MetricsWriter {
     // Writes a sample of a summary: median, 95th percentile and maximum (quantiles 0.5, 0.95 and 1)
     // of the last values, if there are any, and sum and count of all since the start.
     void sample(const Timings& timings, Labels labels = {});
-    // Writes a sample of a histogram with one label: how many values were at most each bound and,
-    // last in `counts`, beyond all of them; and the sum of the values.
+    // Writes a sample of a histogram with one label. `counts` has the number of values at or below
+    // each bound and, last, above all bounds; `sum` is the sum of the values.
     void sample(std::span<const double> bounds, std::span<const std::uint64_t> counts, double sum,
                 const Label& label);
 
-    // Families of one sample without labels.
+    // Write families of one sample without labels.
     void gauge(std::string_view name, std::string_view help, double value) {
         family(name, Type::gauge, help);
         sample(value);
@@ -63,7 +62,7 @@ class MetricsWriter {
     [[nodiscard]] std::string take() { return std::move(text_); }
 
   private:
-    // `extra` is one more label, after the others, if it has a name.
+    // `extra` is one more label after the others, used if it has a name.
     void line(std::string_view suffix, std::span<const Label> labels, const Label& extra,
               std::string_view value);
 

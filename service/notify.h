@@ -1,5 +1,5 @@
-// service/notify.h -- what the service tells its service manager (sd_notify(3)), and the
-// watchdog. Without a service manager, none of it does anything.
+// service/notify.h -- reports the service's state to its service manager (sd_notify(3)), and feeds
+// the watchdog. Without a service manager, it does nothing.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -34,7 +34,7 @@ class SystemdNotifier final : public Notifier {
     [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
 };
 
-// Tells the manager that the service reloads, as long as the object lives; READY=1 ends it.
+// Reports that the service reloads while the object lives; READY=1 ends it.
 class Reloading {
   public:
     explicit Reloading(Notifier& notifier);
@@ -49,9 +49,9 @@ class Reloading {
 // Returns "RELOADING=1" with the monotonic time that systemd requires (sd_notify(3)).
 [[nodiscard]] std::string reloading_state();
 
-// Decides when the watchdog is fed: four times a period, and only while no thread has been at one
-// step (pulse.h) for longer than a whole period. So a stuck thread is not hidden by the main loop,
-// which still runs. Such a step is reported once, with or without a watchdog.
+// Decides when to feed the watchdog: four times a period, and only while no thread has been at one
+// step (pulse.h) for longer than a whole period. So the main loop, which still runs, does not hide
+// a stuck thread. Such a step is reported once, with or without a watchdog.
 class WatchdogFeed {
   public:
     static constexpr std::chrono::seconds without_watchdog{180};
@@ -59,7 +59,7 @@ class WatchdogFeed {
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
     [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest = std::nullopt);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // Returns true if this step is now found to last too long and was not before.
+    // Returns true if this step now lasts too long and was not reported before.
     [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
 
   private:

@@ -1,5 +1,5 @@
-// service/program.h -- what the programs of the services have in common: answers to --help,
-// --version and wrong arguments, and errors on stderr.
+// service/program.h -- code that the programs of the services share: answers to --help, --version
+// and wrong arguments, and errors on stderr.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,16 @@ struct ServiceProgram {
     std::function<int(const ServiceArguments&)> run;
 };
 
-// Returns the exit status of a program that does nothing else. Wrong arguments give 2, with the
-// usage on stderr; an exception gives 1, with its text.
+// Runs the whole program and returns its exit status. Wrong arguments give 2, with the usage on
+// stderr; an exception gives 1, with its text.
 [[nodiscard]] int run_service(const ServiceProgram& program, int argc, char** argv);
 
-// Writes an error to stderr as that of the program. Returns the exit status of a failure, 1.
+// Writes an error to stderr in the program's name. Returns the exit status of a failure, 1.
 int complain(std::string_view program, const Error& error);
 
-// Raises the soft limit of descriptors to `wanted`, as far as the hard limit allows: 1,024 is usual
-// for the sake of old programs. If that fails, the error appears where a descriptor is missing.
+// Raises the soft limit of descriptors to `wanted`, as far as the hard limit allows. The usual
+// limit of 1,024 exists for old programs. If raising fails, the error appears later where a
+// descriptor is missing.
 void raise_descriptor_limit(std::uint64_t wanted);
 
 }  // namespace stormcellar

@@ -1,7 +1,7 @@
-// service/pulse.h -- whether the threads make progress, for the watchdog.
+// service/pulse.h -- shows the watchdog whether the threads make progress.
 //
-// A working thread reports each step; a thread that waits for work is at rest. What counts is how
-// long the current step of a thread has lasted, so long work is no hang if it has steps:
+// A working thread reports each step; a thread that waits for work is at rest. The watchdog judges
+// how long the current step of a thread has lasted, so long work is not a hang if it has steps:
 //   ingest, registration   one file (worker_pool.h)
 //   missing       the search for missing files: the names of one station, or 1,000 files
 //   cache         the rolling of the cache: one directory, or 2,048 files that are removed
@@ -9,7 +9,7 @@
 //   partials      one partial of another machine, with the frames that it changes
 //   status        one turn of the status server: it reads what has arrived and answers requests
 //   loops         one turn of the thread that starts and reads the programs of the loops
-// The thread of the main loop (service.h) is not among them: it is the one that checks.
+// The main loop's thread (service.h) is not among them, because it does the checking.
 //
 // Threads   Pulse: any thread. Pulses: one thread at a time.
 #pragma once
@@ -40,7 +40,7 @@ class Pulse {
     std::atomic<SteadyTime> since_{resting};
 };
 
-// The thread is at work as long as this object lives.
+// Marks the thread as working while this object lives.
 class AtWork {
   public:
     explicit AtWork(Pulse& pulse) : pulse_(pulse) { pulse_.beat(); }
@@ -60,9 +60,9 @@ struct Step {
 
 class Pulses {
   public:
-    // The pulse must exist as long as oldest() is called.
+    // The pulse must outlive all calls of oldest().
     void watch(std::string who, const Pulse& pulse) { all_.push_back({std::move(who), &pulse}); }
-    // Returns the step that has lasted longest; none while all are at rest.
+    // Returns the step that has lasted longest; none if all threads are at rest.
     [[nodiscard]] std::optional<Step> oldest() const;
 
   private:

@@ -1,4 +1,4 @@
-// service/signals.h -- signals as events to wait for instead of interruptions.
+// service/signals.h -- turns signals into events that a thread waits for.
 //
 // Make one object before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for this thread
 // and the threads that it starts, and ignores SIGPIPE. A signal that arrives waits for next().

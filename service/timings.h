@@ -1,9 +1,9 @@
-// service/timings.h -- how long something took, over its last times.
+// service/timings.h -- measures durations of repeated work.
 //
-// Count and sum are over all times, as the counters of a monitoring system need them. Median, 95th
-// percentile and maximum are over the last `window` values, so memory is bounded.
+// Count and sum cover all values, as monitoring systems need for counters. Median, 95th percentile
+// and maximum cover the last `window` values, so memory is bounded.
 //
-// Threads   Plain data: one thread at a time.
+// Threads   Plain data; one thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ struct LatencySummary {
     std::size_t count = 0;
     double median = 0, p95 = 0, max = 0;  // in seconds; meaningless if `count` is 0
 };
-// Percentiles are by nearest rank: the smallest value that at least this share of all values do not
-// exceed.
+// Returns the summary. Percentiles are by nearest rank: the smallest value such that at least this
+// share of all values is not greater.
 [[nodiscard]] LatencySummary summarise(std::vector<double> seconds);
 
 class Timings {

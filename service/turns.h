@@ -1,7 +1,7 @@
-// service/turns.h -- the main loop of a service whose work other threads do: a turn about once a
-// second, reloads, the watchdog, and the end.
+// service/turns.h -- the main loop of a service whose work is done by other threads: a turn about
+// once a second, reloads, the watchdog, and the end.
 //
-// Threads   One thread; the functions are called by it.
+// Threads   One thread, which calls all functions.
 #pragma once
 
 #include <chrono>
@@ -14,18 +14,18 @@ namespace stormcellar {
 
 struct ServiceTurns {
     std::function<void()> turn;
-    // Returns true if the watchdog may be fed: the service makes progress.
+    // Returns true if the service makes progress, so that the watchdog may be fed.
     std::function<bool()> is_well;
-    // Takes over the configuration. Returns false if the service cannot go on.
+    // Applies the new configuration. Returns false if the service cannot go on.
     std::function<bool()> reload;
 };
 
-// Reports READY, takes a turn each second and at each signal reloads or ends. Returns false if a
+// Reports READY and takes a turn each second. A signal makes it reload or end. Returns false if a
 // reload failed for good; else true, after SIGTERM or SIGINT, which it logs (service/log.h).
 [[nodiscard]] bool take_turns(const ServiceTurns& service, const Signals& signals,
                               Notifier& notifier);
 
-// Logs the signal that ends the service and tells the manager.
+// Logs the signal that ends the service, and reports the end to the manager.
 void say_stopping(int signal, Notifier& notifier);
 
 }  // namespace stormcellar
