@@ -1,5 +1,5 @@
-// base/added_stations.h -- the [[station]] tables of a configuration: stations that are in no
-// table. daemon/stormcellard.toml explains the keys.
+// base/added_stations.h -- reads the [[station]] tables of a configuration, which add stations to
+// the station table. daemon/stormcellard.toml explains the keys.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -15,7 +15,8 @@ namespace stormcellar {
 // Reads all [[station]] tables. Invalid ones are reported and left out.
 [[nodiscard]] std::vector<AddedStation> read_added_stations(TomlTable& root);
 
-// Says that a name has not the form of a station's: `"x" is not a station: give ...`.
+// Returns the message for a name that does not have a station's form: `"x" is not a station: give
+// ...`.
 [[nodiscard]] std::string no_station(const std::string& name);
 
 }  // namespace stormcellar

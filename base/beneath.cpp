@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A link where a directory or a file should be leads nowhere.
+// Makes the error of a failed call. A link in place of a directory or a file counts as not found.
 tl::unexpected<Error> failure(const fs::path& path, int error_number) {
     auto failed = system_failure(path.native(), error_number);
     if (error_number == ELOOP || error_number == ENAMETOOLONG)

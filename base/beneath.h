@@ -1,11 +1,11 @@
-// base/beneath.h -- reads what is below a directory, and nothing else, whatever others do to that
-// directory meanwhile.
+// base/beneath.h -- reads files below a directory, and never anything outside it, even while other
+// programs change that directory.
 //
-// A path is opened part by part from `root` down, and no part below root may be a symbolic link: a
-// directory or a file that is replaced by a link meanwhile leads nowhere. The root itself may be
-// reached through links. Mounts below it are followed. Nothing blocks, and only regular files are
-// opened for reading. With an empty root, the directories of the path may be anywhere and may be
-// links, but the file itself may not be a link.
+// A path is opened part by part from `root` down, and no part below root may be a symbolic link, so
+// replacing a directory or a file by a link leads nowhere. The root itself may be reached through
+// links. Mounts below it are followed. Nothing blocks, and only regular files are opened for
+// reading. With an empty root, the directories of the path may be anywhere and may be links, but
+// the file itself may not be a link.
 //
 // Threads   Pure functions, which read files.
 // Errors    not_found (nothing there, a part that is not a directory or is a link, a path outside
@@ -27,7 +27,7 @@
 
 namespace stormcellar {
 
-// Returns what is there. A symbolic link is not followed.
+// Returns the facts of what exists at the path. A symbolic link is not followed.
 [[nodiscard]] Result<struct stat> look_beneath(const std::filesystem::path& root,
                                                const std::filesystem::path& path);
 // Returns a descriptor of a regular file for reading. The caller must close it.

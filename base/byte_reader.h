@@ -1,4 +1,4 @@
-// base/byte_reader.h -- reads big-endian numbers from bytes that nobody has checked.
+// base/byte_reader.h -- reads big-endian numbers from untrusted bytes.
 //
 // A read past the end sets failed() and gives zero, and the reader then stays failed. So a caller
 // may read a whole structure and check once. Nothing is ever read outside the span.

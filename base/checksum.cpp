@@ -33,7 +33,7 @@ std::uint64_t Xxh3Stream::value() const {
 }
 
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous) {
-    // For a null pointer zlib returns its initial value, and an empty span may have one.
+    // zlib returns its initial value for a null pointer, which an empty span may have.
     if (bytes.empty()) return previous;
     return static_cast<std::uint32_t>(
         ::crc32_z(previous, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));

@@ -14,7 +14,7 @@ namespace stormcellar {
 // files.
 [[nodiscard]] std::uint64_t xxh3_64(std::span<const std::byte> bytes);
 
-// Computes the same for bytes that come in pieces of any size.
+// Computes the same hash for bytes that come in pieces of any size.
 class Xxh3Stream {
   public:
     Xxh3Stream();
@@ -23,15 +23,15 @@ class Xxh3Stream {
     ~Xxh3Stream();
 
     void append(std::span<const std::byte> bytes);
-    [[nodiscard]] std::uint64_t value() const;  // of all bytes up to now
+    [[nodiscard]] std::uint64_t value() const;  // of all bytes so far
 
   private:
     struct State;
     std::unique_ptr<State> state_;
 };
 
-// Returns the CRC-32 of zlib, continued from a previous value (start with 0). No bytes leave the
-// previous value as it is.
+// Returns the CRC-32 of zlib, continued from a previous value (start with 0). An empty span returns
+// the previous value.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous = 0);
 
 }  // namespace stormcellar

@@ -1,4 +1,4 @@
-// base/counted.h -- writes numbers of things as a sentence has them.
+// base/counted.h -- writes counted things, such as "2 files", for sentences.
 //
 // Threads   Pure functions.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace stormcellar {
 
-// Returns "1 file", "0 files" or "2 directories". `things` gives a plural that is not made with an
-// s.
+// Returns "1 file", "0 files" or "2 directories". `things` is the plural if it is not formed with
+// an s.
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view thing,
                                   std::string_view things = {});
 

@@ -74,8 +74,8 @@ class RealFileSystem final : public FileSystem {
     }
 };
 
-// The name is unique in this process by a counter, between the processes of a host by the process
-// id, and between the hosts that share a directory by the name of the host.
+// Returns a unique name: a counter distinguishes files of this process, the process id those of a
+// host's processes, and the host name those of hosts that share a directory.
 std::filesystem::path temporary_name(const std::filesystem::path& final_path) {
     static std::atomic<std::uint64_t> counter{0};
     return final_path.parent_path() /
@@ -102,7 +102,7 @@ Result<std::filesystem::path> file_behind(const std::filesystem::path& path) {
     return target;
 }
 
-// Puts the path before the failure of an operation on a descriptor, which knows no path.
+// Adds the path to the error of an operation on a descriptor, which does not know it.
 Status name_failure(Status status, const std::filesystem::path& path) {
     if (!status)
         status.error().message = fmt::format("{}: {}", path.native(), status.error().message);
@@ -190,7 +190,7 @@ Result<AtomicFile> AtomicFile::create(FileSystem& file_system, std::filesystem::
     std::filesystem::path temporary_path = temporary_name(final_path);
     const Result<int> descriptor = file_system.create_exclusive(temporary_path);
     if (!descriptor) {
-        // The directory is at fault, but the message has the name that the caller knows.
+        // The directory is at fault, but the message names the path that the caller knows.
         const std::string& message = descriptor.error().message;
         return fail(descriptor.error().code, "{}: cannot be created{}", final_path.native(),
                     message.substr(std::min(message.size(), message.rfind(": "))));

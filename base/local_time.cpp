@@ -8,7 +8,7 @@
 
 namespace stormcellar {
 
-// The library throws if there is no database or no such zone.
+// Converts the library's exceptions (no database, no such zone) to errors.
 Result<std::string> format_local(UtcTime time, std::string_view zone) {
     const date::time_zone* found = nullptr;
     try {

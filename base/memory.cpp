@@ -49,7 +49,7 @@ std::size_t resident_bytes() {
 
 bool give_back_freed_memory(std::size_t most_kept_bytes) {
 #ifdef __GLIBC__
-    // Memory that malloc counts as free may have been returned to the system before.
+    // malloc may count memory as free that it has already returned to the system.
     const struct mallinfo2 info = mallinfo2();
     if (resident_bytes() <= info.uordblks + info.hblkhd + most_kept_bytes) return false;
     return malloc_trim(0) != 0;

@@ -9,21 +9,21 @@
 namespace stormcellar {
 
 // Keeps freed memory for later use, up to 128 MiB at the end of each of malloc's arenas. Otherwise
-// glibc returns the arrays of each volume to the system, and those of the next volume come page by
-// page, which takes up to a tenth of the time of decoding (docs/decisions.md). This is for the
-// main() of a program that decodes one volume after another; a library leaves it to its program. It
-// does nothing with another C library.
+// glibc returns the arrays of each volume to the system and gets those of the next volume page by
+// page, which takes up to a tenth of the time of decoding (docs/decisions.md). It is meant for the
+// main() of a program that decodes one volume after another; a library leaves this to its program.
+// With another C library it does nothing.
 void keep_freed_memory();
 
-// Holds malloc to this many arenas, each of which may keep 64 MiB and more at its end for good.
-// glibc makes eight a processor, which the threads of a program that starts new ones again and
-// again come to use all. It does nothing with another C library.
+// Limits malloc to this many arenas, each of which may keep 64 MiB and more at its end for good.
+// glibc allows eight for each processor, and a program that keeps starting new threads comes to use
+// all of them. With another C library it does nothing.
 void hold_arenas(int most);
 
 // Returns all freed memory to the system if more than `most_kept_bytes` of it are resident, in
-// pieces of any size. Returns true if it did. This is for a program that runs for long, because
-// memory that many small objects have used would otherwise stay. It does nothing with another C
-// library.
+// pieces of any size. Returns true if it did. It is meant for a program that runs for long, because
+// memory that many small objects have used would otherwise stay. With another C library it does
+// nothing.
 bool give_back_freed_memory(std::size_t most_kept_bytes);
 
 // Frees the memory of an array. `values = {}` empties it and keeps its memory.

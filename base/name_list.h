@@ -9,7 +9,7 @@
 
 namespace stormcellar {
 
-// The `name` of each row: "a, b, c" or, with " or " before the last, "a, b or c".
+// Returns the `name` of each row: "a, b, c" or, with " or " before the last, "a, b or c".
 template <class Rows>
 [[nodiscard]] std::string names_in(const Rows& rows, std::string_view between = ", ",
                                    std::string_view before_last = ", ") {
@@ -23,8 +23,7 @@ template <class Rows>
     return names;
 }
 
-// True where each row's `key` member is its place in the table, so that an enumeration can index
-// it.
+// Returns true if each row's `key` is its index in the table, so that an enumeration can index it.
 template <class Rows, class Key>
 [[nodiscard]] constexpr bool is_in_order(const Rows& rows, Key key) {
     for (std::size_t i = 0; i < std::size(rows); ++i) {

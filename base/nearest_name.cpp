@@ -9,9 +9,10 @@
 namespace stormcellar {
 namespace {
 
-// A long word is no misspelling, and the distance takes time by the product of the lengths.
+// Longer words are not treated as misspellings; the time for a distance grows with the product of
+// both lengths.
 constexpr std::size_t longest_word = 80;
-// A word that differs from every name by more than this share of its letters is no misspelling.
+// A misspelling has at most one slip for this many letters of the name.
 constexpr std::size_t letters_per_slip = 3;
 
 std::string in_lower_case(std::string_view text) {
@@ -23,7 +24,7 @@ std::string in_lower_case(std::string_view text) {
 
 }  // namespace
 
-// The distance by optimal string alignment, with three rows of the table of prefixes.
+// Computes the distance by optimal string alignment, with three rows of the table of prefixes.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1);
     std::vector<std::size_t> above(b.size() + 1);
@@ -52,7 +53,7 @@ std::optional<std::string> nearest_name(std::string_view word, std::span<const s
     std::size_t least = 0;
     for (const std::string& name : names) {
         const std::size_t distance = edit_distance(wanted, in_lower_case(name));
-        if (distance >= name.size()) continue;  // nothing of the name is there
+        if (distance >= name.size()) continue;  // no letter of the name would remain
         if (distance > std::max<std::size_t>(1, name.size() / letters_per_slip)) continue;
         if (nearest && distance >= least) continue;
         nearest = name;

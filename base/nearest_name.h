@@ -1,4 +1,4 @@
-// base/nearest_name.h -- the name that a misspelled word most likely means, for messages.
+// base/nearest_name.h -- finds the name that a misspelled word most likely means, for messages.
 //
 // Threads: pure functions.
 #pragma once
@@ -11,13 +11,13 @@
 
 namespace stormcellar {
 
-// Returns how many insertions, deletions, replacements and exchanges of two neighboring bytes lead
-// from one text to the other, where no part is edited twice.
+// Returns how many insertions, deletions, replacements and exchanges of two neighboring bytes turn
+// one text into the other, where no part is edited twice.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// Returns the nearest of the names, whatever the case of their letters. None: no name is near, as
-// more than a third of its letters, and more than one, would have to change. Of names that are
-// equally near it is the first.
+// Returns the nearest of the names, ignoring case; the first one of equally near names. Returns
+// none if for each name more than a third of its letters, and more than one letter, would have to
+// change.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,
                                                       std::span<const std::string> names);
 

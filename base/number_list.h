@@ -1,5 +1,4 @@
-// base/number_list.h -- parses numbers in a text with a separator between them: "1,2.5",
-// "0.5:16:0.5".
+// base/number_list.h -- parses numbers with a separator between them: "1,2.5", "0.5:16:0.5".
 //
 // Threads   Pure functions.
 #pragma once

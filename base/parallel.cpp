@@ -30,7 +30,7 @@ void for_each_piece(int count, int threads, const std::function<void(int)>& work
         } catch (const std::system_error&) {
             // The system has no more threads, so those that exist do the work.
         } catch (const std::bad_alloc&) {
-            // The same.
+            // The existing threads do the work in this case, too.
         }
         run();
     }

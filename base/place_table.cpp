@@ -29,7 +29,7 @@ extern const char stormcellar_places_end[];
 namespace stormcellar {
 namespace {
 
-// Takes the text up to the separator, or all of it.
+// Removes and returns the text up to the separator, or all of it.
 std::string_view take(std::string_view& text, char separator) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view taken = text.substr(0, end);
@@ -63,7 +63,7 @@ std::vector<NamedPlace> read_places() {
     return places;
 }
 
-// The letter under the accent of U+00C0 to U+00FF, whose second byte in UTF-8 this is.
+// Returns the base letter of U+00C0 to U+00FF; `second` is the second byte in UTF-8.
 char without_accent(unsigned char second) {
     static constexpr std::string_view letters =
         "aaaaaaaceeeeiiiidnooooo ouuuuytsaaaaaaaceeeeiiiidnooooo ouuuuyty";

@@ -19,7 +19,7 @@ class RateLimit {
     bool allow(SteadyTime now);
     // Returns how many lines were held back once their period is over, and starts again from zero.
     std::optional<std::uint64_t> take_held_back(SteadyTime now);
-    // Returns true if nothing is lost by deleting it: its period is over and it holds nothing back.
+    // Returns true if it may be deleted: its period is over and it holds no lines back.
     [[nodiscard]] bool is_idle(SteadyTime now) const {
         return held_back_ == 0 && now - began_ >= period_;
     }

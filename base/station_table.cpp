@@ -9,9 +9,9 @@
 namespace stormcellar {
 namespace {
 
-// The antenna altitude of a WSR-88D is ground + tower + feed horn, as one figure. For a TDWR it is
-// the height that the radar puts into message 31 as its site height. docs/data-sources.md says
-// where each figure is from, how it was checked and what is in doubt. Keep the rows sorted.
+// The antenna altitude of a WSR-88D is the sum of ground, tower and feed horn. For a TDWR it is the
+// site height that the radar writes into message 31. docs/data-sources.md lists the source, check
+// and doubts of each figure. Keep the rows sorted.
 constexpr auto stations = std::to_array<Station>({
     {"KABR", "Aberdeen", "SD", RadarKind::nexrad, 45.45583, -98.41333, 421.5},
     {"KABX", "Albuquerque", "NM", RadarKind::nexrad, 35.14972, -106.82388, 1813.9},

@@ -14,7 +14,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
     return std::chrono::duration<double>(steady_now() - start).count();
 }
 
-// Seconds from one lap to the next.
+// Measures the seconds from one lap to the next.
 class Stopwatch {
   public:
     double lap_s() {

@@ -1,4 +1,4 @@
-// base/system_error.h -- what a number in errno means to a caller.
+// base/system_error.h -- translates errno into error codes.
 //
 // Threads: pure functions.
 #pragma once
@@ -9,10 +9,10 @@
 
 namespace stormcellar {
 
-// not_found, permission, no_space or exhausted where the number says so, else io.
+// Returns not_found, permission, no_space or exhausted for the numbers that mean so, else io.
 [[nodiscard]] ErrorCode error_code_of(int error_number);
 
-// An error of that code: "WHAT: the system's own words".
+// Returns an error with that code and the message "WHAT: REASON", with the system's reason.
 [[nodiscard]] tl::unexpected<Error> system_failure(std::string_view what, int error_number);
 
 }  // namespace stormcellar

@@ -10,7 +10,8 @@ bool is_quote(char c) {
     return c == '"' || c == '\'';
 }
 
-// Returns the end of a string that begins at `from`: after its closing quotes, or at the mistake.
+// Returns the position after the string that begins at `from`: behind its closing quotes, or at an
+// error.
 std::size_t end_of_string(std::string_view toml, std::size_t from) {
     const char quote = toml[from];
     const std::string three(3, quote);
@@ -18,7 +19,7 @@ std::size_t end_of_string(std::string_view toml, std::size_t from) {
     std::size_t at = from + (has_lines ? 3 : 1);
     for (; at < toml.size(); ++at) {
         if (toml[at] == '\\' && quote == '"') {
-            ++at;  // and the character that it escapes
+            ++at;  // skip the escaped character, too
         } else if (!has_lines && (toml[at] == quote || toml[at] == '\n')) {
             return at + (toml[at] == quote ? 1 : 0);
         } else if (has_lines && toml.substr(at).starts_with(three)) {

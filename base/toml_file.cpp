@@ -47,9 +47,10 @@ bool holds_tables(const toml::node& node) {
     return array != nullptr && !array->empty() && array->is_homogeneous(toml::node_type::table);
 }
 
-// Returns how many letters must be inserted, dropped or replaced to make one text of the other.
+// Returns how many letters must be inserted, dropped or replaced to turn one text into the other.
 std::size_t edits_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> edits(b.size() + 1);  // from this much of `a` to each beginning of `b`
+    std::vector<std::size_t> edits(b.size() + 1);  // from the current prefix of `a` to each prefix
+                                                   // of `b`
     std::iota(edits.begin(), edits.end(), std::size_t{0});
     for (const char letter : a) {
         std::size_t corner = edits[0]++;
@@ -142,8 +143,8 @@ struct TomlFile::Document {
         }
     }
 
-    // A key that seems missing may be there with a misspelled name, which is then the one to
-    // report.
+    // Returns the complaint to report. If a key seems missing, it may be present under a misspelled
+    // name, which is then reported instead.
     [[nodiscard]] const Complaint& first_complaint() const {
         const Complaint& first = complaints.begin()->second;
         if (first.about != About::absent_key) return first;

@@ -1,10 +1,10 @@
-// base/toml_file.h -- reads a TOML file with checks: configurations, scenes.
+// base/toml_file.h -- reads and checks a TOML file, such as a configuration or a scene.
 //
 // Every complaint names the file, the line and the key, as in "storm.toml:12: [storm.hook]
 // width_km: must be a number, is text". Reading continues after a complaint; finish() returns the
-// one on the earliest line. For a missing key it returns an unknown key of the same table that is
-// similar, if there is one. Keys and tables that no code has read are complaints too, so that a
-// misspelled key does not silently take its default.
+// complaint with the earliest line. Instead of a missing key it reports an unknown key of the same
+// table with a similar name, if there is one. Keys and tables that no code has read are complaints
+// too, so that a misspelled key does not silently take its default.
 //
 // Threads   One thread at a time.
 // Errors    not_found, io and others from reading the file; bad_argument for its content.
@@ -30,7 +30,7 @@ class TomlTable;
 class TomlFile {
   public:
     static Result<TomlFile> open(const std::filesystem::path& file);  // at most 1 MiB
-    // `name` stands for the file in messages.
+    // `name` is the file's name in messages.
     static Result<TomlFile> parse(std::string_view text, std::string name);
     TomlFile(TomlFile&&) noexcept;
     TomlFile& operator=(TomlFile&&) noexcept;
@@ -61,13 +61,13 @@ class TomlTable {
     std::optional<std::vector<double>> numbers(std::string_view key);
     std::optional<std::vector<std::string>> texts(std::string_view key);
     std::optional<TomlTable> table(std::string_view key);  // [key]
-    TomlTable section(std::string_view key);               // the same; an absent one is empty
+    TomlTable section(std::string_view key);               // same; an absent one is empty
     std::vector<TomlTable> tables(std::string_view key);   // [[key]], in the order of the file
 
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] bool is_array(std::string_view key) const;
     [[nodiscard]] bool is_text(std::string_view key) const;
-    // Takes the key as read: it, and all below it, is for another program, which checks it.
+    // Marks the key, and everything below it, as read, because another program checks it.
     void leave(std::string_view key);
     // Records a complaint about the value of a key, or about the table if the key is absent.
     void complain(std::string_view key, std::string_view why);

@@ -1,5 +1,5 @@
-// base/unsynced_files.h -- a file system that does not wait for the disk, for files that can be had
-// again.
+// base/unsynced_files.h -- a file system that does not wait for the disk, for files that can be
+// made or fetched again.
 //
 // Threads   Those of the file system behind it.
 #pragma once

@@ -101,7 +101,7 @@ class AtomicFile {
 inline constexpr std::uint64_t default_read_limit = std::uint64_t{1} << 30;
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                                        std::uint64_t limit = default_read_limit);
-// Reads a file that is open already. The path is used in messages.
+// Reads a file that is already open. The path is used in messages.
 [[nodiscard]] Result<std::vector<std::byte>> read_open_file(int descriptor,
                                                             const std::filesystem::path& path,
                                                             std::uint64_t limit);

@@ -1,7 +1,7 @@
-// stormcellar/base/number_range.h -- the numbers that a setting may be.
+// stormcellar/base/number_range.h -- the allowed range of a numeric setting.
 //
-// A range is stated once, beside the setting that it is for. What checks the setting, and what
-// prints the range for a user, both take it from there (render/scene.h has an example).
+// A range is stated once, beside its setting. Both the check of the setting and the help text use
+// it (render/scene.h has an example).
 // Thread contract: pure functions.
 #pragma once
 
@@ -12,7 +12,8 @@ struct NumberRange {
     double least = 0;
     double most = 0;
 
-    // The same range in a unit that is so many times as large: meters in(1000) are kilometers.
+    // Returns the same range in a unit that is this many times as large: meters in(1000) are
+    // kilometers.
     [[nodiscard]] constexpr NumberRange in(double unit) const {
         return {least / unit, most / unit};
     }

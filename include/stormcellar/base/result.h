@@ -1,4 +1,4 @@
-// stormcellar/base/result.h -- how a function says that it failed.
+// stormcellar/base/result.h -- results and errors of functions.
 //
 // Library code never logs and never throws for bad input: it returns a Result. The message of an
 // Error is one line that names the file or the value, and the reason, so that it can be shown to a
@@ -37,11 +37,12 @@ enum class ErrorCode {
     internal,      // a defect of this software
 };
 
-// Who must change something before another try can succeed.
+// The party that must change something before another try can succeed.
 enum class Cause {
-    data,           // whoever wrote the input: another try reads the same bytes
+    data,           // the writer of the input: another try reads the same bytes
     system,         // the machine or another process: another try may succeed
-    configuration,  // whoever asked for this, or set what is allowed
+    configuration,  // the caller or the configuration: something asked for is not allowed or not
+                    // possible
 };
 
 // Returns the usual cause of a code; see Error::cause() for the cause of one error.
@@ -70,8 +71,8 @@ enum class Cause {
     return Cause::system;
 }
 
-// Returns true if the system itself is short of what all programs use: disk, memory, descriptors. A
-// file whose reading fails for such a reason is not to blame, however often it is tried.
+// Returns true if the system is short of a common resource: disk, memory, descriptors. If reading a
+// file fails for such a reason, the file is not to blame, however often it is tried.
 [[nodiscard]] constexpr bool is_shortage(ErrorCode code) {
     return code == ErrorCode::no_space || code == ErrorCode::exhausted;
 }
@@ -79,8 +80,7 @@ enum class Cause {
 struct Error {
     ErrorCode code = ErrorCode::internal;
     std::string message;
-    // Set where the code does not tell the cause; a function that knows more about its input sets
-    // it.
+    // Set if the code does not tell the cause, by a function that knows more about its input.
     std::optional<Cause> known_cause = std::nullopt;
 
     [[nodiscard]] Cause cause() const { return known_cause.value_or(cause_of(code)); }

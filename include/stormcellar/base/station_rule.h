@@ -1,12 +1,12 @@
-// stormcellar/base/station_rule.h -- which stations' data are accepted.
+// stormcellar/base/station_rule.h -- decides which stations' data are accepted.
 //
 // A file may claim to be from any station, and each accepted station gets a database, a domain in
 // the cache and a share of the memory and of the queue. So a station must pass this rule before it
 // gets anything. There are three rules:
 //   known   the station table, and the stations added to it (set_added_stations())
 //   any     the same, and the first `most_further` other names that are admitted
-//   listed  the listed stations alone
-// Data of all other stations are cataloged among those of no known station, and not gridded. A name
+//   listed  only the listed stations
+// Data of all other stations are cataloged with those of unknown stations, and not gridded. A name
 // is four characters, [A-Z][A-Z0-9]{3}; anything else is never accepted.
 //
 // Threads   Any thread may call every function.
@@ -41,12 +41,13 @@ class StationRule {
     [[nodiscard]] Kind kind() const { return kind_; }
     // Returns true if data of this station are accepted. Nothing is admitted.
     [[nodiscard]] bool knows(std::string_view station) const;
-    // The same, but the rule `any` admits a new name while there is room, and keeps it admitted.
+    // Does the same, but the rule `any` admits a new name while there is room, and keeps it
+    // admitted.
     [[nodiscard]] bool admits(std::string_view station);
     // Returns the further stations that `any` has admitted, sorted.
     [[nodiscard]] std::vector<std::string> further() const;
     [[nodiscard]] std::size_t most_further() const { return most_further_; }
-    // Returns true if the other rule is configured in the same way, whatever either has admitted.
+    // Returns true if the other rule has the same configuration, whatever either has admitted.
     bool operator==(const StationRule& other) const;
 
   private:

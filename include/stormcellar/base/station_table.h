@@ -1,11 +1,11 @@
-// stormcellar/base/station_table.h -- where the radars stand.
+// stormcellar/base/station_table.h -- positions of the radars.
 //
 // The table holds all NEXRAD (WSR-88D) and TDWR sites that send Level II data. It gives the
-// position of volumes that carry none, and checks the position of those that do.
+// position of volumes that carry none, and is used to check the position of those that do.
 //
 // Units     Degrees on WGS84, meters above mean sea level.
-// Threads   Any thread may call every function, but for set_added_stations(); see there.
-// Errors    None; an unknown station is none or an empty text.
+// Threads   Any thread may call every function except set_added_stations(); see there.
+// Errors    None. An unknown station gives none or an empty text.
 // Accuracy  Positions to about 0.001 degrees (100 m), altitudes as published, to about 1 m, with
 //           the exceptions named in docs/data-sources.md.
 // Source    docs/data-sources.md.
@@ -31,20 +31,20 @@ struct Station {
     double antenna_altitude_m = 0;  // of the feed horn, above mean sea level
 };
 
-[[nodiscard]] std::span<const Station> all_stations();  // the table alone, sorted by icao
+[[nodiscard]] std::span<const Station> all_stations();  // only the table, sorted by icao
 // Returns the station of this name from the table, else from the added stations, else none. The
 // name must match exactly, in upper case.
 [[nodiscard]] std::optional<Station> find_station(std::string_view icao);
 
-// Returns the station that a file name begins with, as in KTLX20240601_220000_V06, or as in NCEI's
-// names, 6500KTLX19910720_160529.Z; or else the one that a word of the name is, as in
-// Level2_KTLX_19990503_2356.ar2v and 19990503_235621_KTLX.gz, or begins with before a date. Upper
-// and lower case are alike. Returns an empty text if find_station() knows none of these, or if
-// words name different stations.
+// Returns the station at the beginning of a file name, as in KTLX20240601_220000_V06, or in NCEI's
+// names, 6500KTLX19910720_160529.Z. Otherwise it returns the station that is a word of the name, as
+// in Level2_KTLX_19990503_2356.ar2v and 19990503_235621_KTLX.gz, or that begins a word before a
+// date. Upper and lower case are alike. Returns an empty text if find_station() knows none of
+// these, or if words name different stations.
 [[nodiscard]] std::string station_in_name(std::string_view file_name);
 
-// A station that a configuration or a command line adds to the table. A station that the table has
-// already stays as it is there, unless `instead_of_table` is set.
+// A station that a configuration or a command line adds to the table. If the table already has it,
+// the table's entry stays, unless `instead_of_table` is set.
 struct AddedStation {
     std::string icao;
     std::string name;
@@ -54,8 +54,8 @@ struct AddedStation {
     bool instead_of_table = false;
     bool operator==(const AddedStation&) const = default;
 };
-// Replaces all stations added before by these. Call it before other threads ask for stations, and
-// at most once while anybody holds a station that find_station() returned.
+// Replaces all added stations by these. Call it before other threads ask for stations, and at most
+// once while any code holds a station that find_station() returned.
 void set_added_stations(std::vector<AddedStation> stations);
 
 // Returns true if a text has the form of a station's name, [A-Z][A-Z0-9]{3}. Only such names become

@@ -19,8 +19,8 @@ using UtcTime = std::chrono::sys_time<std::chrono::milliseconds>;
 
 [[nodiscard]] UtcTime now_utc();
 
-// Data that claims a later time than this after now is kept but never counts as the newest: the
-// clock of the radar, or of this machine, is wrong.
+// Data whose time is further in the future than this are kept but never count as the newest,
+// because the clock of the radar, or of this machine, is wrong.
 inline constexpr std::chrono::minutes tolerated_future{10};
 [[nodiscard]] inline bool is_believed(UtcTime time, UtcTime now) {
     return time <= now + tolerated_future;
@@ -35,7 +35,7 @@ inline constexpr std::chrono::minutes tolerated_future{10};
 // after midnight, as in ICD 2620010 section 3.2. Numbers beyond the range of a day carry over.
 [[nodiscard]] UtcTime time_from_nexrad(std::uint32_t day, std::uint32_t milliseconds);
 
-// The inverse: a day number and milliseconds. Times before 1970 give day 0 and 0 ms.
+// A day number and milliseconds, the inverse. Times before 1970 give day 0 and 0 ms.
 struct NexradTime {
     std::uint32_t day = 0;
     std::uint32_t milliseconds = 0;
