@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_left_alone_named = 5;
 
-// For a station that a user asks for. A name in lower case does not find another station.
+// Checks the station of a user's query. A name in lower case is not converted, so it finds nothing.
 Status check_asked_for(std::string_view station) {
     if (station.empty() || is_icao(station)) return {};
     return fail(ErrorCode::bad_argument,
                 "'{}' is not a station: give four capital letters or digits, as in KTLX", station);
 }
 
-// Returns when the database was last written.
+// Returns the time of the last write to the database.
 fs::file_time_type written_last(const fs::path& database) {
     fs::file_time_type newest = fs::file_time_type::min();
     for (const char* ending : {"", "-wal"}) {
@@ -72,7 +72,8 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     const bool created = fs::create_directories(directory, error);
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
     if (created) {
-        // state/catalog, usually with its parent: SQLite syncs the directory but not its name.
+        // state/catalog, usually with its parent. SQLite syncs this directory, but not its entry in
+        // the parent.
         const fs::path parent = fs::absolute(directory).lexically_normal().parent_path();
         for (const fs::path& above : {parent, parent.parent_path()}) {
             if (Status synced = real_file_system().sync_directory(above); !synced) {
@@ -82,7 +83,7 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     }
     if (!options.drop.empty()) {
         Status written = write_drop_directory(directory, options.drop);
-        // If the disk is full, readers do without it.
+        // If the disk is full, readers work without it.
         if (!written && written.error().code != ErrorCode::no_space) return pass_on(written);
     }
     if (options.stations) {
@@ -103,9 +104,9 @@ Result<CatalogReader> CatalogReader::open(fs::path directory, std::size_t most_o
     return CatalogReader(std::make_unique<Impl>(std::move(directory), std::move(options), false));
 }
 
-// Called after the path was written into the database of that name. A database that is known to
-// have a row of the path must allow its deletion. One that may have a row but cannot be read is a
-// trouble of its own station.
+// Deletes other databases' rows of the path, after it was written into the database of this name. A
+// database that is known to have a row must allow its deletion. If one may have a row but cannot be
+// read, the trouble belongs to its own station.
 Status CatalogWriter::forget_elsewhere(const fs::path& path, const std::string& name) {
     const auto home = impl().homes.exchange(path, name);
     if (home && (home->empty() || *home == name)) return {};
@@ -137,13 +138,14 @@ Status CatalogWriter::note_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!noted) {
-        // A file whose name gives no station may belong to any; it does not wait for this one.
+        // A file whose name gives no station may belong to any, so it does not wait for this
+        // database.
         const bool is_other_trouble =
             name == unknown_station && noted.error().code != ErrorCode::no_space;
         return is_other_trouble ? Status{} : pass_on(noted);
     }
     if (*noted == Registered::left_out || impl().homes.set_if_free(facts.path, name)) return {};
-    // Somebody who has read the file has registered it where it belongs in the meantime.
+    // A thread that has read the file may have registered it in the right database meanwhile.
     const auto forgotten = impl().with(name, false, [&](StationDatabase& database) {
         database.forget(facts.path);
         return true;
@@ -159,7 +161,7 @@ Result<Registered> CatalogWriter::register_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!registered) return registered;
-    // The earlier file at this path may have been of another station, or of none that was known.
+    // The earlier file at this path may have been of another station, or of an unknown one.
     if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
     if (*registered == Registered::left_out) impl().homes.forget(facts.path);
     return registered;
@@ -213,7 +215,7 @@ Result<std::optional<bool>> CatalogReader::find_settled(const fs::path& path,
     const auto home = impl().homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
     const std::string guess = home.value_or(std::string{impl().home_of(path.native())});
-    // A name without a station is no reason to open the database of files without a station.
+    // A name without a station is not a reason to open the database of unknown stations.
     const bool is_its_own = home || guess != unknown_station;
     auto guessed = is_its_own ? impl().with(guess, false, ask) : impl().with_neighbor(guess, ask);
     if (guessed && guessed->has_value()) return guessed;
@@ -296,7 +298,7 @@ Status CatalogWriter::examine(std::string_view station) {
         return station_of(each) == station;
     });
     if (name == names->end()) return {};
-    // Only a writer can finish what a crash left unfinished.
+    // Only a writer can complete what a crash interrupted.
     const auto opened = impl().with(*name, false, [](StationDatabase&) { return true; });
     if (!opened) return pass_on(opened);
     const fs::path path = impl().path_of(*name);

@@ -11,18 +11,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The number of rows of one database that are searched for strays while a new file waits: some
-// milliseconds. Larger databases are searched by mark_missing().
+// The largest number of a database's rows that are searched for strays while a new file waits; this
+// takes some milliseconds. mark_missing() searches larger databases.
 constexpr std::int64_t most_looked_through = 10'000;
 
-// A database in trouble is not tried for this long on behalf of other stations.
+// A database in trouble is not tried again within this time for other stations.
 constexpr std::chrono::seconds between_tries{10};
 
-// If a try took longer, it is not repeated within that time on behalf of its own station, either.
+// If a try took longer than this, it is not repeated within the time above for its own station,
+// either.
 constexpr std::chrono::seconds longest_try{1};
 
-// The number of databases closed when descriptors run out: enough for one to be opened, and for
-// what else the process wants to open at that time.
+// The number of databases closed when descriptors run out. It leaves descriptors to open one
+// database, and for the process's other needs at that time.
 constexpr std::size_t closed_when_out = 8;
 
 std::string summary_of(const std::vector<std::string>& damage) {
@@ -59,10 +60,10 @@ bool CatalogReader::Impl::knows(std::string_view station) const {
 
 Status CatalogReader::Impl::open(Slot& place, const std::string& name, bool create) {
     const fs::path path = path_of(name);
-    // This is checked even if the database was closed to make room: rows that are lost with a
-    // deleted file must be made again.
+    // Check this even if the database was closed to make room: rows that are lost with a deleted
+    // file must be made again.
     if (place.file != FileIdentity{} && place.file != FileIdentity::of(path)) {
-        databases.close(place);  // nobody would see what we write there
+        databases.close(place);  // readers would not see writes to the old file
         place.file = {};
         place.strays = Strays::unknown;
         is_listing_old_ = true;
@@ -121,7 +122,7 @@ bool CatalogReader::Impl::mend(Slot& place, const std::string& name) {
 
 void CatalogReader::Impl::note_outcome(const std::string& name, const Error* error,
                                        std::chrono::steady_clock::time_point began) {
-    // A full disk is no station's trouble, and neither is a missing database.
+    // A full disk or a missing database is not a trouble of a station.
     const bool is_trouble =
         error != nullptr && error->code != ErrorCode::not_found && !is_shortage(error->code);
     if (!is_trouble && !has_troubles_) return;
@@ -250,7 +251,7 @@ bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely
     const auto began = std::chrono::steady_clock::now();
     // Damage is repaired when the database is used, or when files of its own station come.
     const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {
-        if (place->strays != Strays::unknown) return true;  // somebody else has done it
+        if (place->strays != Strays::unknown) return true;  // another thread has done it
         place->strays =
             find_strays(database, name, most_looked_through).value_or(Strays::too_many_rows);
         return true;
@@ -259,7 +260,7 @@ bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely
     if (!looked && looked.error().code != ErrorCode::corrupt) {
         note_outcome(name, &looked.error(), began);
     }
-    // One of the strays just found may be this very path.
+    // This path may be one of the strays just found.
     return place->strays != Strays::none;
 }
 

@@ -1,5 +1,5 @@
-// catalog/catalog_parts.h -- the parts of a Catalog: its databases, which are opened when they are
-// needed and repaired when they are found damaged. Used only inside the catalog room.
+// catalog/catalog_parts.h -- the parts of a Catalog: its databases, which are opened when needed
+// and repaired when found damaged. Used only inside the catalog room.
 //
 // Threads   Those of Catalog; each database is used by one thread at a time.
 #pragma once
@@ -28,7 +28,7 @@ namespace stormcellar::catalog {
 
 inline constexpr std::string_view database_ending = ".sqlite";
 
-// Returns the station of a database's name; empty: files of no known station.
+// Returns the station of a database's name; empty for files of unknown stations.
 [[nodiscard]] std::string station_of(const std::string& name);
 
 // Returns the names of the databases in a directory, sorted, for any stations.
@@ -85,8 +85,8 @@ struct CatalogReader::Impl {
         return done;
     }
 
-    // Does the same on behalf of another station: a database that was in trouble seconds ago is not
-    // tried again, because a try may take as long as a disk takes to give up.
+    // Does the same for another station's sake: a database that was in trouble seconds ago is not
+    // tried again, because a try may take until a failing disk gives up.
     template <class Work>
     Done<Work> with_neighbor(const std::string& name, Work work) {
         if (auto recent = recent_trouble(name)) return tl::unexpected<Error>(std::move(*recent));
@@ -104,7 +104,7 @@ struct CatalogReader::Impl {
             if (is_snapshot) databases.close(place);
             return done;
         } catch (const SQLite::Exception& error) {
-            // If a file cannot be opened for writing, SQLite opens it for reading, and keeps it so.
+            // If SQLite cannot open a file for writing, it opens it for reading, and keeps it so.
             const bool is_stuck = writing && code_of(error) == ErrorCode::permission;
             if (is_snapshot || is_stuck) databases.close(place);
             if (code_of(error) == ErrorCode::io && is_out_of_descriptors())
@@ -128,22 +128,23 @@ struct CatalogReader::Impl {
     [[nodiscard]] Result<std::vector<std::string>> names();
 
     // Returns the names of the databases that may have a row of the path. A row outside home_of()
-    // is a stray: its file is named like one station and holds data of another or of none. A
-    // writer, which sees everything that is written, knows the paths of strays (PathFilter), so
-    // that a new file need not be looked up in every database.
+    // is a stray: its file is named like one station and holds data of another or of none. A writer
+    // sees every write, so it knows the paths of strays (PathFilter) and need not look up a new
+    // file in every database.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
-    // Looks for strays if nobody could so far, because there are too many rows for a file to wait.
+    // Searches for strays if that was put off because there are too many rows for a file to wait.
     void look_for_strays(StationDatabase& database, const std::string& name);
     // Called before the row is written, with the slot's mutex held.
     void expect_row(const std::filesystem::path& path, const std::string& name);
 
   private:
     [[nodiscard]] Result<std::unique_ptr<StationDatabase>> open_database(const std::string& name);
-    // Returns true if a database may have a stray row of the path. `is_likely`: the path is one of
-    // those of strays.
+    // Returns true if a database may have a stray row of the path. `is_likely` says that the path
+    // is one of the known strays.
     [[nodiscard]] bool may_have_stray(const std::string& name, bool is_likely);
-    // Adds the paths of its strays to strays_. None: it has more rows and none was read.
+    // Adds the paths of the database's strays to strays_. Returns none if it has too many rows,
+    // which are then not read.
     [[nodiscard]] std::optional<Strays> find_strays(StationDatabase& database,
                                                     const std::string& name,
                                                     std::int64_t most_rows);
@@ -153,9 +154,9 @@ struct CatalogReader::Impl {
                       std::chrono::steady_clock::time_point began);
     // Returns the trouble of a database that was tried seconds ago.
     [[nodiscard]] std::optional<Error> recent_trouble(const std::string& name) const;
-    // Returns the same if the try took long, for example because somebody has locked the database.
-    // Then files of its own station do not try again at once, either, because other stations would
-    // have to wait for the thread.
+    // Returns the same trouble, but only if the try took long, for example because another process
+    // has locked the database. Then files of its own station do not try again at once, either,
+    // because other stations would have to wait for the thread.
     [[nodiscard]] std::optional<Error> slow_trouble(const std::string& name) const;
 
     struct Standing {
@@ -167,7 +168,7 @@ struct CatalogReader::Impl {
     mutable Mutex troubles_mutex_;
     std::map<std::string, Standing, std::less<>> troubles_ STORMCELLAR_GUARDED_BY(troubles_mutex_);
 
-    // The paths of strays in all databases for which they are known; null for a reader.
+    // The paths of strays in all databases that were searched; null for a reader.
     const std::unique_ptr<PathFilter> strays_;
 
     // The last result of names(), until a database is opened or found missing. Only for a writer.

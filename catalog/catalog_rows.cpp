@@ -1,5 +1,5 @@
-// What a writer does to all rows now and then: it marks those of missing files, and deletes old
-// ones. If one station's database cannot be used, it continues with the others (troubles()).
+// Regular work of a writer on all rows: it marks those of missing files, and deletes old ones. If
+// one station's database cannot be used, it continues with the others (troubles()).
 #include <algorithm>
 #include <map>
 #include <span>
@@ -76,7 +76,7 @@ Result<int> CatalogWriter::mark_former_members(const fs::path& archive,
     return marked;
 }
 
-// Marks these files of one station.
+// Marks the missing ones among these files of one station.
 Result<int> CatalogWriter::mark_missing_of(const std::string& name, const fs::path& directory,
                                            const std::vector<fs::path>& paths) {
     std::vector<fs::path> gone;
@@ -96,7 +96,7 @@ Result<int> CatalogWriter::forget_gone(UtcTime before, const std::function<void(
         const auto rows = impl().with(
             name, false, [&](StationDatabase& database) { return database.gone_before(before); });
         if (step) step();
-        // Others may write between two batches.
+        // Other threads may write between two batches.
         for (std::size_t i = 0; rows && i < rows->size(); i += files_a_step) {
             const auto batch = std::span{*rows}.subspan(i).first(
                 std::min<std::size_t>(files_a_step, rows->size() - i));
@@ -143,8 +143,8 @@ Result<Rolled> CatalogWriter::roll(const std::function<void()>& step) {
         while (used[name] >= most && shrink(name)) {
         }
     }
-    // Rows of existing files are never deleted, so they must not displace the history of other
-    // stations, which keeps a fair share.
+    // Rows of existing files are never deleted. To keep them from displacing the history of other
+    // stations, each station keeps a fair share.
     const std::uint64_t share = impl().options.most_bytes / std::max<std::size_t>(1, names->size());
     while (rolled.used_bytes > impl().options.most_bytes && !used.empty()) {
         const auto largest =

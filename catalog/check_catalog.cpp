@@ -65,7 +65,7 @@ Result<StationCheck> check_station(const fs::path& database) {
     try {
         const bool is_filled =
             (*opened)->execAndGet("SELECT count(*) FROM sqlite_schema").getInt() > 0;
-        if (!is_filled) return check;  // it was made at this moment
+        if (!is_filled) return check;  // it was made at this moment and is still empty
         SQLite::Statement rows(
             **opened, "SELECT path, size_bytes, modified_ns, state FROM file ORDER BY path");
         while (rows.executeStep())
@@ -128,7 +128,7 @@ Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view s
 
 namespace {
 
-// Counts its rows, if it is a sound database of ours.
+// Counts its rows, if it is a sound database of this software.
 Result<ClearedDatabase> count_rows(const fs::path& database) {
     const auto check = check_station(database);
     if (!check) return pass_on(check);

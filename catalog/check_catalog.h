@@ -1,9 +1,9 @@
 // catalog/check_catalog.h -- checks whether the catalog is sound, and whether it agrees with the
 // disk.
 //
-// It never writes. Rows are compared with the files by size and modification time; the content of
-// files is not read. While a daemon writes, a file may be reported as changed that the daemon is
-// just taking in.
+// It never writes. Rows are compared with the files by size and modification time; the contents of
+// files are not read. While a daemon writes, a file that it is just ingesting may be reported as
+// changed.
 //
 // Threads   Functions without state.
 #pragma once
@@ -26,11 +26,11 @@ struct StationCheck {
     bool is_known = true;             // the rule knows the station
     std::vector<std::string> damage;  // one line each; empty: the database is sound
     std::int64_t files = 0;           // rows
-    std::int64_t gone = 0;            // rows that say that their file is gone
-    // files that are missing, although their rows do not say gone
+    std::int64_t gone = 0;            // rows marked as gone
+    // missing files whose rows do not say gone
     std::vector<std::filesystem::path> missing;
-    std::vector<std::filesystem::path> unseen;  // files that could not be looked at
-    // with another size or time than when they were settled
+    std::vector<std::filesystem::path> unseen;  // files that could not be examined
+    // files whose size or time differs from that when they were settled
     std::vector<std::filesystem::path> changed;
 };
 
@@ -38,12 +38,12 @@ struct CatalogCheck {
     std::vector<StationCheck> stations;            // sorted by name
     std::vector<std::filesystem::path> set_aside;  // damaged databases from earlier repairs
     std::vector<Trouble> troubles;                 // databases that could not be opened
-    // All was seen, and nothing is damaged, missing or changed.
+    // Returns true if everything was examined, and nothing is damaged, missing or changed.
     [[nodiscard]] bool is_sound() const;
 };
 
-// Checks one station, or all if none is named. Databases are opened one after the other, so that
-// few descriptors are used. Without a rule every station is known. Errors: not_found if there is no
+// Checks one station, or all if none is named. Opens databases one after the other, so that few
+// descriptors are used. Without a rule every station is known. Errors: not_found if there is no
 // such directory or station.
 [[nodiscard]] Result<CatalogCheck> check_catalog(const std::filesystem::path& directory,
                                                  std::string_view station,
@@ -57,15 +57,16 @@ struct ClearedDatabase {
 
 struct ClearReport {
     std::vector<ClearedDatabase> cleared;
-    std::vector<Trouble> kept;  // could not be read or removed, or hold something that is not ours
+    std::vector<Trouble> kept;  // databases that could not be read or removed, or are not this
+                                // software's
 };
 
 // Removes the databases of stations that the rule does not know, with their -wal and -shm. Rows of
-// existing files are lost with them, and are made again among those of no known station when the
-// files are read again (a daemon does that when it starts, rebuild_catalog() when it is called).
-// Rows of files that are gone are lost for good, because what an invented station once sent is no
-// history. A database that is damaged, or belongs to another program, is kept. Nothing else may use
-// the catalog meanwhile. Errors: those of the directory.
+// existing files are lost with them, and are made again among those of unknown stations when the
+// files are read again (by a daemon at its start, or by rebuild_catalog()). Rows of files that are
+// gone are lost for good, because data of an invented station have no historical value. A database
+// that is damaged, or belongs to another program, is kept. Nothing else may use the catalog
+// meanwhile. Errors: those of the directory.
 [[nodiscard]] Result<ClearReport> clear_unknown(const std::filesystem::path& directory,
                                                 const StationRule& stations);
 

@@ -12,10 +12,10 @@
 
 namespace stormcellar::catalog {
 
-// Writes the file if it holds something else. Errors: those of stormcellar/base/file_system.h.
+// Writes the file if its contents differ. Errors: those of stormcellar/base/file_system.h.
 [[nodiscard]] Status write_drop_directory(const std::filesystem::path& catalog,
                                           const std::filesystem::path& drop);
-// Errors: not_found if nobody has recorded it; corrupt if it is not an absolute path.
+// Reads the file. Errors: not_found if there is none; corrupt if it is not an absolute path.
 [[nodiscard]] Result<std::filesystem::path> read_drop_directory(
     const std::filesystem::path& catalog);
 

@@ -1,5 +1,5 @@
-// catalog/open_databases.h -- the open databases of a catalog: a bounded set, of which the least
-// recently used one is closed first. Used only inside the catalog room.
+// catalog/open_databases.h -- the open databases of a catalog, a limited set that closes the least
+// recently used one first. Used only inside the catalog room.
 //
 // An open database takes three descriptors (itself, its WAL and the WAL's index). Whoever uses a
 // database holds a lease and its slot's mutex. Only a database without a lease is closed to make
@@ -32,7 +32,7 @@
 
 namespace stormcellar::catalog {
 
-// Tells whether a path still names the same file.
+// Distinguishes the files that a path has named.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;

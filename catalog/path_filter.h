@@ -1,9 +1,8 @@
 // catalog/path_filter.h -- remembers which paths were added, in a fixed amount of memory. Used only
 // inside the catalog room.
 //
-// It is a Bloom filter of 2 MiB. A path that was added is always found. Of other paths, one in 500
-// is found too after a million were added, and one in 7 after four million. Nothing is ever
-// removed.
+// It is a Bloom filter of 2 MiB. An added path is always found. After a million additions, one in
+// 500 other paths is found too; after four million, one in 7. Nothing is ever removed.
 //
 // Threads   Any thread.
 #pragma once

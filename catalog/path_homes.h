@@ -1,5 +1,5 @@
-// catalog/path_homes.h -- which database is likely to have the row of a path, and, for the paths
-// that were looked up last, which one alone may have it.
+// catalog/path_homes.h -- guesses which database has the row of a path and, for the paths that were
+// looked up last, remembers which one has it.
 //
 // Each path is needed several times and should be looked up once. Two paths with the same 64-bit
 // hash would be confused: among 65,536 the odds are 1 in 9 billion. Used only by Catalog.
@@ -23,7 +23,7 @@
 
 namespace stormcellar::catalog {
 
-// The database of files of no known station.
+// Name of the database for files of unknown stations.
 inline constexpr std::string_view unknown_station = "_unknown";
 
 // Returns the station to which a path seems to belong: by its name, by that of its directory
@@ -35,8 +35,8 @@ inline constexpr std::string_view unknown_station = "_unknown";
 
 class PathHomes {
   public:
-    // From now on only this database has the path. Returns what was known before, which the caller
-    // must handle. Call it after the row was written there.
+    // Notes that from now on only this database has the path. Returns the earlier database, which
+    // the caller must handle. Call it after the row was written there.
     std::optional<std::string> exchange(const std::filesystem::path& path,
                                         const std::string& name) {
         const MutexLock lock(mutex_);
@@ -59,12 +59,13 @@ class PathHomes {
         young_.erase(key_of(path));
         old_.erase(key_of(path));
     }
-    // No database had the path when all were asked. What somebody wrote in the meantime counts.
+    // Notes that no database had the path when all were asked. A database noted in the meantime
+    // takes precedence.
     void set_none(const std::filesystem::path& path) {
         const MutexLock lock(mutex_);
         if (find(key_of(path)) == nullptr) add(key_of(path), {});
     }
-    // Returns an empty text if no database has the path, none if it is not known.
+    // Returns an empty text if no database has the path; none if unknown.
     [[nodiscard]] std::optional<std::string> of(const std::filesystem::path& path) const {
         const MutexLock lock(mutex_);
         const std::string* name = find(key_of(path));

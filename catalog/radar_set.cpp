@@ -45,7 +45,7 @@ Result<RadarSet> RadarSet::open(const std::filesystem::path& catalog_directory,
     auto opened = CatalogReader::open(catalog_directory);
     if (!opened) return pass_on(opened);
     if (station.empty()) return fail(ErrorCode::bad_argument, "the station has no name");
-    // Only its own database must be sound.
+    // Only the station's own database must be sound.
     if (const auto newest = opened->latest(station); !newest) return pass_on(newest);
     return RadarSet(std::make_shared<const CatalogReader>(std::move(*opened)), station);
 }

@@ -85,7 +85,7 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     }
     if (!opened) return pass_on(opened);
     const Descriptor file{*opened};
-    // Before it is read, because the present file may be far larger.
+    // Check before reading, because the present file may be far larger.
     struct stat facts {};
     if (::fstat(file.number(), &facts) != 0) {
         return fail(ErrorCode::io, "{}: its size cannot be read", entry.path.native());
@@ -93,7 +93,7 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     if (Status sized = check_size(entry, static_cast<std::uint64_t>(facts.st_size)); !sized) {
         return pass_on(sized);
     }
-    // A hard link to a file that only the reader may read is not refused as a link, and only a hash
+    // The check for links misses a hard link to a file that only the reader may read; only a hash
     // can tell it apart.
     if (!has_final_hash(entry) && facts.st_nlink > 1) {
         return fail(ErrorCode::corrupt,

@@ -37,7 +37,7 @@ std::set<std::string> schema_wanted() {
     return schema_of(memory);
 }
 
-// Collects what SQLite itself says about pages, indices and constraints.
+// Collects SQLite's own findings about pages, indices and constraints.
 void check_integrity(SQLite::Database& database, std::vector<std::string>& damage) {
     SQLite::Statement rows(database, fmt::format("PRAGMA integrity_check({})", most_lines));
     while (rows.executeStep()) {
@@ -61,7 +61,7 @@ Examination examine(SQLite::Database& database) {
     const int version = database.execAndGet("PRAGMA user_version").getInt();
     const int id = database.execAndGet("PRAGMA application_id").getInt();
     const std::set<std::string> schema = schema_of(database);
-    if (schema.empty()) return found;  // the database was made and not filled yet
+    if (schema.empty()) return found;  // the database was created but not filled yet
     const bool ours = schema == schema_wanted();
     if (!ours && (id != application_id || version > schema_version)) {
         found.foreign = true;
@@ -84,7 +84,8 @@ bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
-// Returns the first free name. Without the ending .sqlite it is not a database of the catalog.
+// Returns the first free name. Without the ending .sqlite, the file is not a database of the
+// catalog.
 fs::path name_aside(const fs::path& path) {
     const std::string stem = path.native() + ".damaged-" + format_compact(now_utc());
     fs::path name = stem;
@@ -93,8 +94,8 @@ fs::path name_aside(const fs::path& path) {
     return name;
 }
 
-// Returns the path of the new database until it takes its place. It is whole once the damaged one
-// is gone.
+// Returns the path of the new database until it replaces the damaged one. It is complete once the
+// damaged one is gone.
 fs::path mending_of(const fs::path& path) {
     return path.native() + ".mending";
 }
@@ -119,10 +120,10 @@ Result<Examination> examine_database(const fs::path& path) {
 
 namespace {
 
-// Makes a database with the rows of files that are gone, under the name of mending_of().
+// Makes a database with the rows of files that are gone, at the path mending_of().
 Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
     const fs::path mending = mending_of(path);
-    for (const char* ending : {"", "-wal", "-shm"}) {  // of a repair that was interrupted
+    for (const char* ending : {"", "-wal", "-shm"}) {  // remove leftovers of an interrupted repair
         const fs::path left = mending.native() + ending;
         if (!is_there(left)) continue;
         if (Status removed = real_file_system().remove(left); !removed) return removed;
@@ -155,7 +156,7 @@ Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
 Status adopt_mended_database(const fs::path& path) {
     const fs::path mending = mending_of(path);
     if (is_there(path) || !is_there(mending)) return {};
-    // The damaged database's WAL must not be taken for that of the new one.
+    // The damaged database's WAL must not be used with the new database.
     FileSystem& disk = real_file_system();
     const fs::path aside = name_aside(path);
     for (const char* ending : {"-wal", "-shm"}) {
@@ -167,7 +168,8 @@ Status adopt_mended_database(const fs::path& path) {
     return disk.sync_directory(path.parent_path());
 }
 
-// The new database is made first, so at any instant either the damaged or the whole new one exists.
+// Repairs a database. The new one is made first, so at any instant either the damaged or the
+// complete new one exists.
 Result<Repair> repair_database(const fs::path& path, const std::string& station,
                                const std::string& damage) {
     Repair repair;

@@ -24,7 +24,7 @@ struct Row {
     SalvagedFile file;
 };
 
-// Returns none for a row whose content cannot be ours, because damage need not make a row
+// Returns none for a row whose content cannot be valid, because damage need not make a row
 // unreadable.
 std::optional<Row> row_of(SQLite::Statement& rows) {
     Row row;
@@ -89,7 +89,8 @@ class Reader {
         }
     }
 
-    // Tries each number between two rows; without an end, until nothing was found for long.
+    // Tries each number between two rows; without an end, until nothing was found for a long
+    // stretch.
     void probe(std::int64_t low, std::optional<std::int64_t> end) {
         std::int64_t found_at = low;
         for (std::int64_t id = low + 1; end ? id < *end : id <= found_at + longest_gap; ++id) {
@@ -116,7 +117,7 @@ class Reader {
             while (rows.executeStep())
                 add_volume(rows, file);
         } catch (const SQLite::Exception&) {
-            return;  // the row of the file at least says that the file existed
+            return;  // the row of the file at least shows that the file existed
         }
     }
 
@@ -154,7 +155,7 @@ Salvage salvage(const std::filesystem::path& database) {
     auto opened = StationDatabase::open_connection(database);
     if (!opened) return {};
     try {
-        // throws if it is not a database
+        // throws if the file is not a database
         (void)(*opened)->execAndGet("SELECT count(*) FROM sqlite_schema");
         return Reader(**opened).read();
     } catch (const SQLite::Exception&) {

@@ -1,8 +1,8 @@
-// catalog/salvage.h -- reads what is still readable in a damaged database; used only by repair.h.
+// catalog/salvage.h -- reads the readable rows of a damaged database; used only by repair.h.
 //
 // It reads whatever SQLite can reach: rows before the damage, rows after it, and those in between
-// one by one. Rows on a damaged page are lost. The gaps in the numbers of file rows say at most how
-// many were lost; rows that had moved to another station leave gaps, too.
+// one by one. Rows on a damaged page are lost. The gaps in the numbers of file rows give an upper
+// bound of the loss; rows that had moved to another station leave gaps, too.
 //
 // Threads   Functions without state. Nothing may write the database meanwhile.
 #pragma once
@@ -32,7 +32,7 @@ struct Salvage {
     std::int64_t unread_files = 0;    // at most this many rows were lost
 };
 
-// Never fails: if the file is not a database at all, nothing is read.
+// Reads the rows. Never fails: if the file is not a database, it returns nothing.
 [[nodiscard]] Salvage salvage(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

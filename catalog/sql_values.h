@@ -1,4 +1,4 @@
-// catalog/sql_values.h -- values between a statement of SQLite and the types of the catalog.
+// catalog/sql_values.h -- converts between SQLite's values and the types of the catalog.
 //
 // This is used only inside the catalog room.
 //

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The bytes are valid until the next step of the statement.
+// Returns the bytes, which are valid until the next step of the statement.
 std::string_view bytes_of(const SQLite::Column& blob) {
     const auto* const bytes = static_cast<const char*>(blob.getBlob());
     return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(blob.getBytes())};
@@ -35,7 +35,7 @@ LentStatement StationDatabase::prepared(const char* sql) {
 std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t content_hash,
                                            const VolumeFacts& facts) {
     const std::int64_t start = *milliseconds(facts.start_time);
-    // The same volume in a file with the same content is the same volume.
+    // A volume is the same if it is in a file with the same content.
     LentStatement same = prepared(
         "SELECT v.id FROM volume v JOIN part p ON p.volume_id = v.id "
         "JOIN file f ON f.id = p.file_id "
@@ -80,8 +80,9 @@ void StationDatabase::insert_part(std::int64_t file_id, int ordinal, std::int64_
     part->exec();
 }
 
-// Settled files survive a power cut, because the file itself may be gone later. But a sync takes
-// milliseconds, and a growing file is registered with every chunk.
+// Chooses whether writes survive a power cut. Those of settled files do, because the file itself
+// may be gone later. But a sync takes milliseconds, and a growing file is registered with every
+// chunk.
 void StationDatabase::set_durable(bool durable) {
     if (durable == is_durable_) return;
     database_.exec(durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
@@ -108,8 +109,8 @@ std::vector<fs::path> StationDatabase::register_files(const std::vector<FileFact
     return left_out;
 }
 
-// Returns true if the file's volumes are described as they are here. Those without a start have no
-// rows.
+// Returns true if the rows describe the file's volumes as `facts` do. Volumes without a start have
+// no rows.
 bool StationDatabase::has_these_volumes(std::int64_t file_id,
                                         const std::vector<VolumeFacts>& volumes) {
     LentStatement rows = prepared(
@@ -197,13 +198,13 @@ Registered StationDatabase::register_row(const FileFacts& facts) {
     if (!known && !make_room()) return Registered::left_out;
     const std::int64_t file_id = write_file(facts);
     if (facts.state == FileState::gone) may_have_gone_ = true;
-    // The volumes of the file are described anew, so that a growing file does not become its own
+    // Describe the volumes of the file anew, so that a growing file does not become its own
     // re-send.
     if (known) drop_volumes(file_id);
     int ordinal = 0;
     const std::size_t kept = std::min(facts.volumes.size(), most_volumes_a_file);
     for (const VolumeFacts& volume : std::span{facts.volumes}.first(kept)) {
-        // metadata alone, without a time: there is nothing to look up
+        // only metadata without a time; there is nothing to look up
         if (!volume.start_time) continue;
         insert_part(file_id, ordinal++, store_volume(file_id, facts.content_hash, volume));
     }
@@ -235,7 +236,7 @@ void StationDatabase::restore_gone(const std::vector<SalvagedFile>& files) {
         file.bind(4, static_cast<std::int64_t>(facts.content_hash));
         file.bind(5, facts.reason);
         file.bind(6, salvaged.registered_time.time_since_epoch().count());
-        if (file.exec() == 0) continue;  // one path with two rows, which only damage makes
+        if (file.exec() == 0) continue;  // one path has two rows, which only damage causes
         const std::int64_t file_id = database_.getLastInsertRowid();
         int ordinal = 0;
         for (const SalvagedVolume& volume : salvaged.volumes) {

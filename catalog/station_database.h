@@ -22,11 +22,11 @@
 
 namespace stormcellar::catalog {
 
-// Returns the error code of an SQLite failure. Every statement of ours fits a sound database and
-// violates no constraint, so a statement that does not was run on a damaged one.
+// Returns the error code of an SQLite failure. Every statement of this room is valid for a sound
+// database and violates no constraint, so a statement that fails this way was run on a damaged one.
 [[nodiscard]] ErrorCode code_of(const SQLite::Exception& error);
 
-// A prepared statement on loan. When it is given back it holds no lock and no values.
+// A prepared statement on loan. After its return it holds no lock and no values.
 class LentStatement {
   public:
     explicit LentStatement(SQLite::Statement& statement) : statement_(statement) {}
@@ -53,30 +53,30 @@ class StationDatabase {
     static Result<std::unique_ptr<StationDatabase>> open_for_reading(
         const std::filesystem::path& path, const std::string& station);
 
-    // Opens whatever is there for reading only. Nothing is read yet, so most faults are noticed
+    // Opens an existing database for reading only. Nothing is read yet, so most faults are noticed
     // later.
     static Result<std::unique_ptr<SQLite::Database>> open_connection(
         const std::filesystem::path& path);
 
-    // Returns true if this object does not see later writes: it was opened as a file that nobody
-    // writes, or before its writer had made the tables.
+    // Returns true if this object does not see later writes, because it was opened as a file
+    // without a writer, or before its writer had made the tables.
     [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
 
-    // From now on a new row is only written while the database takes less than this, or if rows of
-    // files that are gone can make room.
+    // Sets a limit: from now on a new row is written only while the database takes less, or if
+    // deleting rows of files that are gone makes room.
     void set_most_bytes(std::uint64_t most_bytes) { most_bytes_ = most_bytes; }
     // Returns the bytes that rows and indices take, without free pages.
     std::uint64_t used_bytes();
 
     Registered register_file(const FileFacts& facts);
-    // Registers all in one transaction. Returns the paths that found no room.
+    // Registers all files in one transaction. Returns the paths for which there was no room.
     std::vector<std::filesystem::path> register_files(const std::vector<FileFacts>& files);
     // Inserts rows of files that are gone, unchanged except for their state, in one transaction.
     // For a new database.
     void restore_gone(const std::vector<SalvagedFile>& files);
-    // Marks in one transaction. Returns how many rows were marked.
+    // Marks these files as gone in one transaction. Returns how many rows were marked.
     int mark_gone(const std::vector<std::filesystem::path>& paths);
-    // Archives that are settled count as changed from now on.
+    // Makes settled archives count as changed from now on.
     void read_archives_again();
     // Returns the rows that are not gone and have a number above `after`, at most `most` at once,
     // because a database may hold more paths than fit into memory.
@@ -90,9 +90,10 @@ class StationDatabase {
     void forget(const std::filesystem::path& path);
     // Returns the row numbers of files that are gone and were last registered before that time.
     std::vector<std::int64_t> gone_before(UtcTime before);
-    // Deletes those of them that are still so, in one transaction. Returns how many.
+    // Deletes those of these rows that still meet the condition, in one transaction. Returns how
+    // many.
     int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
-    // Deletes the oldest of these in one transaction. Returns how many.
+    // Deletes the oldest rows of files that are gone in one transaction. Returns how many.
     std::int64_t forget_oldest_gone(std::int64_t most);
     // Passes the paths of all rows, in any state, to `look`. Returns false, without reading any, if
     // there may be more than `most` rows.
@@ -111,17 +112,17 @@ class StationDatabase {
 
   private:
     StationDatabase(const std::string& uri, int flags, std::string station);
-    // Returns what a reader sees of a database whose writer has yet to make its tables.
+    // Returns what a reader sees of a database whose tables do not exist yet.
     static std::unique_ptr<StationDatabase> empty_snapshot(const std::string& station);
 
-    // Returns the statement of that text, which must live as long as the program.
+    // Returns the statement for the text, which must live as long as the program.
     LentStatement prepared(const char* sql);
     void set_durable(bool durable);
     Registered register_row(const FileFacts& facts);
-    // Called inside a transaction: returns true if a new row may be written.
+    // Returns true if a new row may be written. Call it inside a transaction.
     bool make_room();
     std::int64_t delete_oldest_gone(std::int64_t most);
-    // Returns the id of its row; is_same is set if the row already says the same.
+    // Returns the id of the file's row; is_same is set if the row already has these facts.
     std::optional<std::int64_t> find_file(const FileFacts& facts, bool& is_same);
     bool has_these_volumes(std::int64_t file_id, const std::vector<VolumeFacts>& volumes);
     std::int64_t write_file(const FileFacts& facts);
@@ -137,9 +138,9 @@ class StationDatabase {
     std::string station_;
     std::map<const char*, SQLite::Statement> statements_;
     bool is_snapshot_ = false;
-    bool is_durable_ = true;  // of the next transaction that may write
+    bool is_durable_ = true;  // applies to the next transaction that may write
     std::uint64_t most_bytes_ = CatalogOptions::no_limit;
-    bool may_have_gone_ = true;  // there may be rows of files that are gone; false: there are none
+    bool may_have_gone_ = true;  // false: there are no rows of files that are gone
 };
 
 }  // namespace stormcellar::catalog

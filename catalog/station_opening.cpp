@@ -1,4 +1,4 @@
-// Opens, makes and identifies a station's database; its contents are in station_database.cpp.
+// Opens, makes and identifies a station's database; station_database.cpp works on its contents.
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -18,19 +18,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// how long a statement waits for another process's write before it gives up
+// how long a statement waits for another process's write
 constexpr int busy_timeout_ms = 10'000;
-// Pages of the write-ahead log: when it is transferred to the database, and what is left of its
-// file then. A registration writes some five pages.
+// Pages of the write-ahead log at which it is transferred to the database; its file is then cut to
+// this size. A registration writes some five pages.
 constexpr int most_log_pages = 128;
 constexpr int most_log_bytes = 512 << 10;
 // KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200 stations
-// would be more than everything else. The kernel's cache has the rest.
+// would exceed all other memory. The kernel's cache holds the rest.
 constexpr int most_cached_kib = 128;
 // The same for a reader, which walks through lists.
 constexpr int most_cached_by_reader_kib = 256;
 
-// So that no character of the path has a meaning; `query` is "" or begins with '?'.
+// Returns a URI in which no character of the path is special; `query` is "" or begins with '?'.
 std::string uri_of(const std::filesystem::path& path, std::string_view query) {
     std::string uri = "file:";
     for (const char c : path.native()) {
@@ -57,7 +57,7 @@ tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception
     return fail(code_of(error), "{}: {}", path.native(), error.what());
 }
 
-// SQLite would wait at a FIFO until somebody writes to it.
+// Fails for anything but a regular file; SQLite would wait at a FIFO until a program writes to it.
 Status check_regular(const fs::path& path) {
     for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
         const fs::path file = path.native() + ending;
@@ -70,9 +70,10 @@ Status check_regular(const fs::path& path) {
 
 enum class Contents { none, ours };
 
-// Checks that the database is ours and of a version that we know. One without tables is being made.
+// Checks that the database is this software's, of a known version. One without tables is being
+// made.
 Result<Contents> identify(SQLite::Database& database, const fs::path& path) {
-    // One snapshot, because another process may be making the tables.
+    // Read in one snapshot, because another process may be making the tables.
     const SQLite::Transaction snapshot(database, SQLite::TransactionBehavior::DEFERRED);
     const int version = database.execAndGet("PRAGMA user_version").getInt();
     const int id = database.execAndGet("PRAGMA application_id").getInt();
@@ -99,7 +100,7 @@ Result<Contents> identify(SQLite::Database& database, const fs::path& path) {
     return Contents::ours;
 }
 
-// Here, unlike everywhere else, SQLite does not wait for others.
+// Switches to WAL. Unlike elsewhere, SQLite does not wait for other processes here.
 void enter_wal(SQLite::Database& database) {
     const auto limit =
         std::chrono::steady_clock::now() + std::chrono::milliseconds(busy_timeout_ms);
@@ -116,8 +117,7 @@ void enter_wal(SQLite::Database& database) {
 }
 
 void migrate(SQLite::Database& database) {
-    // Beginning to write would wait for other writers, which is not necessary for an existing
-    // database.
+    // Starting a write would wait for other writers, which is unnecessary for an existing database.
     if (database.execAndGet("PRAGMA user_version").getInt() >= schema_version) return;
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     if (database.execAndGet("PRAGMA user_version").getInt() < 1) {
@@ -128,9 +128,9 @@ void migrate(SQLite::Database& database) {
     transaction.commit();
 }
 
-// A reader without write permission cannot make the index of the WAL. While a writer has the
-// database open, the index exists; if there is no WAL, nobody writes, and the file alone is
-// complete.
+// Opens the database for reading in one of two ways. A reader without write permission cannot make
+// the index of the WAL. While a writer has the database open, the index exists; if there is no WAL,
+// no process writes, and the file alone is complete.
 template <class Open>
 auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{})) {
     if (Status regular = check_regular(path); !regular) return pass_on(regular);
@@ -185,7 +185,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
         if (const auto contents = identify(database, path); !contents) return pass_on(contents);
         enter_wal(database);
         database.exec("PRAGMA synchronous = FULL");
-        // Each open station has a log of its own, so none may grow to SQLite's default of 4 MB.
+        // Each open station has its own log, so none may grow to SQLite's default of 4 MB.
         database.exec(fmt::format("PRAGMA wal_autocheckpoint = {}", most_log_pages));
         database.exec(fmt::format("PRAGMA journal_size_limit = {}", most_log_bytes));
         database.exec(fmt::format("PRAGMA cache_size = -{}", most_cached_kib));

@@ -1,4 +1,4 @@
-// What rows of files that are gone are deleted for: their age, and rows of other files.
+// Deletes rows of files that are gone, by their age and to make room.
 #include <vector>
 
 #include "catalog/station_database.h"
@@ -6,7 +6,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// Rows that are deleted at once to make room, so that the search for them is rare.
+// Rows that are deleted at once to make room, so that searches are rare.
 constexpr std::int64_t rows_a_batch = 1000;
 constexpr int most_batches = 8;
 
@@ -54,7 +54,7 @@ std::uint64_t StationDatabase::used_bytes() {
 bool StationDatabase::make_room() {
     if (most_bytes_ == CatalogOptions::no_limit || used_bytes() < most_bytes_) return true;
     for (int batch = 0; batch < most_batches && may_have_gone_; ++batch) {
-        // Rows are marked as gone only through this object, which then sets the flag again.
+        // Only this object marks rows as gone, and it then sets the flag again.
         may_have_gone_ = delete_oldest_gone(rows_a_batch) == rows_a_batch;
         if (used_bytes() < most_bytes_) return true;
     }
@@ -64,7 +64,7 @@ bool StationDatabase::make_room() {
 std::int64_t StationDatabase::delete_oldest_gone(std::int64_t most) {
     std::vector<std::int64_t> rows;
     {
-        // The numbers rise in the order in which rows were made.
+        // Row numbers ascend in the order in which rows were made.
         SQLite::Statement oldest(database_,
                                  "SELECT id FROM file WHERE state = 'gone' ORDER BY id LIMIT ?");
         oldest.bind(1, most);

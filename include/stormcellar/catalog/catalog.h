@@ -1,13 +1,13 @@
-// stormcellar/catalog/catalog.h -- the shadow directories: one SQLite database for each station.
+// stormcellar/catalog/catalog.h -- the catalog: one SQLite database for each station.
 //
 // DIRECTORY/KTLX.sqlite (WAL, user_version migrations) records which raw files exist, which volumes
-// they hold, and what became of them. It is an index that can always be rebuilt from the files.
-// Files whose station is unknown are recorded in _unknown.sqlite. Registering is idempotent: the
-// same path with the same size, modification time and content is the same row; a volume that is
+// they hold, and the results of ingesting them. It is an index that can always be rebuilt from the
+// files. Files whose station is unknown are recorded in _unknown.sqlite. Registering is idempotent:
+// the same path with the same size, modification time and content is the same row; a volume that is
 // sent again and differs gets the next generation.
 //
-// A catalog is opened in one of two roles: a CatalogReader answers questions and never creates or
-// changes anything; a CatalogWriter answers the same questions, and registers files.
+// A catalog is opened in one of two roles. A CatalogReader answers questions and never creates or
+// changes anything. A CatalogWriter answers the same questions, and registers files.
 //
 // Tables    file (one row for each raw file), volume (station, start, number, generation), part
 //           (which file holds which volume).
@@ -59,13 +59,13 @@ enum class FileState {
 [[nodiscard]] std::string_view file_state_name(FileState state);
 [[nodiscard]] std::optional<FileState> file_state_from_name(std::string_view name);
 
-// The modification time of a file that could not be read. Such a file is never settled, and is
-// tried again when it is next looked at.
-// The reason in the row of an archive begins with this.
+// Prefix of the reason in the row of an archive.
 inline constexpr std::string_view reason_of_archive = "an archive: ";
+// The modification time of a file that could not be read. Such a file is never settled, and is
+// tried again when it is next examined.
 inline constexpr std::int64_t never_read_ns = std::numeric_limits<std::int64_t>::min();
 
-// A file of an archive holds a handful. A forged one must not fill the database by itself.
+// A file of an archive holds a handful. The limit keeps a forged file from filling the database.
 inline constexpr std::size_t most_volumes_a_file = 1000;
 
 // A volume as the file holds it.
@@ -87,11 +87,11 @@ struct FileFacts {
     std::uint64_t content_hash = 0;
     FileState state = FileState::seen;
     std::string reason;  // why rejected or partial; one line
-    // in the order of the file; the first most_volumes_a_file get rows
+    // in the order of the file; only the first most_volumes_a_file get rows
     std::vector<VolumeFacts> volumes;
 };
 
-// One row of the answer to a query: a volume in a file, or a file without volumes.
+// A result of a query: a volume in a file, or a file without volumes.
 struct CatalogEntry {
     std::string station;
     std::filesystem::path path;
@@ -99,22 +99,22 @@ struct CatalogEntry {
     FileState state = FileState::seen;
     std::string reason;
     VolumeFacts volume;
-    int number_in_file = 1;   // of the volume among those of its file
+    int number_in_file = 1;   // index of the volume among those of its file
     int generation = 0;       // 0 for the first; one more each time it is sent again and differs
     UtcTime registered_time;  // when the row was written
     std::int64_t modified_ns = 0;
-    std::uint64_t content_hash = 0;  // 0: not known
+    std::uint64_t content_hash = 0;  // 0: unknown
 };
 
 struct Query {
     std::optional<UtcTime> from;  // inclusive, on the volume's start time
     std::optional<UtcTime> to;    // inclusive
     bool with_rejected = false;   // also files without a volume
-    // Only so many of the newest volumes: it goes by the index and stops there. None: all.
+    // Return only this many of the newest volumes; the index makes this fast. None: all.
     std::optional<std::size_t> newest = std::nullopt;
 };
 
-// A stretch of a station's volumes, of which at most `most` are wanted.
+// A range of a station's volumes, of which at most `most` are returned.
 struct Stretch {
     std::optional<UtcTime> from = std::nullopt;  // inclusive, on the volume's start time
     std::optional<UtcTime> to = std::nullopt;    // inclusive
@@ -132,8 +132,8 @@ struct StationSummary {
     std::optional<UtcTime> oldest, latest;
 };
 
-// What registering did. left_out: no row was written, because the database has reached its limit
-// and no row of a file that is gone could make room.
+// The result of registering. left_out: no row was written, because the database has reached its
+// limit and deleting rows of files that are gone could not make room.
 enum class Registered { added, updated, unchanged, left_out };
 
 struct CatalogOptions {
@@ -142,26 +142,24 @@ struct CatalogOptions {
 
     // The stations that have a database; null: every ICAO.
     std::shared_ptr<StationRule> stations;
-    // At most this many databases are open at a time; each takes three descriptors.
+    // Limit of the databases that are open at once; each takes three descriptors.
     std::size_t most_open = 256;
     // The directory into which raw files are dropped, canonical. It is recorded for programs that
     // read the files later (stormcellar/catalog/read_cataloged.h). Empty: the recorded one stays.
     std::filesystem::path drop;
-    // Limits of the bytes of rows: of files of no known station, of the files of one station, and
-    // of all.
+    // Limits of the bytes of rows: for files of unknown stations, for one station, and for all.
     std::uint64_t most_unknown_bytes = std::uint64_t{64} << 20;
     std::uint64_t most_station_bytes = std::uint64_t{1} << 30;
     std::uint64_t most_bytes = no_limit;
 };
 
-// What is wrong with the database of a station; if `station` is empty, with that of files without
-// one.
+// A problem with the database of a station; if `station` is empty, with that of unknown stations.
 struct Trouble {
     std::string station;
     Error error;
 };
 
-// Databases of unknown stations.
+// Databases of stations that the rule does not know.
 struct LeftAlone {
     std::size_t count = 0;
     std::vector<std::string> some;  // the first few names
@@ -206,27 +204,27 @@ class CatalogReader {
     // Returns the number of databases that are open.
     [[nodiscard]] std::size_t open_databases() const;
 
-    // Covers all stations whose databases can be read.
+    // Returns a summary of each station whose database can be read.
     [[nodiscard]] Result<std::vector<StationSummary>> stations() const;
     [[nodiscard]] Result<std::vector<CatalogEntry>> list(std::string_view station,
                                                          const Query& query) const;
     // Return the entry with the latest or oldest start; none if the station has no volume. An entry
-    // in the future (by is_believed()) is the latest only if all are.
+    // in the future (by is_believed()) is the latest only if all entries are.
     [[nodiscard]] Result<std::optional<CatalogEntry>> latest(std::string_view station) const;
     [[nodiscard]] Result<std::optional<CatalogEntry>> oldest(std::string_view station) const;
     // Returns the row of a file in the station's database, without a volume; none if it has no row.
     [[nodiscard]] Result<std::optional<CatalogEntry>> find_file(
         std::string_view station, const std::filesystem::path& path) const;
-    // Returns volumes by start time. It goes by the index and stops at `most`, so that it takes
-    // time for what it returns and for what it passes over, and not for all that the station has.
+    // Returns volumes by start time. It uses the index and stops at `most`, so its time depends
+    // only on the entries that it returns or skips, not on all entries of the station.
     [[nodiscard]] Result<std::vector<CatalogEntry>> list_stretch(std::string_view station,
                                                                  const Stretch& stretch) const;
-    // Returns the start of the oldest volume whose file is not gone and is no member of an archive;
-    // none if there is none. If the oldest volumes have no such file it reads the table of files
+    // Returns the start of the oldest volume whose file exists and is not a member of an archive;
+    // none if there is none. If the oldest volumes have no such file, it reads the table of files
     // once: 30 ms for 100,000.
     [[nodiscard]] Result<std::optional<UtcTime>> oldest_kept(std::string_view station) const;
     // Returns the rows of files, without a volume, whose paths begin with these bytes, in any
-    // state, by path. It goes by the index.
+    // state, by path. It uses the index.
     [[nodiscard]] Result<std::vector<CatalogEntry>> files_with_prefix(std::string_view station,
                                                                       std::string_view prefix,
                                                                       std::size_t most) const;
@@ -263,10 +261,11 @@ class CatalogWriter : public CatalogReader {
     // database already are admitted, the newest database first, as far as the rule's limit allows.
     static Result<CatalogWriter> open(std::filesystem::path directory, CatalogOptions options = {});
 
-    // On success a power cut does not undo it, except for the state `seen`, which may be lost.
+    // Registers a file. On success a power cut does not undo it, except for the state `seen`, which
+    // may be lost.
     Result<Registered> register_file(const FileFacts& facts);
-    // Registers a file as seen, of which is_known() said that it has no row. A row that was written
-    // in the meantime stays.
+    // Registers a file as seen after is_known() said that it has no row. A row that was written in
+    // the meantime stays.
     Status note_file(const FileFacts& facts);
     // Registers several files of one station like register_file(), all of them or none. Rows that
     // find no room are left out.
@@ -274,14 +273,14 @@ class CatalogWriter : public CatalogReader {
     // Marks the rows of a raw file that no longer exists as gone. Returns how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 
-    // Does the same for every row below the directory: for files that vanished while nobody
-    // watched, or that are now behind a symbolic link. `step` is called after each station and
+    // Does the same for every missing file below the directory: for files that vanished while no
+    // watcher ran, or that are now behind a symbolic link. `step` is called after each station and
     // every 1,000 files, so that the caller can see progress.
     Result<int> mark_missing(const std::filesystem::path& directory,
                              const std::function<void()>& step = {});
 
-    // Marks the rows of an archive's members as gone but for these: another archive has taken its
-    // place. Returns how many were marked.
+    // Marks the rows of an archive's members as gone, except these, because another archive has
+    // taken its place. Returns how many were marked.
     Result<int> mark_former_members(const std::filesystem::path& archive,
                                     const std::set<std::filesystem::path>& members);
 
@@ -290,22 +289,22 @@ class CatalogWriter : public CatalogReader {
     // back. `step` is called after each station and every 1,000 rows.
     Result<int> forget_gone(UtcTime before, const std::function<void()>& step = {});
 
-    // Deletes rows of files that are gone, the oldest first, if rows take more than they may: first
-    // in each database beyond its own limit, then in the largest databases while all together are
-    // beyond theirs. Rows of existing files are never deleted. Call it now and then, like
-    // forget_gone().
+    // Deletes rows of files that are gone, the oldest first, if rows exceed their limits: first in
+    // each database beyond its own limit, then in the largest databases while the total exceeds its
+    // limit. Rows of existing files are never deleted. Call it now and then, like forget_gone().
     Result<Rolled> roll(const std::function<void()>& step = {});
 
-    // Returns the databases of unknown stations, which are not opened.
+    // Returns the databases of stations that the rule does not know; they are not opened.
     [[nodiscard]] Result<LeftAlone> left_alone() const;
     // Reads the whole database of a station ("": of files without one), and repairs it if it is
     // damaged. Errors: those of a database that cannot be read or repaired.
     Status examine(std::string_view station);
     // Does the same for every station. Returns the last error, after all were examined.
     Status examine_all();
-    // Returns what was repaired since the last call. If it is anything, archives are read again.
+    // Returns the repairs since the last call. If there are any, archives are read again.
     std::vector<Repair> take_repairs();
-    // Archives that are settled count as changed from now on: rows of their members may be lost.
+    // Makes settled archives count as changed from now on, because rows of their members may be
+    // lost.
     void read_archives_again();
 
   private:

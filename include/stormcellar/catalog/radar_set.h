@@ -1,8 +1,8 @@
-// stormcellar/catalog/radar_set.h -- one object for each station: its files in time, raw and
-// decoded.
+// stormcellar/catalog/radar_set.h -- one object for each station that gives its files over time,
+// raw and decoded.
 //
-// The interface is that of the storage-broker client of the 2008 paper, so that programs written
-// for it can be moved. A file is only returned if it is still the one that was cataloged
+// The interface follows the storage-broker client of the 2008 paper, so that programs written for
+// it can be ported. A file is only returned if it is still the cataloged one
 // (stormcellar/catalog/read_cataloged.h).
 //
 // Threads   As CatalogReader: many threads may use one object.
@@ -26,7 +26,7 @@ class RadarSet {
   public:
     // Opens one for each station of a catalog directory whose database can be read, sorted by ICAO.
     static Result<std::vector<RadarSet>> open_all(const std::filesystem::path& catalog_directory);
-    // Errors: not_found if the catalog has no such station.
+    // Opens a station. Errors: not_found if the catalog has no such station.
     static Result<RadarSet> open(const std::filesystem::path& catalog_directory,
                                  const std::string& station);
 
@@ -35,7 +35,7 @@ class RadarSet {
     // Returns the names (without directories) of the files whose volumes start within [from, to],
     // oldest first, each once.
     [[nodiscard]] Result<std::vector<std::string>> build_data_list(UtcTime from, UtcTime to) const;
-    // Errors: not_found if the station has no volume.
+    // Return the name of the file. Errors: not_found if the station has no volume.
     [[nodiscard]] Result<std::string> oldest_file_name() const;
     // Returns the raw bytes of a file that build_data_list() named. Errors: not_found if the
     // catalog or the disk no longer has it, and those of read_cataloged().

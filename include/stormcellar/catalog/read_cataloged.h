@@ -1,9 +1,9 @@
-// stormcellar/catalog/read_cataloged.h -- reads raw files again that were cataloged.
+// stormcellar/catalog/read_cataloged.h -- reads cataloged raw files again.
 //
-// A path in the catalog names what existed there when it was cataloged. Whoever may write into the
-// drop directory may have put something else there since, such as a link to a file that only the
-// reader may read. So a file is opened beneath the drop directory, with no symbolic link on the way
-// down (base/beneath.h), and its size and hash are compared with its row.
+// A path in the catalog names what existed there when it was cataloged. Anyone who may write into
+// the drop directory may have put something else there since, such as a link to a file that only
+// the reader may read. So a file is opened beneath the drop directory, with no symbolic link on the
+// way down (base/beneath.h), and its size and hash are compared with its row.
 //
 // If the catalog does not record that directory (it was written before 2026-11-25), or the path of
 // a row is elsewhere (files were once dropped there), the file is opened from "/". Then no part of
@@ -36,13 +36,13 @@ struct CatalogedBytes {
 [[nodiscard]] Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog,
                                                     const CatalogEntry& entry);
 
-// Returns the directory beneath which the path is to be opened.
+// Returns the directory beneath which the path must be opened.
 [[nodiscard]] Result<std::filesystem::path> root_of(const CatalogReader& catalog,
                                                     const std::filesystem::path& path);
 // Returns true if the row has a size and a hash that its file must have.
 [[nodiscard]] bool has_final_hash(const CatalogEntry& entry);
-// For callers that read the file by other means. Errors: corrupt if a file of this size and hash is
-// not the one that was cataloged.
+// Checks a file that the caller read by other means. Errors: corrupt if a file of this size and
+// hash is not the cataloged one.
 [[nodiscard]] Status check_cataloged(const CatalogEntry& entry, std::uint64_t size_bytes,
                                      std::uint64_t content_hash);
 

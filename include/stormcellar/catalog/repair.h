@@ -1,5 +1,5 @@
-// stormcellar/catalog/repair.h -- sets a damaged database aside, and makes a new one with what can
-// be saved.
+// stormcellar/catalog/repair.h -- sets a damaged database aside, and makes a new one from the rows
+// that can be saved.
 //
 // KTLX.sqlite becomes KTLX.sqlite.damaged-YYYYMMDD_HHMMSS, with its -wal and -shm. Nothing reads it
 // any more, and the operator may delete it. The new database holds the rows of raw files that are
@@ -23,19 +23,19 @@ struct Repair {
     std::string station;  // empty: the database of files without a station
     std::filesystem::path database;
     std::filesystem::path set_aside;  // empty: it was deleted or replaced, so nothing was there
-    std::string damage;               // what was found, in one line
+    std::string damage;               // the findings, in one line
     std::int64_t kept_gone = 0;       // rows of files that are gone, taken over
-    std::int64_t to_read_again = 0;   // rows of existing files, left out
+    std::int64_t to_read_again = 0;   // rows of existing files, not taken over
     std::int64_t lost = 0;            // at most this many rows could not be read
 };
 
-// Everything that is wrong with a database as such, one line each; empty if it is sound. The
+// The result of examining a database: every fault, one line each; empty if it is sound. The
 // examination reads the whole database and never writes. "Is of a later version" and "is not a
 // catalog of this software" are listed too, though they are not damage. Errors: io if it cannot be
 // opened at all.
 struct Examination {
     std::vector<std::string> damage;
-    bool foreign = false;  // of a later version or another program, so it is not ours to repair
+    bool foreign = false;  // of a later version or another program, so it must not be repaired
 };
 [[nodiscard]] Result<Examination> examine_database(const std::filesystem::path& path);
 
@@ -45,8 +45,8 @@ struct Examination {
 [[nodiscard]] Result<Repair> repair_database(const std::filesystem::path& path,
                                              const std::string& station, const std::string& damage);
 
-// If there is no database, adopts the one that a repair left when it was interrupted at its end.
-// The writer calls it before it opens or makes a database.
+// If there is no database, adopts the new one of a repair that was interrupted at its end. The
+// writer calls this before it opens or makes a database.
 [[nodiscard]] Status adopt_mended_database(const std::filesystem::path& path);
 
 // Returns a line for logs and people: "KTLX.sqlite: set aside as ...; 12 rows of files that are
