@@ -78,7 +78,9 @@ class GeometryCache {
         std::optional<Value> find(const Key& key) {
             const MutexLock lock(mutex_);
             const Value* found = values_.find(key);
-            return found == nullptr ? std::nullopt : std::optional(*found);
+            if (found == nullptr) return std::nullopt;
+            // A value may be an optional itself.
+            return std::optional<Value>(std::in_place, *found);
         }
         // Returns the value that stays, which another thread may have made meanwhile.
         Value keep(const Key& key, Value value) {

@@ -1,6 +1,8 @@
 // stormcellar loop --follow, run as a user runs it.
 #include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -90,9 +92,17 @@ class Openings {
     }
     [[nodiscard]] bool come_to(std::size_t count) {
         return testing::eventually([&] {
-            inotify_event event{};  // of the directory itself, so without a name
-            while (::read(events_.number(), &event, sizeof event) == sizeof event)
-                ++count_;
+            // Events of what is inside the directory have names.
+            alignas(inotify_event) std::array<char, 4096> events;
+            ssize_t size = 0;
+            while ((size = ::read(events_.number(), events.data(), events.size())) > 0) {
+                for (ssize_t at = 0; at < size;) {
+                    inotify_event event{};
+                    std::memcpy(&event, events.data() + at, sizeof event);
+                    if (event.len == 0) ++count_;
+                    at += static_cast<ssize_t>(sizeof event + event.len);
+                }
+            }
             return count_ >= count;
         });
     }
