@@ -233,6 +233,8 @@ test('a grid that was made again while another moment was shown is loaded again'
 test.describe('a silent radar', () => {
   test('is told, until it speaks', async ({ viewer, relay, says, newest, server: { station } }) => {
     await viewer.open(newest);
+    // The list of stations, which the page asks for once it is live, says that none is silent.
+    await says.live();
     await tell(relay, 'station_silent', { station, silent_s: 840 });
     await expect(says.notice).toContainText(`${station} is silent: nothing came for 14 min`);
     await says.live(false);

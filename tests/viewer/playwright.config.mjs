@@ -59,6 +59,7 @@ export default defineConfig({
   outputDir: join(resolve(root, process.env.STORMCELLAR_BUILD || 'build/release'), 'tests/viewer/results'),
   workers: 1, // pictures are drawn by all processors
   forbidOnly: true,
+  retries: 1, // shown as flaky
   timeout: 600_000, // a machine may compile beside
   expect: { timeout: 30_000 },
   reporter: 'list',
