@@ -63,7 +63,7 @@ struct Stretch {
     std::vector<int> volumes_sent;  // by site
 };
 
-// When grids got their names, by these.
+// Times at which grids got their names, by these.
 using Renames = std::map<std::string, std::vector<std::chrono::steady_clock::time_point>>;
 
 class FeedRun {

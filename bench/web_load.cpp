@@ -74,7 +74,7 @@ Result<WebServer> serve(const std::vector<std::string>& words, const fs::path& s
     std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
                                           fmt::format("127.0.0.1:{}", port)};
     arguments.insert(arguments.end(), words.begin(), words.end());
-    // What a server before this one said does not count.
+    // Ignores what a server before this one said.
     std::error_code ignored;
     fs::remove(scratch / "serve", ignored);
     return listening(ChildProcess::start(std::move(arguments), scratch / "serve", processor), port,

@@ -41,7 +41,7 @@ struct FileIdentity {
     static FileIdentity of(const std::filesystem::path& path);
 };
 
-// Whether a database has a row of a path whose guessed_home() is another database.
+// True if a database has a row of a path whose guessed_home() is another database.
 enum class Strays : std::uint8_t {
     unknown,
     none,

@@ -12,7 +12,7 @@
 
 namespace stormcellar::cli {
 
-// Where to find values that no list can name.
+// Place to find values that no list can name.
 enum class Kept { nowhere, files, directories, domains, stations, commands };
 
 struct ValueWord {

@@ -56,7 +56,7 @@ struct PathsConfig {
     bool operator==(const PathsConfig&) const = default;
 };
 
-// What is gridded, and by how many threads. The defaults are those of pipeline::IngestOptions.
+// Grids to make, and the number of threads. The defaults are those of pipeline::IngestOptions.
 struct GridConfig {
     std::vector<level2::Moment> moments = {level2::Moment::ref};
     double spacing_m = 1000;
@@ -67,7 +67,7 @@ struct GridConfig {
     bool operator==(const GridConfig&) const = default;
 };
 
-// How files are ingested.
+// Limits and options of ingest.
 struct IngestConfig {
     StationRule stations;  // the stations from which data are accepted
     std::vector<AddedStation> added_stations;
@@ -88,7 +88,7 @@ struct PartialsConfig {
     bool operator==(const PartialsConfig&) const = default;
 };
 
-// How the catalog and the cache store the results.
+// Storage of results in the catalog and the cache.
 struct StorageConfig {
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // age of the newest missing grids

@@ -41,7 +41,7 @@ struct LoopState {
     bool operator==(const LoopState&) const = default;
 };
 
-// Whether the file of a scene must exist. A running service accepts a missing file: only its loop
+// Tells if the file of a scene must exist. A running service accepts a missing file: only its loop
 // stops, and reports it.
 enum class SceneFiles { as_named, must_exist };
 

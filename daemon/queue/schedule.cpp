@@ -6,7 +6,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// How long to wait if all ready jobs are of stations that have used up their share of the workers.
+// Time to wait if all ready jobs are of stations that have used up their share of the workers.
 constexpr std::chrono::milliseconds look_at_shares{50};
 
 }  // namespace

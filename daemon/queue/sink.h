@@ -32,7 +32,7 @@ struct CatalogState {
     std::string rule;                  // "known", "any" or "listed"
     std::vector<std::string> further;  // stations that `any` accepted
     std::size_t most_further = 0;
-    // How many databases of unknown stations there are, and the first names.
+    // Number of databases of unknown stations, and the first names.
     std::size_t left_alone = 0;
     std::vector<std::string> some_left_alone;
     bool operator==(const CatalogState&) const = default;

@@ -16,7 +16,7 @@ namespace stormcellar::daemon {
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
-// Whether the failure of a job was logged already.
+// True if the failure of a job was logged already.
 enum class Named : bool { not_yet, before };
 
 class Reporter {

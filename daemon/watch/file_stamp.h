@@ -23,7 +23,7 @@ struct FileStamp {
 
 [[nodiscard]] FileStamp stamp_of(const struct stat& facts);
 
-// What exists at a path. Symbolic links are never followed.
+// Kind of thing at a path. Symbolic links are never followed.
 enum class Standing { regular, directory, other, missing, unknown };
 struct FileFound {
     Standing standing = Standing::missing;

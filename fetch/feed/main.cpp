@@ -19,7 +19,7 @@ namespace stormcellar::feed {
 namespace {
 
 constexpr std::string_view program = "stormcellar-feed";
-// How often the program checks for signals, and how often it writes the status and feeds the
+// Periods in which the program checks for signals, and in which it writes the status and feeds the
 // watchdog.
 constexpr std::chrono::milliseconds between_looks{100}, between_reports{2000};
 

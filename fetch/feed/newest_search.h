@@ -29,7 +29,7 @@ class NewestSearch {
     void take(const fetch::ListingPage& answer, UtcTime now);
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
 
-    // Where the follower begins: with the directory before the newest, so that a complete volume
+    // Start of the follower: with the directory before the newest, so that a complete volume
     // comes first, or with the newest itself. Chunks older than `from` are from an earlier round of
     // the ring.
     struct Start {

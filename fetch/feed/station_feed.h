@@ -69,7 +69,7 @@ class StationFeed {
     std::optional<UtcTime> modified_;  // of the last chunk
     std::chrono::milliseconds between_chunks_{0};
     SteadyTime failing_since_{};
-    // When the last chunk came, moved later by the time in which turns failed.
+    // Time of the last chunk, moved later by the time in which turns failed.
     SteadyTime quiet_since_ = steady_now();
     StationStatus status_;
 };

@@ -45,7 +45,7 @@ class Tracer {
     bool run(State start, double farthest_m, std::vector<RayNode>& nodes);
 
   private:
-    // Why a step ended.
+    // Reason for the end of a step.
     enum class Event { none, border, floor };
     struct Step {
         State state;

@@ -37,7 +37,7 @@ struct SceneOptions {
     double beam_width_deg = 0;  // 0: that of the site's radar
     RefractivityProfile profile = RefractivityProfile::reference();
     int threads = 1;
-    // Of repeated sweeps, the nearest to this time is used; none: the newest.
+    // Uses the repeated sweep nearest to this time; none: the newest.
     std::optional<UtcTime> nearest_to = std::nullopt;
 };
 

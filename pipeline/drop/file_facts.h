@@ -25,8 +25,8 @@ struct FileStamp {
     std::int64_t modified_ns = 0;
     bool regular = false;  // symbolic links are not followed, so they are not regular
     mode_t kind = 0;       // the S_IFMT part of the mode
-    // When the file arrived or last changed, by the wall clock, whatever time its writer set. A new
-    // hard link also changes it, so it does not distinguish two states.
+    // Time at which the file arrived or last changed, by the wall clock, whatever time its writer
+    // set. A new hard link also changes it, so it does not distinguish two states.
     std::int64_t changed_ns = 0;
     bool operator==(const FileStamp& other) const {
         return size_bytes == other.size_bytes && modified_ns == other.modified_ns &&

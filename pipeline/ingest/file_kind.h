@@ -28,7 +28,7 @@
 
 namespace stormcellar::pipeline {
 
-// When to grid a volume that may be incomplete: when it has ended; also when no more is expected;
+// Time to grid a volume that may be incomplete: when it has ended; also when no more is expected;
 // or now.
 enum class Finish { when_it_ends, when_quiet, as_it_is };
 

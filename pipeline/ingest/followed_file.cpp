@@ -74,7 +74,7 @@ struct RecordChain {
     // The file ends with its last word, or is not a file of records, in which case reading it whole
     // finds out more.
     bool is_whole = false;
-    // Where the last record begins, if it ends with the file; 0 if the file ends within a record.
+    // Start of the last record, if it ends with the file; 0 if the file ends within a record.
     std::uint64_t last = 0;
 };
 

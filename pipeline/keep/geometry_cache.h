@@ -70,7 +70,7 @@ class GeometryCache {
         bool operator==(const Windowed&) const = default;
     };
 
-    // What many threads keep.
+    // Values that many threads share.
     template <class Key, class Value>
     class Kept {
       public:

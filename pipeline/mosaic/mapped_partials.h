@@ -27,7 +27,7 @@ inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minu
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
-// What to do with a partial that cannot be read, twice in a row. A daemon leaves it out, so that it
+// Answer to a partial that cannot be read, twice in a row. A daemon leaves it out, so that it
 // does not hold up the frames of other radars; a caller that makes each frame once gets an error.
 enum class Unreadable { is_left_out, is_an_error };
 

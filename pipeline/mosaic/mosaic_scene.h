@@ -92,7 +92,7 @@ class MosaicScene {
     [[nodiscard]] const MosaicChoice& default_choice() const { return default_; }
 
   private:
-    // What partials depend on.
+    // Choices on which partials depend.
     struct Gridding {
         grid::SceneChoice choice;
         bool fine_codes = false;

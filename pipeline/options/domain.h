@@ -37,7 +37,7 @@ struct Domain {
     bool operator==(const Domain&) const = default;
 };
 
-// When the frames of the domains are made.
+// Times at which frames of the domains are made.
 enum class FramesWhen {
     volume_comes,  // at once when a volume changes them, as the daemon does
     asked_for,     // only by MosaicMaker::make_again(), so that an archive makes each frame once

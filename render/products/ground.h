@@ -25,7 +25,7 @@ namespace stormcellar::render {
 // A column that was seen below this height above sea level counts as seen from low down.
 inline constexpr double low_coverage_m = 3000;
 
-// How the ground shows the way the columns over it were seen: from low down, only higher up, or not
+// The ground shows the way the columns over it were seen: from low down, only higher up, or not
 // at all; or, if haze shows the rest, only seen or not.
 enum class GroundTells { how_low, whether_seen };
 

@@ -29,7 +29,7 @@ enum class CellStatus : std::uint8_t {
 };
 [[nodiscard]] std::string_view cell_status_name(CellStatus status);
 
-// When one sweep was made, and how fast the antenna turned (grid/sweep/sweep_clock.h).
+// Time of one sweep, and speed of the antenna (grid/sweep/sweep_clock.h).
 struct SweepTime {
     double elevation_deg = 0;
     UtcTime start;                 // time of the first radial

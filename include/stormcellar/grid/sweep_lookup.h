@@ -56,13 +56,13 @@ struct SweepFacts {
     UtcTime start, end;         // of the first and the last radial; the epoch: not known
 };
 
-// What one gate holds.
+// Contents of one gate.
 struct GateValue {
     CellStatus status = CellStatus::not_seen;
     float value = 0;  // if the status is value
 };
 
-// Where a gate is, and when it was measured.
+// Position of a gate, and time of its measurement.
 struct GatePosition {
     std::uint32_t radial = 0;  // index in Sweep::radials
     std::int32_t gate = 0;

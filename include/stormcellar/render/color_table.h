@@ -45,7 +45,7 @@ struct ColorTable {
     std::string unit;              // "dBZ"; empty: no unit
     std::vector<ColorStop> stops;  // at least one
     float end = 0;                 // upper end of the last class in a color bar
-    // Where a color bar begins. If empty, it begins with the first class, which may reach far down.
+    // Start of a color bar. If empty, it begins with the first class, which may reach far down.
     std::optional<float> bar_begin;
     Rgba8 range_folded{};
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly

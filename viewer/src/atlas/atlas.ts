@@ -164,7 +164,7 @@ function slotsFor(count: number, mostTexels: number): [number, number, number] {
 // Cells of one brick; null where it has no values, or they are not there.
 export type CellsOf = (brick: number) => { codes: Uint8Array | Uint16Array; from: number } | null;
 
-// Where bricks of a grid are copied from, and the texels that they are copied to.
+// Source of the bricks of a grid, and the texels to which they are copied.
 export interface Filling {
     grid: PackedGrid; // its table alone is read
     cellsOf: CellsOf;

@@ -1,4 +1,4 @@
-// Where points of a grid are in the picture: the same camera as `stormcellar frame` has
+// Positions of points of a grid in the picture: the same camera as `stormcellar frame` has
 // (include/stormcellar/render/view_geometry.h).
 //
 // Drawn space: x east, y north, z = height above sea level times the exaggeration, in meters from the

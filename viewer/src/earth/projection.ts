@@ -1,4 +1,4 @@
-// Where places on the earth are on a grid's plane, in meters from the middle of the grid, and back.
+// Positions of places on the earth on a grid's plane, in meters from the middle of the grid, and back.
 //
 // Azimuthal equidistant by geodesics of WGS84 (Vincenty 1975, to millimeters except near the antipode),
 // Lambert conformal conic of the ellipsoid (Snyder 1987, pp 107-109), and latitude and longitude with

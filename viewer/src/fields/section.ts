@@ -13,7 +13,7 @@ export interface Section {
     topM: number;
     field: FlatField; // columns along the way, rows from the bottom up
     inGrid: Uint8Array; // 1 for columns of the field that lie in the grid
-    // Where both ends of each column of the field are, one more than there are columns.
+    // Positions of both ends of each column of the field, one more than there are columns.
     ends: Plane[];
 }
 

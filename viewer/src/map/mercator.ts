@@ -1,4 +1,4 @@
-// Where places are on the start map: Web Mercator, as the tiles have it.
+// Positions of places on the start map: Web Mercator, as the tiles have it.
 //
 // A point of the map is [x, y] in the square of the earth: x from 0 at 180 degrees west to 1, y from 0 in
 // the north to 1. Longitudes repeat: x + 1 is the same place. Pixels: (0, 0) is the top left corner.

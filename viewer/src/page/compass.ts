@@ -1,4 +1,4 @@
-// Where north is in the picture, also in a saved one. A press turns north up.
+// Shows north in the picture, also in a saved one. A press turns north up.
 
 import { shades } from '../renderer/shades';
 import { App } from './app';

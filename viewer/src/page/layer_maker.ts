@@ -257,7 +257,7 @@ export class LayerMaker {
     private askLater(): void {
         window.setTimeout(this.came, againAfterMs + 1);
     }
-    // Why the surface is not in the picture; empty if it is.
+    // Reason why the surface is not in the picture; empty if it is.
     private whyNoSurface(shown: Shown): string {
         const other = this.otherOf(shown);
         if (!other) return '';

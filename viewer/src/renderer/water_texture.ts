@@ -1,4 +1,4 @@
-// Where the ground is water, as a texture.
+// Texture of the ground that is water.
 
 import { Graphics } from './graphics';
 import { Program } from './program';

@@ -15,7 +15,7 @@ export interface Cells {
     middle: Plane;
 }
 
-// Where the cells of a grid lie on a plane.
+// Extent of the cells of a grid on a plane.
 export interface Extent {
     westM: number;
     southM: number;

@@ -1,4 +1,4 @@
-// Where an upright axis of heights stands in the picture, and its marks.
+// Places an upright axis of heights in the picture, with its marks.
 
 import { ViewGeometry } from '../camera/geometry';
 import { Unit } from '../tables/units';

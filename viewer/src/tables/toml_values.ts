@@ -7,7 +7,7 @@ import { TableError, shownWord } from './table_file';
 
 const deepest = 16;
 
-// Where a value is, and what is in it: keys of a table, or items of an array.
+// Place and contents of a value: keys of a table, or items of an array.
 interface Place {
     line: number;
     keys: Map<string, Place>;

@@ -26,7 +26,7 @@ export interface Site {
     icao: string;
 }
 
-// Where the columns of a grid are on the earth.
+// Places of the columns of a grid on the earth.
 export interface GridPlace {
     projection: number;
     nx: number;

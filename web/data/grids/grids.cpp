@@ -70,8 +70,8 @@ struct Grids::Impl {
     struct Open {
         GridFileStamp stamp;
         std::shared_ptr<const OpenGrid> grid;
-        // When the open file was last compared with the file of its name, and the count of changes
-        // then.
+        // Time at which the open file was last compared with the file of its name, and the count of
+        // changes then.
         std::chrono::steady_clock::time_point seen_at{};
         std::uint64_t seen_changes = 0;
     };

@@ -72,7 +72,7 @@ class RawOpener {
     Mutex mutex_;
     std::map<State, std::uint64_t> hashes_ STORMCELLAR_GUARDED_BY(mutex_);
     RecentlyUsed<std::string, OpenedRaw> joined_ STORMCELLAR_GUARDED_BY(mutex_);
-    // Of settled volumes of chunks.
+    // Facts of settled volumes of chunks.
     std::map<std::string, RawFacts> facts_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 

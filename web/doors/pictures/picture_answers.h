@@ -39,7 +39,7 @@ using Found = tl::expected<Value, Answer>;
                                                      const std::string& etag,
                                                      std::optional<std::chrono::seconds> max_age);
 
-// How long clients may use an answer that depends only on a grid without asking again.
+// Time for which clients may use an answer that depends only on a grid without asking again.
 inline constexpr std::chrono::seconds answer_holds_for{300};
 // Returns none (ask each time) for a grid that was requested as "latest" or that may change.
 [[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time,

@@ -168,7 +168,7 @@ export class StartMap {
         if (lacks && this.lacksSince === Infinity) window.setTimeout(() => this.draw(), toldAfterMs);
         this.lacksSince = lacks ? Math.min(this.lacksSince, performance.now()) : Infinity;
         this.putCard();
-        // Where the stations are, for whoever looks at the page from outside.
+        // Positions of the stations, for tests of the page.
         const places = this.data.stations.map((one) =>
             [one.icao, ...pixelOf(view, mapPoint(one)).map(Math.round)].join(' '),
         );

@@ -1,4 +1,4 @@
-// What is solid: a color, and the depth as a share of the grid's depths.
+// A solid thing: its color, and its depth as a share of the grid's depths.
 uniform vec3 seenColor, foldedColor, hatchColor, borderColor;
 uniform vec2 depthRange;
 in vec2 at;

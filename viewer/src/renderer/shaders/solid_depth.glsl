@@ -1,4 +1,4 @@
-// How far along the ray something solid is, which ends it.
+// Distance along the ray to something solid, which ends the ray.
 uniform sampler2D solidDepth; // as a share of depthRange
 uniform vec2 depthRange;
 float solidAt() {
