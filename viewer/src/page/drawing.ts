@@ -4,7 +4,7 @@ import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewGeometry } from '../camera/geometry';
 import { Governor } from '../renderer/governor';
 import { Rung, rungs, usualRungs } from '../renderer/ladder';
-import { DrawnLayers } from '../renderer/layers';
+import { DrawnLayers } from '../renderer/layer_passes';
 import { Frame, Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';

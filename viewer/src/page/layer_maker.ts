@@ -9,7 +9,7 @@ import { Section, cutSection } from '../fields/section';
 import { mixingOf } from '../fields/status_rule';
 import { cutOf, kindOf, nearestSite } from '../fields/sweep_choice';
 import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
-import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
+import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layer_passes';
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { Cells, extentOf, placingOf } from '../scene/grid_box';
 import { Layers, echoLayers, isBelow, usualLayers, veilsFolded } from '../scene/layers';

@@ -13,7 +13,7 @@ import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/
 import { App } from './app';
 import { Drawing } from './drawing';
 import { wholeBox } from './layer_tools';
-import { columnAt } from './reading';
+import { columnAt } from './column_reading';
 
 export type PickedLayer = 'volume' | 'plane' | 'section' | 'surface' | 'maximum' | 'sweep' | 'ground' | 'outside';
 

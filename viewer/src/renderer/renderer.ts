@@ -13,7 +13,7 @@ import { PackedGrid } from '../wire/packed_grid';
 import { RayView, TilePass, blockEnds, tilesOf } from './echo_tiles';
 import { Exposure } from './exposure';
 import { Graphics } from './graphics';
-import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
+import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layer_passes';
 import { LinePass } from './line_pass';
 import { Program } from './program';
 import { VolumeVariant, airProgram, groundProgram, surfaceProgram, volumeProgram } from './shader_programs';

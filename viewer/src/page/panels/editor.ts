@@ -23,7 +23,7 @@ import { ExportedFile, TableEditing } from '../table_editing';
 import { tableTitle } from '../table_book';
 import { editorTexts } from '../texts';
 import { EditorPlot, Selection } from './editor_plot';
-import { draftFrom, palOf } from './table_files';
+import { draftFrom, palOf } from './draft_files';
 
 const words = editorTexts;
 const otherPanels = [

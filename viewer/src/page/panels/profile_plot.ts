@@ -4,7 +4,7 @@ import { colorOf } from '../../tables/color_table';
 import { heightText, shownUnit } from '../../tables/units';
 import { App } from '../app';
 import { fontOf, textScale } from '../dom';
-import { ColumnReading, LevelReading } from '../reading';
+import { ColumnReading, LevelReading } from '../column_reading';
 import { shades } from '../../renderer/shades';
 import { texts } from '../texts';
 

@@ -12,7 +12,7 @@ import { gridForColumn } from '../exact_column';
 import { Keys } from '../keys';
 import { Picked, pick } from '../picked';
 import { Tool } from '../pointers';
-import { ColumnReading, columnAt, readColumn } from '../reading';
+import { ColumnReading, columnAt, readColumn } from '../column_reading';
 import { texts } from '../texts';
 import { Hover } from './hover';
 import { profilePlot } from './profile_plot';
