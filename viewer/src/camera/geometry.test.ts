@@ -65,11 +65,14 @@ test('the box lies between the near and the far depth', () => {
 });
 
 test('the ground under a pixel projects back to it, and the sky has none', () => {
-    const geometry = new ViewGeometry(box, { ...usualCamera, tiltDeg: 88, fieldOfViewDeg: 60 }, 3, 400, 300);
-    const ground = geometry.ground(200, 290)!;
-    const pixel = geometry.project([ground[0], ground[1], geometry.groundM * 3])!;
-    assert(near(pixel[0], 200) && near(pixel[1], 290));
-    assert.equal(geometry.ground(200, 1), null);
+    const low = { ...usualCamera, tiltDeg: 88, fieldOfViewDeg: 60 };
+    for (const camera of [...cameras, low]) {
+        const geometry = new ViewGeometry(box, camera, 3, 400, 300);
+        const ground = geometry.ground(200, 290)!;
+        const pixel = geometry.project([...ground, geometry.groundM * 3])!;
+        assert(near(pixel[0], 200) && near(pixel[1], 290));
+    }
+    assert.equal(new ViewGeometry(box, low, 3, 400, 300).ground(200, 1), null);
 });
 
 test('another point to look at comes to the middle and keeps the scale', () => {

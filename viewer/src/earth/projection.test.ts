@@ -3,17 +3,11 @@ import test from 'node:test';
 
 import { cellSizeM, destination, geodesic, planeOf, projectionNamed } from './projection';
 import { projections } from '../facts';
+import { GridPlace } from '../wire/packed_grid';
+import { placeAbout } from '../testing/written_grid';
 
 const radians = Math.PI / 180;
-const grid = {
-    projection: projections.azimuthal_equidistant.number as number,
-    centerDeg: [35.3331, -97.2777] as [number, number],
-    parallelsDeg: [30, 45] as [number, number],
-    offsetCells: [0, 0] as [number, number],
-    spacing: 1000,
-    nx: 460,
-    ny: 460,
-};
+const grid: GridPlace = { ...placeAbout([35.3331, -97.2777]), parallelsDeg: [30, 45] };
 
 test('a geodesic has the length of the meridian and of the equator', () => {
     // WGS84: a quarter of a meridian is 10,001,965.729 m.
@@ -29,6 +23,19 @@ test('a geodesic has the length of the meridian and of the equator', () => {
                 6378137 * radians,
         ) < 1e-4,
     );
+});
+
+// Flinders Peak to Buninyong, the usual example, on WGS84 instead of GRS80 (which changes micrometers).
+test('a geodesic is that of the tables', () => {
+    const flinders = { latitudeDeg: -(37 + 57 / 60 + 3.7203 / 3600), longitudeDeg: 144 + 25 / 60 + 29.5244 / 3600 };
+    const buninyong = { latitudeDeg: -(37 + 39 / 60 + 10.1561 / 3600), longitudeDeg: 143 + 55 / 60 + 35.3839 / 3600 };
+    const { distanceM, azimuth } = geodesic(flinders, buninyong);
+    assert(Math.abs(distanceM - 54972.271) < 0.002, `${distanceM}`);
+    const degrees = (azimuth / radians + 360) % 360;
+    assert(Math.abs(degrees - (306 + 52 / 60 + 5.37 / 3600)) < 2e-6, `${degrees}`);
+    const there = destination(flinders, azimuth, distanceM);
+    assert(Math.abs(there.latitudeDeg - buninyong.latitudeDeg) < 1e-9);
+    assert(Math.abs(there.longitudeDeg - buninyong.longitudeDeg) < 1e-9);
 });
 
 test('destination and geodesic undo each other', () => {

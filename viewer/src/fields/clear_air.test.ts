@@ -4,16 +4,16 @@ import test from 'node:test';
 import { isClearAir } from './clear_air';
 import { usualLayers, layersAddress, layersOf, toggledFolded, veilsFolded } from '../scene/layers';
 import { readPackedGrid } from '../wire/packed_grid';
-import { makeGrid } from '../testing/made_grid';
+import { slantedGrid } from '../testing/written_grid';
 
 test('weak echo is clear air, storms are not (2026-11-28: clear air looked as if nothing had come)', () => {
-    const grid = readPackedGrid(makeGrid(40, 36, 20).bytes);
+    const grid = readPackedGrid(slantedGrid(40, 36, 20));
     assert.equal(isClearAir(grid), true); // at most 16 dBZ
     assert.equal(isClearAir({ ...grid, firstValue: grid.firstValue + 30 }), false); // up to 46 dBZ
 });
 
 test('of a halved grid, the area of echo is an estimate (2026-11-28: grids in parts had no rule)', () => {
-    const grid = readPackedGrid(makeGrid(16, 16, 1).bytes);
+    const grid = readPackedGrid(slantedGrid(16, 16, 1));
     const [few, many] = [60, 200].map((count) => ({
         ...grid,
         spacing: 2000,

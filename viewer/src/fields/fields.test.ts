@@ -18,70 +18,26 @@ const made: Made = {
 };
 const grid = readPackedGrid(packedGrid(made));
 
-function mixed(mixer: Mixer, parts: [CellState, number, number][]): [CellState, number] {
+function mixed(mixer: Mixer, ...parts: [CellState, number, number][]): [CellState, number] {
     mixer.clear();
     for (const part of parts) mixer.add(...part);
     mixer.result();
     return [mixer.state, mixer.value];
 }
 
-test('between cells the weights decide, and states never enter a value', () => {
+test('weights decide between cells, and states never enter a value', () => {
     const mixer = new Mixer('mean');
-    assert.deepEqual(
-        mixed(mixer, [
-            [3, 40, 0.5],
-            [1, 0, 0.5],
-        ]),
-        [CellState.value, 40],
-    );
-    assert.deepEqual(
-        mixed(mixer, [
-            [3, 40, 0.4],
-            [1, 0, 0.6],
-        ]),
-        [CellState.noEcho, 0],
-    );
-    assert.deepEqual(
-        mixed(mixer, [
-            [3, 40, 0.4],
-            [0, 0, 0.6],
-        ]),
-        [CellState.notSeen, 0],
-    );
-    assert.deepEqual(
-        mixed(mixer, [
-            [3, 40, 0.25],
-            [3, 60, 0.25],
-            [0, 0, 0.5],
-        ]),
-        [CellState.value, 50],
-    );
-    assert.deepEqual(
-        mixed(mixer, [
-            [3, 40, 0.2],
-            [2, 0, 0.5],
-            [1, 0, 0.3],
-        ]),
-        [CellState.rangeFolded, 0],
-    );
-    assert.deepEqual(mixed(mixer, []), [CellState.notSeen, 0]);
+    assert.deepEqual(mixed(mixer, [3, 40, 0.5], [1, 0, 0.5]), [CellState.value, 40]);
+    assert.deepEqual(mixed(mixer, [3, 40, 0.4], [1, 0, 0.6]), [CellState.noEcho, 0]);
+    assert.deepEqual(mixed(mixer, [3, 40, 0.4], [0, 0, 0.6]), [CellState.notSeen, 0]);
+    assert.deepEqual(mixed(mixer, [3, 40, 0.25], [3, 60, 0.25], [0, 0, 0.5]), [CellState.value, 50]);
+    assert.deepEqual(mixed(mixer, [3, 40, 0.2], [2, 0, 0.5], [1, 0, 0.3]), [CellState.rangeFolded, 0]);
+    assert.deepEqual(mixed(mixer), [CellState.notSeen, 0]);
 });
 
 test('velocities are those of the heaviest cell, phases go round', () => {
-    assert.deepEqual(
-        mixed(new Mixer('heaviest'), [
-            [3, -30, 0.4],
-            [3, 28, 0.6],
-        ]),
-        [CellState.value, 28],
-    );
-    assert.deepEqual(
-        mixed(new Mixer('circle'), [
-            [3, 350, 0.5],
-            [3, 20, 0.5],
-        ]),
-        [CellState.value, 5],
-    );
+    assert.deepEqual(mixed(new Mixer('heaviest'), [3, -30, 0.4], [3, 28, 0.6]), [CellState.value, 28]);
+    assert.deepEqual(mixed(new Mixer('circle'), [3, 350, 0.5], [3, 20, 0.5]), [CellState.value, 5]);
 });
 
 test('a plane at a level is that level, and between two it mixes them', () => {

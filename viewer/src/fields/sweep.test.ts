@@ -6,6 +6,7 @@ import { azimuthSteps, beamAt, coneOf, noRadial, radialsByAzimuth } from './swee
 import { planeOf } from '../earth/projection';
 import { PackedError } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
+import { placeAbout } from '../testing/written_grid';
 
 // A sweep as docs/web/packed-grid.md has it: radials at some azimuths, the code of a gate tells both.
 function packedSweep(azimuths: number[], gateCount: number): Uint8Array {
@@ -65,17 +66,9 @@ test('a beam of half a degree is where the formula of Doviak and Zrnic has it', 
 });
 
 test('the cone stands about its site', () => {
-    const grid = {
-        projection: 0,
-        centerDeg: [35.3331, -97.2777] as [number, number],
-        parallelsDeg: [0, 0] as [number, number],
-        offsetCells: [0, 0] as [number, number],
-        spacing: 1000,
-        nx: 400,
-        ny: 400,
-    };
+    const plane = planeOf(placeAbout([35.3331, -97.2777]));
     const sweep = readPackedSweep(packedSweep([0, 90, 180, 270], 100));
-    const { corners, triangles } = coneOf(sweep, planeOf(grid));
+    const { corners, triangles } = coneOf(sweep, plane);
     for (let i = 0; i < corners.length; i += 5 * 97) {
         const [x, y, height, azimuth, range] = corners.subarray(i, i + 5) as unknown as [
             number,
@@ -124,15 +117,7 @@ test('of a split cut the half that pictures take is shown, and each can be chose
 });
 
 test('of several sites the nearest to a place is meant', () => {
-    const grid = {
-        projection: 0,
-        centerDeg: [35, -97] as [number, number],
-        parallelsDeg: [0, 0] as [number, number],
-        offsetCells: [0, 0] as [number, number],
-        spacing: 1000,
-        nx: 400,
-        ny: 400,
-    };
+    const plane = planeOf(placeAbout([35, -97]));
     const site = (icao: string, latitudeDeg: number, longitudeDeg: number) => ({
         icao,
         latitudeDeg,
@@ -140,7 +125,7 @@ test('of several sites the nearest to a place is meant', () => {
         altitudeM: 0,
     });
     const sites = [site('KTLX', 35.33, -97.28), site('KFDR', 34.36, -98.98)];
-    assert.equal(nearestSite(sites, planeOf(grid), [0, 0])!.icao, 'KTLX');
-    assert.equal(nearestSite(sites, planeOf(grid), [-150000, -60000])!.icao, 'KFDR');
-    assert.equal(nearestSite([], planeOf(grid), [0, 0]), null);
+    assert.equal(nearestSite(sites, plane, [0, 0])!.icao, 'KTLX');
+    assert.equal(nearestSite(sites, plane, [-150000, -60000])!.icao, 'KFDR');
+    assert.equal(nearestSite([], plane, [0, 0]), null);
 });

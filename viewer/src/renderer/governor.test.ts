@@ -14,45 +14,38 @@ const rung = (name: string, cost: number, dE: number): Rung => ({
     dE,
 });
 const three = [rung('exact', 1, 0.5), rung('middle', 0.5, 2), rung('fast', 0.1, 6)];
+function governorAfter(exactMs: number, mostDE = 10, all = three): Governor {
+    const governor = new Governor(all, 50, mostDE);
+    governor.took(three[0]!, exactMs);
+    return governor;
+}
 
 test('a picture that stands still is exact, however long it takes', () => {
-    const governor = new Governor(three, 50, 10);
-    governor.took(three[0]!, 5000);
-    assert.equal(governor.next(false).name, 'exact');
+    assert.equal(governorAfter(5000).next(false).name, 'exact');
 });
 
 test('while the camera moves the most exact rung is taken that is drawn in time', () => {
-    const governor = new Governor(three, 50, 10);
-    governor.took(three[0]!, 90);
+    const governor = governorAfter(90);
     assert.equal(governor.next(true).name, 'middle');
     for (let i = 0; i < 20; ++i) governor.took(three[1]!, 200);
     assert.equal(governor.next(true).name, 'fast');
 });
 
 test('where none is drawn in time the fastest is taken', () => {
-    const governor = new Governor(three, 50, 10);
-    governor.took(three[0]!, 100_000);
-    assert.equal(governor.next(true).name, 'fast');
+    assert.equal(governorAfter(100_000).next(true).name, 'fast');
 });
 
 test('a rung whose error is not allowed is never taken', () => {
-    const governor = new Governor(three, 50, 3);
-    governor.took(three[0]!, 100_000);
-    assert.equal(governor.next(true).name, 'middle');
-    const strict = new Governor(three, 50, 0.1);
-    strict.took(three[0]!, 100_000);
-    assert.equal(strict.next(true).name, 'exact');
+    assert.equal(governorAfter(100_000, 3).next(true).name, 'middle');
+    assert.equal(governorAfter(100_000, 0.1).next(true).name, 'exact');
 });
 
 test('nothing that moves is drawn with more effort than what stands still', () => {
-    const governor = new Governor([...three, rung('lavish', 3, 0.1)], 50, 10);
-    governor.took(three[0]!, 1);
-    assert.equal(governor.next(true).name, 'exact');
+    assert.equal(governorAfter(1, 10, [...three, rung('lavish', 3, 0.1)]).next(true).name, 'exact');
 });
 
 test('near the limit the picture does not go to and fro', () => {
-    const governor = new Governor(three, 50, 10);
-    governor.took(three[0]!, 101);
+    const governor = governorAfter(101);
     assert.equal(governor.next(true).name, 'fast');
     for (let i = 0; i < 20; ++i) governor.took(three[2]!, 9.9);
     assert.equal(governor.next(true).name, 'fast', 'the middle rung would just fit');

@@ -32,13 +32,14 @@ test('the address holds the whole view', () => {
 });
 
 test('what makes no sense in an address is left at its usual value', () => {
-    const state = stateOf(
+    for (const address of [
         '#time=never&tilt=1e9&zoom=NaN&azimuth=&opacity=-1&least=weak&look-at-km=1,2&moment=<script>',
-    );
-    assert.deepEqual(state.camera, usualState.camera);
-    assert.equal(state.time, 'latest');
-    assert.equal(state.opacity, usualState.opacity);
-    assert.equal(state.least, null);
+        '#time=soon&tilt=steep&zoom=-3&azimuth=1e9&opacity=&look-at-km=1,2,x',
+    ]) {
+        const state = stateOf(address);
+        assert.deepEqual(state.camera, usualState.camera);
+        assert.deepEqual([state.time, state.opacity, state.least], ['latest', usualState.opacity, null]);
+    }
     assert.equal(stateOf(`#domain=${'x'.repeat(5000)}`).domain.length, 100);
 });
 
@@ -46,21 +47,20 @@ test('an empty address is the usual view', () => {
     assert.deepEqual(stateOf(''), usualState);
 });
 
-test('the command names what stormcellar frame knows', () => {
+test('the command draws the same view', () => {
+    const state = { ...usualState, domain: 'KTLX', moment: 'REF' };
+    assert.equal(
+        commandOf(state, 796, 532, ''),
+        'stormcellar frame KTLX --moment REF --azimuth 180 --tilt 60 --zoom 1 --field-of-view 40 --exaggeration 5 --opacity 1 --light none --width 796 --height 532 -o KTLX.png',
+    );
+    const ofFile = commandOf({ ...state, time: '1999-05-03T23:56:21Z' }, 796, 532, '', 'KTLX19990503_235621.gz');
+    assert(ofFile.startsWith('stormcellar frame KTLX19990503_235621.gz --moment REF --azimuth'), ofFile);
     const command = commandOf({ ...chosen, domain: 'KLBB' }, 796, 532, 'safe-velocity');
     for (const part of [
-        'stormcellar frame KLBB',
-        '--moment VEL',
-        '--azimuth 217.25',
-        '--tilt 71.5',
-        '--zoom 3.5',
-        '--field-of-view 0',
+        '--azimuth 217.25 --tilt 71.5 --zoom 3.5 --field-of-view 0',
         '--look-at-km 12.345,-6.789,4',
-        '--exaggeration 2.5',
-        '--opacity 1.8',
+        '--exaggeration 2.5 --opacity 1.8',
         '--colors safe-velocity',
-        '--width 796',
-        '--height 532',
     ])
         assert(command.includes(part), `${part} in ${command}`);
 });

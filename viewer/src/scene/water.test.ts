@@ -7,40 +7,13 @@ import { isCut, mapLines, projected, withoutCuts } from './ground_lines';
 import { planeOf } from '../earth/projection';
 import { ringsOf } from './water';
 import { MapLine } from '../wire/api';
+import { placeAbout } from '../testing/written_grid';
 
-const plane = planeOf({
-    projection: 0,
-    centerDeg: [41, -75],
-    parallelsDeg: [0, 0],
-    offsetCells: [0, 0],
-    spacing: 1000,
-    nx: 100,
-    ny: 100,
-});
+const plane = planeOf(placeAbout([41, -75]));
+const area = (kind: MapLine['kind'], ...points: [number, number][]): MapLine => ({ kind, is_area: true, points });
 // Land in the west of a tile: its shore runs along a meridian that is no edge of the tile.
-const coast: MapLine = {
-    kind: 'coast',
-    is_area: true,
-    points: [
-        [-76, 40],
-        [-75, 40],
-        [-75, 40.5],
-        [-74.8, 41.2],
-        [-75, 42],
-        [-76, 42],
-        [-76, 40],
-    ],
-};
-const lake: MapLine = {
-    kind: 'lake',
-    is_area: true,
-    points: [
-        [-75.5, 41],
-        [-75.3, 41],
-        [-75.4, 41.1],
-        [-75.5, 41],
-    ],
-};
+const coast = area('coast', [-76, 40], [-75, 40], [-75, 40.5], [-74.8, 41.2], [-75, 42], [-76, 42], [-76, 40]);
+const lake = area('lake', [-75.5, 41], [-75.3, 41], [-75.4, 41.1], [-75.5, 41]);
 const all = projected({ credit: '', lines: [coast, lake], cities: [] }, plane);
 
 test('edges of tiles are no shores, and others along a meridian are', () => {
@@ -56,17 +29,7 @@ test('edges of tiles are no shores, and others along a meridian are', () => {
 
 test('long edges of tiles are divided, at the same places from both sides', () => {
     const [land] = ringsOf(all, 'coast', plane);
-    const east: MapLine = {
-        kind: 'coast',
-        is_area: true,
-        points: [
-            [-76, 42],
-            [-76, 40],
-            [-78, 40],
-            [-78, 42],
-            [-76, 42],
-        ],
-    };
+    const east = area('coast', [-76, 42], [-76, 40], [-78, 40], [-78, 42], [-76, 42]);
     const [neighbor] = ringsOf(projected({ credit: '', lines: [east], cities: [] }, plane), 'coast', plane);
     const west = ([x]: [number, number]) => x < plane.toPlane({ latitudeDeg: 41, longitudeDeg: -75.9 })![0];
     const shared = land!.filter(west).map(String);

@@ -4,6 +4,7 @@ import test from 'node:test';
 import { colorOf, extinctionPerM } from './color_table';
 import { ColorTable } from '../wire/color_tables';
 import { binCount, chooseBins, makeTransfer } from './transfer';
+import { smooth } from '../testing/made_tables';
 
 const stop = (from: number, r: number, g: number) => ({
     from,
@@ -122,4 +123,44 @@ test('values below the least that is shown are clear, the others as they were', 
     }
     assert(above.leastVisibleCode > made.leastVisibleCode);
     assert(makeTransfer(stepped, quantization, { opacity, least: 1000 }, stepM).leastVisibleCode >= codeOf(1000));
+});
+
+test('a step that stays in a value has that value’s look', () => {
+    const transfer = makeTransfer(smooth, quantization, { opacity: 1, least: -Infinity }, 1000);
+    for (const value of [10, 30, 50, 62]) {
+        const bin = Math.floor(transfer.binOffset + transfer.binSlope * codeOf(value));
+        const at = 4 * (bin * binCount + bin);
+        const color = colorOf(smooth, value)!;
+        for (let c = 0; c < 3; ++c) assert(Math.abs(transfer.entries[at + c]! - color[c]! / 255) < 0.02, `${value}`);
+        assert(Math.abs(transfer.entries[at + 3]! / (1000 * extinctionPerM(smooth, value, 1)) - 1) < 0.05, `${value}`);
+    }
+    assert(transfer.leastVisibleCode > codeOf(4) && transfer.leastVisibleCode <= codeOf(5.5));
+});
+
+// The sum over many thin steps is what a step from end to end must be.
+test('a step between two values shows all of them in their order', () => {
+    const stepM = 5000;
+    const transfer = makeTransfer(smooth, quantization, { opacity: 1, least: -Infinity }, stepM);
+    const binAt = (value: number) => Math.floor(transfer.binOffset + transfer.binSlope * codeOf(value));
+    for (const [from, to] of [
+        [20, 60],
+        [60, 20],
+        [40, 55],
+    ] as const) {
+        let through = 1;
+        const sum = [0, 0, 0];
+        const count = 20_000;
+        for (let i = 0; i < count; ++i) {
+            const value = from + ((i + 0.5) / count) * (to - from);
+            const seen = through * -Math.expm1((-extinctionPerM(smooth, value, 1) * stepM) / count);
+            const color = colorOf(smooth, value)!;
+            for (let c = 0; c < 3; ++c) sum[c]! += (seen * color[c]!) / 255;
+            through -= seen;
+        }
+        const at = 4 * (binAt(from) * binCount + binAt(to));
+        const alpha = -Math.expm1(-transfer.entries[at + 3]!);
+        assert(Math.abs(alpha - (1 - through)) < 0.01, `${from} ${to}`);
+        for (let c = 0; c < 3; ++c)
+            assert(Math.abs(alpha * transfer.entries[at + c]! - sum[c]!) < 0.01, `${from} ${to} ${c}`);
+    }
 });

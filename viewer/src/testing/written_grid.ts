@@ -1,5 +1,7 @@
 // Packed grids for tests, written by docs/web/packed-grid.md.
 
+import { GridPlace } from '../wire/packed_grid';
+
 export interface Made {
     nx: number;
     ny: number;
@@ -121,6 +123,17 @@ export function packedGrid(made: Made): Uint8Array {
     return new Uint8Array(view.buffer);
 }
 
+// Where a grid of 400 x 400 km lies about its center.
+export const placeAbout = (centerDeg: [number, number]): GridPlace => ({
+    projection: 0,
+    centerDeg,
+    parallelsDeg: [0, 0],
+    offsetCells: [0, 0],
+    spacing: 1000,
+    nx: 400,
+    ny: 400,
+});
+
 export function evenLevels(count: number, spacingM = 500): number[] {
     return Array.from({ length: count }, (_, i) => 500 + i * spacingM);
 }
@@ -130,4 +143,15 @@ export function scrambled(x: number, y: number, z: number): number {
     let bits = (x * 73856093) ^ (y * 19349663) ^ (z * 83492791);
     bits = Math.imul(bits ^ (bits >>> 13), 1274126177);
     return (bits ^ (bits >>> 16)) >>> 0;
+}
+
+// A slanted band of echo, its neighborhood seen, the rest not: codes that tell every axis apart.
+export function slantedGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 1, scale = 1): Uint8Array {
+    const codeOf = (x: number, y: number, z: number): number => {
+        const far = Math.abs(x - 2 * y + 3 * z - 10);
+        if (far < 6) return (40 + ((x * 7 + y * 3 + z * 5) % 60)) * scale;
+        if (far < 30) return 1;
+        return far < 60 && (x + y + z) % 11 === 0 ? 2 : 0;
+    };
+    return packedGrid({ nx, ny, levelsM: evenLevels(nz), codeBytes, step: 0.5 / scale, codeOf });
 }

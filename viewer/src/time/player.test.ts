@@ -16,6 +16,7 @@ test('who looks at a time keeps it when newer ones come and older ones go', () =
     assert.equal(player.follows, false);
     const later = withTimes(player, ['b', 'c', 'd', 'e']);
     assert.equal(later.times[later.at], 'b');
+    assert.equal(withTimes(later, ['c', 'd']).at, 0, 'b was evicted, so the next one is shown');
 });
 
 test('without times there is none', () => assert.equal(withTimes(at(withTimes(stopped, times), 1), []).at, -1));

@@ -40,6 +40,7 @@ test('the header says what and where the grid is', () => {
     assert.deepEqual(grid.sites, [{ latitudeDeg: 35.3331, longitudeDeg: -97.2777, altitudeM: 389, icao: 'KTLX' }]);
     assert.equal(valueOf(grid, 3), -32);
     assert.equal(valueOf(grid, 83), 8);
+    assert.deepEqual([...grid.levelsM], evenLevels(18));
 });
 
 test('where a grid is stands in its header, before it is decoded', () => {
@@ -67,23 +68,16 @@ test('a form that is cut or is something else is refused, wherever it is cut', (
     assert.throws(() => readPackedGrid(other), PackedError);
 });
 
-test('a table that names a block that is not there is refused', () => {
-    const bytes = packedGrid(mixed);
-    const view = new DataView(bytes.buffer);
-    const tableAt = Number(view.getBigUint64(224, true));
-    view.setUint32(tableAt + 8, 1e6, true); // the first brick has values
-    assert.throws(() => readPackedGrid(bytes), PackedError);
-});
-
-test('a brick of an unknown kind is refused', () => {
-    const bytes = packedGrid(mixed);
-    const view = new DataView(bytes.buffer);
-    view.setUint8(Number(view.getBigUint64(224, true)), 3);
-    assert.throws(() => readPackedGrid(bytes), /unknown kind/);
-});
-
-test('a count of rows that does not fit the bricks is refused', () => {
-    const bytes = packedGrid(mixed);
-    new DataView(bytes.buffer).setUint32(204, 7, true);
-    assert.throws(() => readPackedGrid(bytes), PackedError);
+test('a header or a table that contradicts the rest is refused', () => {
+    const tableAt = Number(new DataView(packedGrid(mixed).buffer).getBigUint64(224, true));
+    for (const [at, value, error] of [
+        [tableAt + 8, 1e6, PackedError], // the first brick has values, and names a block that is not there
+        [tableAt, 3, /unknown kind/], // of the first brick
+        [196, 0, PackedError], // blocks of codes
+        [204, 7, PackedError], // rows
+    ] as const) {
+        const bytes = packedGrid(mixed);
+        new DataView(bytes.buffer).setUint32(at, value, true);
+        assert.throws(() => readPackedGrid(bytes), error, `${value} at ${at}`);
+    }
 });
