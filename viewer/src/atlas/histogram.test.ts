@@ -4,10 +4,10 @@ import test from 'node:test';
 import { makeAtlas } from './atlas';
 import { countCodes, histogramOf } from './histogram';
 import { codeAt, firstValueCode, readPackedGrid, valueOf } from '../wire/packed_grid';
-import { makeGrid } from '../testing/made_grid';
+import { slantedGrid } from '../testing/written_grid';
 
 test('each value of the grid is counted once, in its column', () => {
-    const grid = readPackedGrid(makeGrid(20, 18, 17).bytes);
+    const grid = readPackedGrid(slantedGrid(20, 18, 17));
     const slow = new Map<number, number>();
     for (let x = 0; x < grid.nx; ++x) {
         for (let y = 0; y < grid.ny; ++y) {
@@ -29,7 +29,7 @@ test('each value of the grid is counted once, in its column', () => {
     );
     const first = Math.min(...slow.keys());
     const low = valueOf(grid, first);
-    const histogram = histogramOf(grid, counts, low, low + 10 * grid.step, 8);
+    const histogram = histogramOf(grid, counts, [low, low + 10 * grid.step], 8);
     assert.equal(histogram.length, 5, 'two codes a column');
     assert.equal(histogram[0], (slow.get(first) ?? 0) + (slow.get(first + 1) ?? 0));
     assert.equal(histogram[4], (slow.get(first + 8) ?? 0) + (slow.get(first + 9) ?? 0), 'what lies beyond is left out');
@@ -37,7 +37,7 @@ test('each value of the grid is counted once, in its column', () => {
 
 test('without its codes a grid has the histogram of what is shown', () => {
     for (const codeBytes of [1, 2] as const) {
-        const grid = readPackedGrid(makeGrid(20, 18, 17, codeBytes, codeBytes === 1 ? 1 : 30).bytes);
+        const grid = readPackedGrid(slantedGrid(20, 18, 17, codeBytes, codeBytes === 1 ? 1 : 30));
         const atlas = makeAtlas(grid, 2048);
         const exact = countCodes(grid, atlas);
         const shown = countCodes({ ...grid, codes: new Uint8Array(0) }, atlas);

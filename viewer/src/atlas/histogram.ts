@@ -32,8 +32,7 @@ export function countCodes(
 export function histogramOf(
     grid: PackedGrid,
     counts: Uint32Array,
-    low: number,
-    high: number,
+    [low, high]: readonly [number, number],
     most: number,
 ): Uint32Array {
     const codes = Math.max(1, (high - low) / grid.step);

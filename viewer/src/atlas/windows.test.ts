@@ -7,6 +7,7 @@ import type { Decoder } from './decoder';
 import { Pyramid, pyramidOf } from './pyramid';
 import { BrickWindow, boundsAbout, holds, windowAbout, windowQuery, windowSeen } from './window_choice';
 import { ViewGeometry, usualCamera } from '../camera/geometry';
+import { Ray } from '../camera/ray';
 import { maximumField, planeField } from '../fields/flat_field';
 import { cutSection } from '../fields/section';
 import type { LoadedGrid } from './loaded_grid';
@@ -182,12 +183,13 @@ test('what a ray meets in its window is what it meets in the grid', () => {
     let met = 0;
     for (let x = 7; x < 300; x += 23) {
         for (let y = 5; y < 240; y += 19) {
-            const way = wayWithin(geometry, box, x, y);
+            const ray = new Ray(geometry, x, y);
+            const way = wayWithin(ray, box);
             if (!way) continue;
             const bounds = boundsAbout(way, grid)!;
             const cells = cellsOf(windowAbout(bounds, 0, 1, pyramid, grid, plenty));
             const [one, other] = [{ grid, middle: [0, 0] as [number, number] }, cells].map((of) =>
-                firstVisible(of, geometry, box, x, y, (value) => value > 10),
+                firstVisible(of, ray, box, (value) => value > 10),
             );
             assert.equal(other?.value, one?.value);
             if (one) ++met;

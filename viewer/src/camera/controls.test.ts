@@ -75,11 +75,11 @@ test('Top is a map: things aloft are drawn above their places, with north up (20
 
 test('a drag moves a map, and turns what is no map; with Shift the other way round (2026-11-28: the map was soon turned by 122°)', () => {
     const map = namedView({ ...usualCamera, fieldOfViewDeg: 40 }, 'top');
-    const moved = dragged(map, geometryOf(map), 60, -40, 2, false);
+    const moved = dragged(map, geometryOf(map), [60, -40], 2, false);
     assert.deepEqual([moved.azimuthDeg, moved.tiltDeg], [180, 0]);
     assert.deepEqual(moved, panned(map, geometryOf(map), 120, -80));
-    const turned = dragged(map, geometryOf(map), 60, -40, 2, true);
+    const turned = dragged(map, geometryOf(map), [60, -40], 2, true);
     assert.deepEqual(turned, orbited(map, 60, -40));
-    assert.deepEqual(dragged(turned, geometryOf(turned), 10, 0, 2, false), orbited(turned, 10, 0));
+    assert.deepEqual(dragged(turned, geometryOf(turned), [10, 0], 2, false), orbited(turned, 10, 0));
     assert.equal(namedView(map, 'oblique').fieldOfViewDeg, 40, 'who leaves the map sees in perspective again');
 });

@@ -51,8 +51,7 @@ export function isMap(camera: Camera): boolean {
 export function dragged(
     camera: Camera,
     geometry: ViewGeometry,
-    dx: number,
-    dy: number,
+    [dx, dy]: readonly [number, number],
     ratio: number,
     isOther: boolean,
 ): Camera {

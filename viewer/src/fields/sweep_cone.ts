@@ -17,12 +17,13 @@ function beamSphereM(latitudeDeg: number): number {
     return (4 / 3) * gaussian;
 }
 
+interface Antenna {
+    latitudeDeg: number;
+    altitudeM: number;
+}
+
 // Returns the place of a slant range on a beam: the arc along the earth at sea level, and the height above it.
-export function beamAt(
-    site: { latitudeDeg: number; altitudeM: number },
-    elevationDeg: number,
-    rangeM: number,
-): { arcM: number; heightM: number } {
+export function beamAt(site: Antenna, elevationDeg: number, rangeM: number): { arcM: number; heightM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const antenna = radius + site.altitudeM;
     const up = rangeM * Math.sin(elevationDeg * radians);
@@ -35,11 +36,7 @@ export function beamAt(
 }
 
 // Finds the beam that meets a point: the inverse of beamAt().
-export function beamTo(
-    site: { latitudeDeg: number; altitudeM: number },
-    arcM: number,
-    heightM: number,
-): { elevationDeg: number; rangeM: number } {
+export function beamTo(site: Antenna, arcM: number, heightM: number): { elevationDeg: number; rangeM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const along = (radius + heightM) * Math.sin(arcM / radius);
     const up = (radius + heightM) * Math.cos(arcM / radius) - (radius + site.altitudeM);

@@ -1,4 +1,4 @@
-// Loads what is shown next, whole: the grid, and what is drawn beside it.
+// Loads ahead what is shown next: grids, and what is drawn beside them.
 
 import { nextOf } from '../time/player';
 import { App } from './app';
@@ -21,7 +21,7 @@ export class Ahead {
         const loaded = await app.showing.load(time);
         if (!isLeft()) await app.alongside(app.showing.shownOf(time, loaded), isAhead);
     }
-    // The neighbors in time, so that a step shows at once; of a loop more.
+    // Loads the neighbors in time, so that a step shows at once, and more of them while a loop plays.
     load(): void {
         const { app } = this;
         const { times, at, isPlaying } = app.player;
@@ -29,12 +29,12 @@ export class Ahead {
         const next = isPlaying
             ? Array.from({ length: loadedAhead }, (_, i) => nextOf(app.player, i + 1))
             : [at + 1, at - 1];
-        // The server computes what is halved: of grids in parts one is asked for after the other.
+        // The server computes halved grids, so ask for one grid in parts after the other.
         const isInParts = app.shown?.loaded.stream != null;
         let before = Promise.resolve();
         for (const [i, index] of next.entries()) {
             const time = times[index ?? -1];
-            // The server makes frames in between on request: none is asked for that may not be shown.
+            // The server makes frames between volumes on request, so ask for none that may not be shown.
             if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
                 if (!isLeft())

@@ -78,14 +78,15 @@ export class App {
         this.timeline.player = player;
     }
 
-    on(happening: Happening, action: () => void): void {
-        this.heard.set(happening, [...(this.heard.get(happening) ?? []), action]);
+    on(happenings: Happening | Happening[], action: () => void): void {
+        for (const happening of [happenings].flat())
+            this.heard.set(happening, [...(this.heard.get(happening) ?? []), action]);
     }
     tell(happening: Happening): void {
         for (const action of this.heard.get(happening) ?? []) action();
     }
 
-    // Screen readers read news aloud, and not what is said of each picture.
+    // Shows a text. Screen readers read it aloud if it is news.
     say(text: string, isNews = true): void {
         element('state').setAttribute('aria-live', isNews ? 'polite' : 'off');
         element('state').textContent = text;
@@ -115,7 +116,7 @@ export class App {
         return this.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
     }
 
-    // The view was changed by a panel.
+    // Call after a change of the view.
     changed(): void {
         if (this.player.isPlaying) this.addressBar.writeSoon();
         else this.addressBar.write();
@@ -135,7 +136,7 @@ export class App {
         this.addressBar.writeSoon();
         this.tell('camera');
     }
-    // Whoever gets the link sees what is shown now, even if this page follows the newest.
+    // Returns a link to what is shown now, even if this page follows the newest.
     get link(): string {
         this.addressBar.write();
         const { shown, state } = this;
@@ -144,7 +145,8 @@ export class App {
         return new URL(`#${addressOf({ ...state, time })}`, location.href).href;
     }
 
-    // The address was changed by hand, or by going back. A picture that came meanwhile may have written another one.
+    // Takes an address that was typed, or that going back in the browser brought. Meanwhile the page may have written
+    // another one.
     takeAddress(hash: string): void {
         const [next, unreadTime] = [stateOfAddress(hash), timeThatIsNone(hash)];
         if (next.domain === '' && this.domains.length > 1) return this.openMap();
@@ -201,7 +203,7 @@ export class App {
         this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
     }
 
-    // A region is a domain once its sites and times are known. Errors: what the server says of its box.
+    // Makes a region a domain, with its sites and times. Errors: the server's answer for its box.
     async findRegion(domain: string): Promise<void> {
         const found = await region(domain);
         this.domains = [...this.domains.filter((one) => one.domain !== domain), found];
@@ -214,13 +216,13 @@ export class App {
         this.isOnMap = true;
         this.tell('map');
     }
-    // Going back in the browser leads here again.
+    // Opens the map, so that going back in the browser returns to the view.
     goToMap(): void {
         if (!this.isOnMap) this.addressBar.write();
         history.pushState(null, '', '#');
         this.openMap();
     }
-    // From the map into a domain.
+    // Opens a domain from the map.
     async enter(domain: string): Promise<void> {
         history.pushState(null, '', '#');
         if (domain === this.shown?.domain && domain === this.state.domain) await this.choose(domain, this.state.moment);

@@ -4,7 +4,7 @@ import { colorOf } from '../tables/color_table';
 import { ColorTable } from '../wire/color_tables';
 import { ShownUnit } from '../tables/units';
 import { shades } from '../renderer/shades';
-import { fontOf, textScale } from './dom';
+import { fontOf, penOf, textScale } from './dom';
 import { haloed } from './labels';
 
 // The distance between marks of an axis, so that there are about eight.
@@ -39,12 +39,8 @@ export class ColorBar {
 }
 
 function drawBar(canvas: HTMLCanvasElement, table: ColorTable, unit: ShownUnit, least: number | null): void {
-    const ratio = window.devicePixelRatio || 1;
-    canvas.width = Math.round(canvas.clientWidth * ratio);
-    canvas.height = Math.round(canvas.clientHeight * ratio);
-    const pen = canvas.getContext('2d')!;
+    const pen = penOf(canvas);
     const scale = textScale();
-    pen.scale(ratio * scale, ratio * scale);
     const height = canvas.clientHeight / scale;
     const [low, high] = [table.bar_begin, table.end];
     const [top, bottom] = [22, height - 8];

@@ -1,4 +1,4 @@
-// Reads what the column at a place holds, from the exact codes.
+// Reads the column at a place from the exact codes.
 
 import { cellSizeM } from '../earth/projection';
 import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -14,7 +14,7 @@ export interface ColumnReading {
     seenM: [number, number] | null; // between these heights the column was seen
 }
 
-// The column whose cell holds a point of the plane; null beyond the grid.
+// Returns the column whose cells hold a point of the plane; null beyond the grid.
 export function columnAt(grid: PackedGrid, xM: number, yM: number): [number, number] | null {
     const [width, height] = cellSizeM(grid);
     const x = Math.floor(xM / width + 0.5 * grid.nx);

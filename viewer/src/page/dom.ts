@@ -1,4 +1,4 @@
-// Short words for what the panels do with the document.
+// Helpers of the panels for the document.
 
 // eslint-disable-next-line @typescript-eslint/no-unnecessary-type-parameters -- callers name the kind of their element
 export function element<T extends HTMLElement>(id: string): T {
@@ -15,10 +15,40 @@ export function fontOf(pixels: number, weight: 'normal' | 'bold' = 'normal'): st
     return `${weight} ${pixels}px "DejaVu Sans", system-ui, sans-serif`;
 }
 
+// Returns how many pixels of the picture a pixel of the page is wide.
+export function pixelRatio(): number {
+    return window.devicePixelRatio || 1;
+}
+
+// Makes a canvas as fine as the screen shows it. Returns a pen whose pixels are larger where texts are.
+export function penOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
+    const ratio = pixelRatio();
+    canvas.width = Math.round(canvas.clientWidth * ratio);
+    canvas.height = Math.round(canvas.clientHeight * ratio);
+    const pen = canvas.getContext('2d')!;
+    pen.scale(ratio * textScale(), ratio * textScale());
+    return pen;
+}
+
+// Makes an element with these attributes and children.
+export function make<Kind extends keyof HTMLElementTagNameMap>(
+    kind: Kind,
+    attributes: Record<string, string> = {},
+    ...children: (Node | string)[]
+): HTMLElementTagNameMap[Kind] {
+    const made = document.createElement(kind);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    made.append(...children);
+    return made;
+}
+
+// Puts a name before a control.
+export function labeled(name: string, ...control: HTMLElement[]): HTMLLabelElement {
+    return make('label', {}, make('span', {}, name), ...control);
+}
+
 export function button(id: string, text: string, action: () => void): HTMLButtonElement {
-    const made = document.createElement('button');
-    made.id = id;
-    made.textContent = text;
+    const made = make('button', { id }, text);
     made.addEventListener('click', action);
     return made;
 }
@@ -42,9 +72,7 @@ export function labeledButton(id: string, sign: string, name: string, action: ()
 }
 
 export function paragraph(text: string): HTMLParagraphElement {
-    const made = document.createElement('p');
-    made.textContent = text;
-    return made;
+    return make('p', {}, text);
 }
 
 // Fills a list with names, of which one is chosen.
@@ -54,23 +82,13 @@ export function putOptions(
     chosen: string | undefined,
     textOf = (name: string) => name,
 ): void {
-    select.replaceChildren(
-        ...names.map((name) => {
-            const option = document.createElement('option');
-            option.value = name;
-            option.textContent = textOf(name);
-            option.selected = name === chosen;
-            return option;
-        }),
-    );
+    select.replaceChildren(...names.map((name) => new Option(textOf(name), name, false, name === chosen)));
 }
 
 export function saveFile(name: string, text: string): void {
-    const link = document.createElement('a');
-    link.download = name;
-    link.href = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
-    link.click();
-    window.setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    const href = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
+    make('a', { download: name, href }).click();
+    window.setTimeout(() => URL.revokeObjectURL(href), 10_000);
 }
 
 export function press(id: string, isPressed: boolean): void {

@@ -10,7 +10,7 @@ import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
 import { App, Shown } from './app';
 import { ColorBar } from './color_bar';
-import { element, textScale } from './dom';
+import { element, pixelRatio, textScale } from './dom';
 import { Ground } from './ground';
 import { drawHeightScale } from './height_scale';
 import { LayerMaker } from './layer_maker';
@@ -31,7 +31,7 @@ export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) =>
 
 export class Drawing {
     readonly labels = element<HTMLCanvasElement>('labels');
-    // Where a processor draws, a browser paints text and lines faster without WebGL's detour.
+    // If a processor draws, a browser paints text and lines faster without WebGL.
     private pen = this.labels.getContext('2d', { willReadFrequently: this.renderer.isSoftware })!;
     private bar = new ColorBar(element<HTMLCanvasElement>('bar'));
     private overlays: Overlay[] = [];
@@ -112,14 +112,14 @@ export class Drawing {
         return shown ? this.geometryOf(shown.loaded, grain) : null;
     }
     private geometryOf({ grid }: LoadedGrid, grain: number): ViewGeometry {
-        const ratio = window.devicePixelRatio || 1;
+        const ratio = pixelRatio();
         const width = Math.max(16, Math.round((this.picture.clientWidth * ratio) / grain));
         const height = Math.max(16, Math.round((this.picture.clientHeight * ratio) / grain));
         const { camera, exaggeration } = this.app.state;
         return new ViewGeometry(boxOf(grid), camera, exaggeration, width, height);
     }
 
-    // Something is being dragged: pictures are drawn fast, and a fine one after it rests.
+    // Call while something is dragged: draws fast pictures, and a fine one once it rests.
     move(): void {
         this.movedAt = performance.now();
         this.draw();
@@ -140,12 +140,12 @@ export class Drawing {
         this.wasPlaying = isPlaying;
     }
 
-    // A hand that turns the view is not at rest because a frame took long.
+    // Returns how long the view must rest before it is drawn finely: longer if frames take long.
     private get stillAfterMs(): number {
         return Math.min(mostStillAfterMs, Math.max(leastStillAfterMs, 2 * this.lastMs));
     }
 
-    // Bricks come faster than pictures are drawn of them.
+    // Draws a while later, because bricks come faster than pictures.
     private drawLater(): void {
         if (this.isWaiting) return;
         this.isWaiting = true;
@@ -163,7 +163,7 @@ export class Drawing {
         return allowed.find(({ name }) => name === this.app.state.quality) ?? this.governor.next(isMoving);
     }
 
-    // Bricks are asked for once for each view.
+    // Asks for bricks once for each view.
     private stream(geometry: ViewGeometry, { halvings }: Rung): void {
         const { camera, exaggeration } = this.app.state;
         const view = JSON.stringify([camera, exaggeration, geometry.width, geometry.height, halvings]);
@@ -229,7 +229,7 @@ export class Drawing {
         else if (!this.isFinal && this.isComplete) this.end(shown, rung, ms, fetches);
     }
 
-    // The picture is as it stays, until something changes.
+    // Tells what the picture shows. It stays until something changes.
     private end(shown: Shown, rung: Rung, ms: number, fetches: number | null): void {
         const { app } = this;
         this.isFinal = true;
@@ -252,7 +252,7 @@ export class Drawing {
         act();
     }
 
-    // Draws the marks of the tools again, which have changed; the scene has not.
+    // Draws the marks of the tools again without the scene.
     drawMarks(): void {
         const geometry = this.geometry();
         if (geometry && !this.isDrawing) this.drawOver(geometry);
@@ -274,8 +274,8 @@ export class Drawing {
                 bottom: bottom / scale,
             }));
         const { pen } = this;
-        const ratio = window.devicePixelRatio || 1;
-        clearLabels(pen, ratio);
+        const ratio = pixelRatio();
+        clearLabels(pen);
         if (this.app.state.hasGround) {
             pen.save();
             pen.scale(scale, scale);

@@ -1,10 +1,10 @@
-// The exact codes of one column, for readings.
+// Finds the exact codes of one column.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { packed } from '../wire/api';
 import { PackedGrid, readPackedBricks, withBricks } from '../wire/packed_grid';
 
-// The grid with the exact codes of a column. Of a grid in parts they are asked for.
+// Returns the grid with the exact codes of a column. Asks the server for those of a grid in parts.
 export async function gridForColumn({ grid, stream }: LoadedGrid, [x, y]: [number, number]): Promise<PackedGrid> {
     if (!stream) return grid;
     const [, columns, layers] = grid.bricks;

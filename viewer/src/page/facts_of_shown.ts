@@ -1,5 +1,5 @@
-// Asks the server for its facts of the grid that is shown, until it has answered once. A grid that was made
-// again is another one.
+// Asks the server for facts of the grid that is shown, and keeps its answer. A grid that was made again has other
+// facts.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { GridFacts, RegionSites, gridFacts, isRegion, regionSites } from '../wire/api';

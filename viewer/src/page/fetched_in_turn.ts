@@ -1,4 +1,4 @@
-// Fetches things that are shown, or will be soon, from the server one after the other, and keeps them.
+// Fetches what is shown, or soon will be, one thing after the other, and keeps it.
 //
 // The server decodes a volume for the list of its sweeps, and keeps it for the gates that are asked for next. So sweeps
 // come fastest one at a time, and the server never has to say that it is busy.
@@ -52,7 +52,7 @@ export class FetchedInTurn<T> {
         return wanted?.error !== undefined && this.now() - wanted.failedAt > againAfterMs;
     }
 
-    // Resolves when it has come or failed. What is asked for now goes before what is fetched ahead.
+    // Resolves when it has come or failed. A wish for now goes before those ahead.
     take(key: string, fetch: () => Promise<T>, isAhead: boolean): Promise<void> {
         const known = this.known(key);
         if (known && !this.isToRetry(key)) {

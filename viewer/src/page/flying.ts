@@ -2,6 +2,7 @@
 
 import { Window, flown, speedOf, takenOff, turned } from '../camera/fly';
 import { App } from './app';
+import { pixelRatio } from './dom';
 import { Drawing } from './drawing';
 import { Tool } from './pointers';
 import { boxOf } from '../scene/grid_box';
@@ -40,7 +41,7 @@ export class FlyTool implements Tool {
     ) {
         const view = this.window();
         if (view) app.moved(takenOff(app.state.camera, view));
-        // Before the keys of the picture, some of which are the same.
+        // A flight takes its keys before the picture does, which uses some of the same.
         document.addEventListener('keydown', this.down, { capture: true });
         document.addEventListener('keyup', this.up, { capture: true });
         window.addEventListener('blur', this.lost);
@@ -61,8 +62,7 @@ export class FlyTool implements Tool {
     }
     drag(x: number, y: number): void {
         const view = this.window();
-        const ratio = window.devicePixelRatio || 1;
-        const [dx, dy] = [(x - this.last[0]) / ratio, (y - this.last[1]) / ratio];
+        const [dx, dy] = [(x - this.last[0]) / pixelRatio(), (y - this.last[1]) / pixelRatio()];
         this.last = [x, y];
         if (view) this.app.moved(turned(this.app.state.camera, view, dx * degreesAPixel, -dy * degreesAPixel));
     }
@@ -98,7 +98,7 @@ export class FlyTool implements Tool {
         }
     }
 
-    // The way since the last picture, however long that took.
+    // Moves as far as the time since the last picture allows.
     private move(): void {
         const view = this.window();
         if (this.held.size === 0 || !view) return;

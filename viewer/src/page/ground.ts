@@ -1,4 +1,4 @@
-// The map below a grid: lines for the renderer, names for the labels.
+// Loads the map below a grid: lines and water for the renderer, names for the labels.
 
 import { boxAbout } from '../map/mercator';
 import { Renderer } from '../renderer/renderer';
@@ -71,12 +71,12 @@ export class Ground {
         this.shownKey = '';
     }
 
-    // The map of a grid that comes is asked for while the grid is decoded.
+    // Asks for the map of a grid while the grid is still decoded.
     expect(domain: string, place: GridPlace): void {
         if (domain === this.app.state.domain) void this.ask(domain, place);
     }
 
-    // Without a map the grid alone is shown.
+    // Returns null if there is no map; the page then shows the grid alone.
     private ask(domain: string, place: GridPlace): Promise<MapOnPlane | null> {
         const key = keyOf(domain, place);
         if (this.asked?.key === key) return this.asked.found;

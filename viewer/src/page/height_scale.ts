@@ -9,7 +9,7 @@ import { Rect, haloed } from './labels';
 
 const room = 26; // for its numbers, to the left
 
-// In the pen's pixels, of which each is `pixelRatio` of the picture's. Returns what it covers.
+// Draws in pixels of the pen, each `pixelRatio` pixels of the picture wide. Returns the rectangles that it covers.
 export function drawHeightScale(
     pen: CanvasRenderingContext2D,
     geometry: ViewGeometry,

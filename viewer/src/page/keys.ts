@@ -29,8 +29,7 @@ export class Keys {
         this.add('.', () => app.playback.step(1));
     }
 
-    // Letters are small; others are named as KeyboardEvent.key has them. The first action of a name stays,
-    // but Escape ends everything.
+    // Letters are small; other names are those of KeyboardEvent.key. A key has one action, but Escape may have many.
     add(name: string, action: () => void): void {
         const known = this.actions.get(name);
         if (known && name !== 'Escape') throw new Error(`the key '${name}' is taken`);
@@ -40,8 +39,8 @@ export class Keys {
         });
     }
 
-    // While no control has the keyboard, the picture has it: also before anything was clicked. Letters do nothing
-    // elsewhere, where they would be in the way of what is typed.
+    // Gives the picture the keyboard while no control has it, even before the first click. A control keeps its letters,
+    // so that a user can type.
     begin(): void {
         document.addEventListener('keydown', (event) => {
             if (event.target === this.drawing.picture || event.target === document.body) this.press(event);
@@ -73,7 +72,7 @@ export class Keys {
         const action = this.actions.get(event.key.length === 1 ? event.key.toLowerCase() : event.key);
         if (way && geometry) {
             const { camera } = this.app.state;
-            this.app.moved(dragged(camera, geometry, way[0], way[1], farther, event.shiftKey));
+            this.app.moved(dragged(camera, geometry, way, farther, event.shiftKey));
         } else if (action) {
             action();
         } else {

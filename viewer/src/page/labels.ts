@@ -3,7 +3,8 @@
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
 import { Mark } from '../scene/ground_lines';
-import { fontOf } from './dom';
+import { Plane } from '../earth/projection';
+import { fontOf, pixelRatio } from './dom';
 
 export interface Rect {
     left: number;
@@ -24,37 +25,43 @@ export function haloed(pen: CanvasRenderingContext2D, text: string, x: number, y
     pen.fillText(text, x, y);
 }
 
-export function clearLabels(pen: CanvasRenderingContext2D, pixelRatio: number): void {
-    pen.setTransform(1, 0, 0, 1, 0, 0);
-    pen.clearRect(0, 0, pen.canvas.width, pen.canvas.height);
-    pen.scale(pixelRatio, pixelRatio);
+// Returns the pixel of the page that shows a point of the plane at a height; null behind the camera.
+export function pagePixel(geometry: ViewGeometry, [x, y]: Plane, heightM: number): [number, number] | null {
+    const pixel = geometry.project([x, y, heightM * geometry.exaggeration]);
+    return pixel && [pixel[0] / pixelRatio(), pixel[1] / pixelRatio()];
 }
 
-// `taken` are parts of the picture that the page covers, in the pen's pixels, of which each is `pixelRatio` of the
-// picture's.
+export function clearLabels(pen: CanvasRenderingContext2D): void {
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.clearRect(0, 0, pen.canvas.width, pen.canvas.height);
+    pen.scale(pixelRatio(), pixelRatio());
+}
+
+// `taken` are the parts of the picture that the page covers, in pixels of the pen, each `ratio` pixels of the picture
+// wide.
 export function drawLabels(
     pen: CanvasRenderingContext2D,
     geometry: ViewGeometry,
     marks: Mark[],
     taken: Rect[],
-    pixelRatio: number,
+    ratio: number,
 ): void {
     const { width, height } = geometry;
     const full = [...taken];
-    const most = Math.max(6, Math.round((width * height) / (pixelRatio * pixelRatio) / 22000));
+    const most = Math.max(6, Math.round((width * height) / (ratio * ratio) / 22000));
     let cities = 0;
     for (const mark of [...marks].sort((a, b) => b.rank - a.rank)) {
         if (mark.kind === 'city' && cities >= most) continue;
         const pixel = geometry.project([mark.at[0], mark.at[1], geometry.groundM * geometry.exaggeration]);
         if (!pixel) continue;
-        const [x, y] = [pixel[0] / pixelRatio, pixel[1] / pixelRatio];
-        if (x < 4 || y < 4 || x > width / pixelRatio - 4 || y > height / pixelRatio - 4) continue;
+        const [x, y] = [pixel[0] / ratio, pixel[1] / ratio];
+        if (x < 4 || y < 4 || x > width / ratio - 4 || y > height / ratio - 4) continue;
         pen.font = mark.kind === 'site' ? fontOf(13, 'bold') : fontOf(12);
         pen.textBaseline = 'middle';
         const wide = pen.measureText(mark.text).width;
         const left = mark.kind === 'ring' ? x - wide / 2 : x + 7;
         const rect: Rect = { left: Math.min(left, x - 4) - 2, top: y - 9, right: left + wide + 3, bottom: y + 9 };
-        if (rect.right > width / pixelRatio || full.some((other) => overlaps(rect, other))) continue;
+        if (rect.right > width / ratio || full.some((other) => overlaps(rect, other))) continue;
         full.push(rect);
         if (mark.kind === 'city') ++cities;
         if (mark.kind !== 'ring') {

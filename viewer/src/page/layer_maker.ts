@@ -1,5 +1,5 @@
-// Makes of the view's layers what the renderer draws: cuts of the grid that is shown, the grid of another
-// moment, the sweep of its volume. What was made is kept as long as it is the same.
+// Makes what the renderer draws of the view's layers: cuts of the grid that is shown, the grid of another moment, the
+// sweep of its volume. Keeps each until what it was made of changes.
 
 import { ViewGeometry } from '../camera/geometry';
 import { airOf } from '../fields/air';
@@ -30,7 +30,7 @@ const sectionColumns = 480;
 const sectionRows = 192;
 const oldestVolumeMs = 30 * 60 * 1000; // no radar takes so long for one volume
 const sweepsOfBudget = 0.2; // of the bytes that the page may hold
-const againAfterMs = 10_000; // a sweep, or a grid of another moment, that could not be had
+const againAfterMs = 10_000; // a sweep, or a grid of another moment, that failed
 
 // A sweep as it is drawn, and the sweeps of its volume.
 interface PlacedSweep {
@@ -47,7 +47,7 @@ const bytesOfSweep = ({
     },
 }: PlacedSweep): number => codes.byteLength + radials.byteLength + cone.corners.byteLength + cone.triangles.byteLength;
 
-// The last value of each name, with what it was made of.
+// Keeps the last value of each name, with what it was made of.
 class Kept {
     private held = new Map<string, { of: readonly unknown[]; value: unknown }>();
 
@@ -75,14 +75,14 @@ function movedBy(section: Section, [x, y]: Plane): Section {
 export class LayerMaker {
     private kept = new Kept();
     private comingOthers = new Set<string>(); // grids of another moment
-    private missingOthers = new Map<string, { at: number; error: unknown }>(); // when they could not be had, and why
+    private missingOthers = new Map<string, { at: number; error: unknown }>(); // when and why they failed
     private sweeps: FetchedInTurn<PlacedSweep>;
     private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
     private numbers = new WeakMap<LoadedGrid, number>();
     private mostNumber = 0;
     private toldSweep = ''; // its key
     private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
-    private askedSweep = ''; // the one whose coming is waited for
+    private askedSweep = ''; // key of the sweep that is on its way
     layerCame: () => void = () => undefined; // or failed: what is told has changed
 
     constructor(
@@ -93,14 +93,14 @@ export class LayerMaker {
         this.sweeps = new FetchedInTurn(sweepsOfBudget * app.loader.budget.bytes, bytesOfSweep);
     }
 
-    // Something that is wanted has not come yet.
+    // Returns true if something that a layer needs has not come yet.
     get isWaiting(): boolean {
         const { shown, state } = this.app;
         if (!shown) return false;
         const waitsForSweep = state.layers.sweepDeg !== null && !this.isSweepSettled(this.sweepKey(shown));
         return waitsForSweep || this.comingOthers.has(this.otherOf(shown)?.key ?? '') || this.windows.isWaiting;
     }
-    // The sweep that is drawn stays, even if there is no room to keep it beside those that come.
+    // Counts the sweep that is drawn as here, even if the others leave no room to keep it.
     private isSweepSettled(key: string): boolean {
         return this.lastSweep?.key === key || this.sweeps.isSettled(key);
     }
@@ -121,7 +121,7 @@ export class LayerMaker {
         if (windows) waits.push(windows);
         return waits.length > 0 ? Promise.all(waits).then(() => undefined) : null;
     }
-    // Finds the cells that layers are made of, and gives back those that no layer needs.
+    // Finds the cells that layers are made of, and releases those that no layer needs.
     private cellsOf(
         loaded: LoadedGrid,
         geometry: ViewGeometry,
@@ -141,8 +141,7 @@ export class LayerMaker {
         };
     }
 
-    // Returns null if nothing is to be drawn but the volume as it always was. While the view moves, asks for
-    // no other part of a grid.
+    // Returns null if the volume is drawn without layers. While the view moves, asks for no other part of a grid.
     make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
         const { shown, shownTable: table, state } = this.app;
         const { layers } = state;
@@ -391,7 +390,7 @@ export class LayerMaker {
         return this.sweeps.take(this.sweepKey(shown), fetch, isAhead);
     }
 
-    // While another sweep of the same volume comes, the one before stays.
+    // Returns the sweep before until another one of the same volume has come.
     private sweepOf(shown: Shown): PlacedSweep | null {
         if (this.app.state.layers.sweepDeg === null) return null;
         const { loaded, moment } = shown;
@@ -423,7 +422,7 @@ export class LayerMaker {
     }
 }
 
-// A cut as the list and the title name it.
+// Returns the name of a cut in the list and the title.
 export function cutText(row: SweepRow, rows: SweepRow[]): string {
     const kind = kindOf(row, rows);
     return texts.layers.cut(

@@ -1,4 +1,4 @@
-// Hears from the server of new and changed grids, and notices if it tells nothing any more.
+// Listens to the server's news of grids, and notices when the server falls silent.
 
 import { ApiError, askEvents, silences, timeOf } from '../wire/api';
 import { EventText, ServerEvent } from '../wire/events';
@@ -77,7 +77,7 @@ export class Live {
                 this.refused(error);
                 return false;
             }
-            // Without the id of an event the server cannot say what was missed.
+            // The server can tell what was missed only after the id of an event.
             this.isBehind = this.isBehind || this.last === '';
             this.app.server.take(false);
         } finally {

@@ -1,4 +1,4 @@
-// Loads grids, decodes them in a worker and keeps those that were used last, within a budget.
+// Loads grids, decodes them in a worker, and keeps the last used ones within a budget.
 //
 // A grid that is too large comes as its table and, as a whole, as a halved one that is small enough;
 // page/streaming.ts then fetches what the view needs of it.
@@ -81,7 +81,7 @@ export class Loader {
 
     besides: () => number = () => 0; // bytes that the page holds beside whole grids and their atlases
 
-    // Hears where a grid lies while it is decoded.
+    // Called with the place of a grid while the grid is decoded.
     onPlace: ((domain: string, place: GridPlace) => void) | null = null;
 
     constructor(
@@ -104,7 +104,7 @@ export class Loader {
     has(key: string): boolean {
         return this.kept.has(key);
     }
-    // A grid was made again: the next load asks for it.
+    // Forgets a grid that was made again, so that the next load asks for it.
     forget(key: string): void {
         const old = this.kept.get(key);
         this.kept.delete(key);
@@ -175,7 +175,7 @@ export class Loader {
         return { grid, atlas, coverage, stream };
     }
 
-    // Bytes that are held, with the texture, the codes and the windows of grids in parts.
+    // Returns the bytes that are held, with the texture, the codes and the windows of grids in parts.
     get bytes(): number {
         const all = [...this.kept.values()];
         const parts = all.find(({ stream }) => stream);

@@ -1,4 +1,4 @@
-// Distances and areas that are clicked together in the picture.
+// Measures distances and areas between places that the user clicks.
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
@@ -8,7 +8,7 @@ import { distanceText, heightText } from '../tables/units';
 import { App } from './app';
 import { fontOf, textScale } from './dom';
 import { Drawing } from './drawing';
-import { haloed } from './labels';
+import { haloed, pagePixel } from './labels';
 import { Picked, pick } from './picked';
 import { Tool } from './pointers';
 import { texts } from './texts';
@@ -89,11 +89,9 @@ export class MeasureTool implements Tool {
         const { shown } = this.app;
         if (!shown || this.points.length === 0) return;
         const plane = planeOf(shown.loaded.grid);
-        const ratio = window.devicePixelRatio || 1;
         const pixels = this.all.map((one) => {
             const at = plane.toPlane(one.place);
-            const pixel = at && geometry.project([at[0], at[1], one.heightM * geometry.exaggeration]);
-            return pixel && ([pixel[0] / ratio, pixel[1] / ratio] as [number, number]);
+            return at && pagePixel(geometry, at, one.heightM);
         });
         for (const [color, width] of [
             [shades.halo, 5],

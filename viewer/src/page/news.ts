@@ -14,7 +14,7 @@ const farthestMadeMs = 30 * 60 * 1000;
 export class News {
     constructor(private app: App) {}
 
-    // News were lost: all lists are asked for anew, and any grid may have been made again.
+    // Call after news were lost: asks for all lists, and forgets all grids, because any may have been made again.
     async catchUp(): Promise<void> {
         const { app } = this;
         if (!app.book || app.domains.length === 0) return app.begin();
@@ -67,8 +67,8 @@ export class News {
         await app.showing.showTime();
     }
 
-    // The server has other times now; `changedTime` is that of a grid that was made again, `oldest` the first that is
-    // left after others were evicted.
+    // Takes other times of the server. `changedTime` is the time of a grid that was made again, `oldest` the first time
+    // that is left after others were evicted.
     async takeNews(
         domain: string | undefined,
         moment: string | undefined,
@@ -117,7 +117,7 @@ export class News {
         ]);
         const now = app.timeline.now;
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
-        // After a failure the page may wait for another time than that of the picture.
+        // If a load failed, the picture may be of another time.
         if (now !== before || now !== app.shown?.time || isOfNow || now === changedTime) await app.showing.showTime();
         else app.tell('time');
     }

@@ -2,6 +2,7 @@
 
 import { boundsAbout } from '../atlas/window_choice';
 import { ViewGeometry } from '../camera/geometry';
+import { Ray } from '../camera/ray';
 import { croppedBox, Crop } from '../scene/layers';
 import { firstVisible, mostVisible, wayWithin } from '../scene/first_visible';
 import { Cells } from '../scene/grid_box';
@@ -39,10 +40,8 @@ interface Met {
 }
 
 // The ray through a pixel, and what it may meet.
-interface Ray {
-    x: number;
-    y: number;
-    geometry: ViewGeometry;
+interface Sight {
+    ray: Ray;
     grid: PackedGrid; // that is shown
     table: ColorTable;
     cells: Cells | null; // along it; null: they are not here
@@ -51,8 +50,9 @@ interface Ray {
 }
 
 // Returns the hits of layers along the ray, the nearest first; those that are solid hide what is behind.
-function solidsOn({ x, y, geometry, grid, table, cells, whole }: Ray, { state }: App, { drawn }: Drawing): Met[] {
+function solidsOn({ ray, grid, table, cells, whole }: Sight, { state }: App, { drawn }: Drawing): Met[] {
     if (!drawn) return [];
+    const { geometry } = ray;
     const isShown = ({ state: status, value }: SolidHit) =>
         status === CellState.rangeFolded ||
         (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table, value) !== null);
@@ -60,18 +60,16 @@ function solidsOn({ x, y, geometry, grid, table, cells, whole }: Ray, { state }:
     const add = (layer: PickedLayer, hit: SolidHit | null) => {
         if (hit) met.push({ layer, hit, isSolid: isShown(hit) });
     };
-    if (drawn.plane) add('plane', levelHit(geometry, drawn.plane, drawn.plane.heightM, x, y, drawn.mixes));
-    if (drawn.section) add('section', sectionHit(geometry, drawn.section, x, y, drawn.mixes));
-    if (drawn.sweep) add('sweep', sweepHit(geometry, drawn.sweep, planeOf(grid), x, y, isShown));
-    if (drawn.maximum) add('maximum', levelHit(geometry, drawn.maximum, geometry.groundM, x, y, drawn.mixes));
+    if (drawn.plane) add('plane', levelHit(ray, drawn.plane, drawn.plane.heightM, drawn.mixes));
+    if (drawn.section) add('section', sectionHit(ray, drawn.section, drawn.mixes));
+    if (drawn.sweep) add('sweep', sweepHit(ray, drawn.sweep, planeOf(grid), isShown));
+    if (drawn.maximum) add('maximum', levelHit(ray, drawn.maximum, geometry.groundM, drawn.mixes));
     if (drawn.surface) {
         const { value, isBelow, of } = drawn.surface;
         const own = of ? { grid: of.grid, middle: [0, 0] as Plane } : cells;
         const seen =
             own &&
-            firstVisible(own, geometry, croppedBox(whole, drawn.crop), x, y, (one) =>
-                isBelow ? one <= value : one >= value,
-            );
+            firstVisible(own, ray, croppedBox(whole, drawn.crop), (one) => (isBelow ? one <= value : one >= value));
         // The moment that is shown colors it.
         const colored =
             seen &&
@@ -120,10 +118,11 @@ const found = (
 ): Found => ({ layer, at, heightM, state, value, gate });
 
 // Returns what is seen most along the ray: the volume, a layer, or the ground; null if that is the sky.
-function foundOn(ray: Ray, app: App, drawing: Drawing): Found | null {
-    const { x, y, geometry, table, cells, whole, ground } = ray;
+function foundOn(sight: Sight, app: App, drawing: Drawing): Found | null {
+    const { ray, table, cells, whole, ground } = sight;
+    const { geometry } = ray;
     const { opacity, least, layers } = app.state;
-    const met = solidsOn(ray, app, drawing);
+    const met = solidsOn(sight, app, drawing);
     const solid = met.find((one) => one.isSolid) ?? null;
     // The volume, until something solid or the ground hides it.
     const untilDepth = Math.min(
@@ -132,9 +131,7 @@ function foundOn(ray: Ray, app: App, drawing: Drawing): Found | null {
     );
     const perM = (value: number) => (value >= (least ?? -Infinity) ? extinctionPerM(table, value, opacity) : 0);
     const volume =
-        layers.hasVolume && cells
-            ? mostVisible(cells, geometry, croppedBox(whole, layers.crop), x, y, untilDepth, perM)
-            : null;
+        layers.hasVolume && cells ? mostVisible(cells, ray, croppedBox(whole, layers.crop), untilDepth, perM) : null;
     if (volume?.cell && (solid ? volume.share > volume.through : 1 - volume.through > leastSeen))
         return found('volume', volume.cell.at, volume.cell.heightM, CellState.value, volume.cell.value);
     const nearest = solid ?? met[0];
@@ -144,12 +141,12 @@ function foundOn(ray: Ray, app: App, drawing: Drawing): Found | null {
         const gate = layer === 'sweep' ? (hit as GateHit) : null;
         return found(layer, hit.at, heightM ?? hit.heightM, hit.state, hit.value, gate);
     }
-    return ground && groundOn(ray, ground, drawing.drawn?.hasFolded ? (volume?.foldedM ?? 0) : 0);
+    return ground && groundOn(sight, ground, drawing.drawn?.hasFolded ? (volume?.foldedM ?? 0) : 0);
 }
 
 // Returns what the ground shows, behind air that is range folded along `foldedM` of the ray.
-function groundOn({ geometry, grid, cells, whole }: Ray, ground: Plane, foldedM: number): Found {
-    const { groundM, exaggeration } = geometry;
+function groundOn({ ray, grid, cells, whole }: Sight, ground: Plane, foldedM: number): Found {
+    const { groundM, exaggeration } = ray.geometry;
     if (!columnAt(grid, ...ground)) return found('outside', ground, groundM, null);
     if (foldedM > leastVeil * (whole.topM - whole.bottomM) * exaggeration)
         return found('volume', ground, groundM, CellState.rangeFolded);
@@ -167,11 +164,12 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     if (!geometry || !shown || !table || !whole) return null;
     const { grid, stream } = shown.loaded;
     const ground = geometry.ground(x, y);
-    const way = wayWithin(geometry, croppedBox(whole, state.layers.crop), x, y) ?? [];
+    const ray = new Ray(geometry, x, y);
+    const way = wayWithin(ray, croppedBox(whole, state.layers.crop)) ?? [];
     const points = [...way, ...(ground ? [ground] : [])];
     const isAlong = boundsAbout(points, grid) !== null; // it meets columns of the grid
     const cells = isAlong && (asks || !stream) ? drawing.windows.ray(shown.loaded, points) : null;
-    const seen = foundOn({ x, y, geometry, grid, table, cells, whole, ground }, app, drawing);
+    const seen = foundOn({ ray, grid, table, cells, whole, ground }, app, drawing);
     if (!seen) return null;
     const { layer } = seen;
     const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;

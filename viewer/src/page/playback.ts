@@ -1,4 +1,4 @@
-// Goes through the times: by steps, by playing them, and by following the newest.
+// Goes through the times: steps, plays, follows the newest.
 
 import { advanced, at, looped, stepped } from '../time/player';
 import { App } from './app';
@@ -10,7 +10,7 @@ export class Playback {
 
     constructor(private app: App) {}
 
-    // Frames between volumes every so many seconds; 0: the volumes alone.
+    // Shows frames between volumes every so many seconds; 0 shows the volumes alone.
     async setBetween(seconds: number): Promise<void> {
         const { app } = this;
         app.miss('');

@@ -2,6 +2,7 @@
 
 import { dragged, panned, zoomed } from '../camera/controls';
 import { App } from './app';
+import { pixelRatio } from './dom';
 import { Drawing } from './drawing';
 
 // Takes drags and clicks, in pixels of the picture. A tool that does not take a press (false) leaves the drag
@@ -34,7 +35,7 @@ export class Pointers {
     get current(): Tool {
         return this.tool;
     }
-    // Gives what follows to another tool; null gives it to the usual one.
+    // Gives the pointer to another tool; null gives it to the usual one.
     use(tool: Tool | null): void {
         this.tool.end?.();
         this.tool = tool ?? this.usual;
@@ -51,11 +52,8 @@ export class Pointers {
         picture.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     }
 
-    private get ratio(): number {
-        return window.devicePixelRatio || 1;
-    }
     private at(event: MouseEvent): [number, number] {
-        return [event.offsetX * this.ratio, event.offsetY * this.ratio];
+        return [event.offsetX * pixelRatio(), event.offsetY * pixelRatio()];
     }
 
     private down(event: PointerEvent): void {
@@ -80,7 +78,9 @@ export class Pointers {
         } else if (this.isTaken) {
             this.tool.drag?.(...this.at(event));
         } else {
-            this.app.moved(dragged(camera, geometry, dx, dy, this.ratio, event.shiftKey || (event.buttons & 2) !== 0));
+            this.app.moved(
+                dragged(camera, geometry, [dx, dy], pixelRatio(), event.shiftKey || (event.buttons & 2) !== 0),
+            );
         }
     }
 
@@ -90,7 +90,7 @@ export class Pointers {
         const was = Math.hypot(before.clientX - fixed.clientX, before.clientY - fixed.clientY);
         const is = Math.hypot(event.clientX - fixed.clientX, event.clientY - fixed.clientY);
         const nearer = zoomed(this.app.state.camera, geometry, is / Math.max(1, was));
-        this.app.moved(panned(nearer, geometry, (dx / 2) * this.ratio, (dy / 2) * this.ratio));
+        this.app.moved(panned(nearer, geometry, (dx / 2) * pixelRatio(), (dy / 2) * pixelRatio()));
     }
 
     private up(event: PointerEvent): void {

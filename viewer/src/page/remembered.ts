@@ -1,4 +1,4 @@
-// Keeps the user's units in the browser from one visit to the next. If it keeps nothing, the page works all the same.
+// Keeps the user's units in the browser from one visit to the next, if it has storage.
 
 import { Units, namesOf, unitsOf } from '../tables/units';
 

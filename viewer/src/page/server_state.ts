@@ -1,8 +1,8 @@
-// Keeps whether the server answers, its time, and the stations of which it hears nothing.
+// Keeps the state of the server: does it answer, its clock, and its silent stations.
 
 export class ServerState {
     isCutOff = false; // it does not answer
-    isBehind = false; // a request got no answer: all is to be asked for again
+    isBehind = false; // a request got no answer, so the page must ask for all again
     silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
     private clockAheadMs = 0; // before that of the browser
 

@@ -1,5 +1,5 @@
-// Shows the wanted time of the domain and moment that are chosen: loads its grid, waits for what is drawn beside it,
-// and goes to another time if there is none.
+// Shows the wanted time of the chosen domain and moment: loads its grid, waits for what is drawn beside it, and goes to
+// another time if there is no grid.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { isClearAir } from '../fields/clear_air';
@@ -20,7 +20,7 @@ export class Showing {
 
     constructor(private app: App) {}
 
-    // If what failed is not wanted any more, the page says only that the server does not answer.
+    // Tells a failure. If the time is not wanted any more, tells only that the server does not answer.
     failed(error: unknown, isWanted: boolean): void {
         if (isWanted || error instanceof TypeError) this.app.fail(error);
     }
@@ -57,7 +57,7 @@ export class Showing {
         else app.state.time = now;
     }
 
-    // The timeline has every grid; the older ones come after the first picture.
+    // Fills the timeline with the older grids, after the first picture.
     private async findOlder(): Promise<void> {
         const { app } = this;
         const { domain, moment } = app.state;
@@ -74,7 +74,7 @@ export class Showing {
         }
     }
 
-    // Tells later whether another domain or moment was chosen.
+    // Returns a test that is true once another domain or moment is chosen.
     whetherLeft(): () => boolean {
         const { app } = this;
         const { domain, moment } = app.state;

@@ -1,14 +1,14 @@
-// The picture as it is seen, without the controls, but with what they say of it: title, colors, legend.
+// The picture as the page shows it, without controls, but with title, colors and legend.
 
 import { shades } from '../renderer/shades';
-import { element, fontOf, textScale } from './dom';
+import { element, fontOf, make, textScale } from './dom';
 import { haloed } from './labels';
 
 const told = ['title', 'sites-told', 'layers-told'];
 const lineHeight = 20;
 const swatch = 10;
 
-// Returns the lines without how old the data are, which is so only now.
+// Returns the lines without the age of the data, which a saved picture outlives.
 function shownLines(): string[] {
     const lines = told.map((id) => element(id)).filter((one) => !one.hidden);
     return lines
@@ -21,7 +21,7 @@ function shownLines(): string[] {
         .filter(Boolean);
 }
 
-// The words of a line in rows of this width, as the page wraps them.
+// Wraps a line into rows of this width, as the page does.
 function rowsOf(pen: CanvasRenderingContext2D, line: string, width: number): string[] {
     const rows: string[] = [];
     for (const word of line.split(' ')) {
@@ -32,7 +32,7 @@ function rowsOf(pen: CanvasRenderingContext2D, line: string, width: number): str
     return rows;
 }
 
-// Rows of the legend from `top` on, at the right edge.
+// Draws the rows of the legend from `top` on, at the right edge.
 function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): void {
     pen.font = fontOf(11);
     [...element('legend').children].forEach((row, i) => {
@@ -61,7 +61,7 @@ function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): 
 // Draws the picture as large as the page shows it: one that was drawn coarser is enlarged below the labels,
 // as on the page. `moment` is named because the title does not name it.
 export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement, moment: string): HTMLCanvasElement {
-    const all = document.createElement('canvas');
+    const all = make('canvas');
     all.width = labels.width;
     all.height = labels.height;
     const pen = all.getContext('2d')!;

@@ -18,7 +18,7 @@ function channel(): BroadcastChannel | null {
 export class StreamPlaces {
     private readonly pages = channel(); // of this browser, at this server
     private state: 'without' | 'asking' | 'with' = 'without';
-    private id = ''; // of the last question: of pages that ask at the same time, the smaller one goes first
+    private id = ''; // of the last question; if several pages ask at once, the smallest goes first
     private others = new Set<string>(); // that have a place, or go first
 
     constructor() {
@@ -34,7 +34,7 @@ export class StreamPlaces {
         };
     }
 
-    // Takes a place at once. If the other pages turn out to have all of them, it is given back and `noPlace` is called.
+    // Takes a place at once. If the other pages turn out to have all places, gives it back and calls `noPlace`.
     take(noPlace: () => void): void {
         const id = (this.id = String(Math.random()));
         this.state = 'asking';

@@ -23,7 +23,7 @@ const mostSkippedBytes = 64 * 1024;
 const retryMs = 1000;
 const mostFailures = 5; // that are not told
 
-// Tells how much of what the view needs is there.
+// How much of what the view needs is here.
 export interface Detail {
     missing: number; // columns of bricks
     coarsest: number; // how often the grid was halved, of what is shown in the picture
@@ -89,7 +89,7 @@ class Stream {
         return level === this.parts.level || this.pool.has(key);
     }
 
-    // Takes another view: fetches what it needs, and no longer what it does not need.
+    // Takes another view: fetches what it needs, and stops fetching the rest.
     look(geometry: ViewGeometry, finest: number): void {
         const { grid } = this.loaded;
         const { pyramid, level } = this.parts;
@@ -248,7 +248,7 @@ class Stream {
         this.fetchMore();
     }
 
-    // The oldest codes go when the worker holds too many.
+    // Drops the oldest codes if the worker holds too many.
     private dropCells(): void {
         let bytes = [...this.cells.values()].reduce((sum, size) => sum + size, 0);
         const columns = [];
@@ -272,7 +272,7 @@ class Stream {
                 for (const { key } of columns) this.making.delete(key);
                 if (this.hasEnded) return;
                 for (const { level, x, y, hasValues, texels } of made) {
-                    // There is room for all that is wanted; what no longer is may find none.
+                    // The pool has room for all wanted columns, but maybe not for one that is no longer wanted.
                     const resident = this.pool.take(level, x, y, hasValues, this.wantedKeys);
                     if (resident) this.renderer.putBricks(resident.slots, texels);
                 }

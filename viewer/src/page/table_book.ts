@@ -1,4 +1,4 @@
-// The color tables that the page knows: those of the server, and what the user made of them.
+// The color tables that the page knows: the server's, and the user's drafts.
 
 import { colorFiles } from '../facts';
 import { ViewState } from '../scene/view_state';
@@ -22,7 +22,7 @@ export class TableBook {
         this.usual = usualOpacity(tables.tables, tables.usual);
     }
 
-    // The tables of a moment; what is for a product of it is not among them.
+    // Returns the tables of a moment, without those of products in another unit.
     presets(moment: string): ColorTable[] {
         const own = this.tables.tables.filter((table) => table.moment === moment);
         const unit = own.find((table) => table.name === this.tables.usual[moment])?.unit;
@@ -37,7 +37,7 @@ export class TableBook {
         );
     }
 
-    // The table of a moment in a view; the same draft has the same table.
+    // Returns the table of a moment in a view; the same object for the same draft.
     of(state: ViewState, moment: string): ColorTable | undefined {
         const draft = state.drafts.find((one) => one.moment === moment);
         if (!draft) return this.preset(moment, state.colors);
@@ -45,7 +45,7 @@ export class TableBook {
         this.made.set(draft, made);
         return made;
     }
-    // The draft of a moment, or the one that its table would become.
+    // Returns the draft of a moment, or the one that its table would become.
     draftOf(state: ViewState, moment: string): Draft | undefined {
         const draft = state.drafts.find((one) => one.moment === moment);
         const preset = this.preset(moment, state.colors);

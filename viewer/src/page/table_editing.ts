@@ -1,4 +1,4 @@
-// Applies what the user does to the colors: presets, drafts, the threshold, files; with undo and redo.
+// Applies the user's edits to the colors (presets, drafts, threshold, files), with undo and redo.
 
 import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
@@ -92,21 +92,21 @@ export class TableEditing {
 
     // -- files
 
-    // A draft from a file.
+    // Takes a draft from a file.
     takeDraft(draft: Draft): void {
         this.history.note(this.now);
         this.become({ drafts: this.with(draft) });
     }
 
-    // The table as it is shown; what is hidden is not in it.
+    // Returns the file of the table as it is shown, without what is hidden.
     toml(): ExportedFile | undefined {
         const { draft } = this;
         return (
             draft && { name: `${draft.name}.toml`, text: writeToml(fileOf(draft, this.app.state.least)), isWhole: true }
         );
     }
-    // The same with a name of its own for each content: a browser saves a second file of a name under another one,
-    // and a command would read the first.
+    // Returns the same under a name that tells its content. A browser saves a second file of a name under another
+    // name, and a command would read the first.
     tomlForCommand(): ExportedFile | undefined {
         const file = this.toml();
         return file && { ...file, name: file.name.replace(/\.toml$/, `-${checksum(file.text)}.toml`) };

@@ -2,14 +2,15 @@
 
 import { WaterMask } from '../renderer/water_texture';
 import { Plane } from '../earth/projection';
+import { make } from './dom';
 
 const cellsAcross = 1024;
 const farthest = 1e5; // in cells: what lies farther away is drawn as if it lay there
 
-// Within so far from the middle to the east and to the north.
+// Paints the ground up to `halfXM` to the east and west of the middle, and `halfYM` to the north and south.
 export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, halfYM: number): WaterMask {
     const cellM = (2 * Math.max(halfXM, halfYM)) / cellsAcross;
-    const picture = document.createElement('canvas');
+    const picture = make('canvas');
     picture.width = Math.ceil((2 * halfXM) / cellM);
     picture.height = Math.ceil((2 * halfYM) / cellM);
     const pen = picture.getContext('2d', { alpha: false, willReadFrequently: true })!;
@@ -27,9 +28,8 @@ export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, hal
         pen.fillStyle = color;
         pen.fill('nonzero');
     };
-    // Where two rings touch, a cell may get a little of what is below, which the picture does not show:
-    // a place is water if half of it is.
-    // Sea, land in it, lakes in that.
+    // Paint sea, land in it, and lakes in that. A cell in which two rings touch may get a little of the layer below. The
+    // picture does not show it, because a place is water if half of it is.
     pen.fillStyle = 'white';
     pen.fillRect(0, 0, picture.width, picture.height);
     paint(land, 'black');

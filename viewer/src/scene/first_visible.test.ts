@@ -2,15 +2,17 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { ViewGeometry, usualCamera } from '../camera/geometry';
-import { boxOf } from './grid_box';
+import { Ray } from '../camera/ray';
+import { Cells, boxOf } from './grid_box';
 import { firstVisible, mostVisible } from './first_visible';
 import { cellSizeM } from '../earth/projection';
 import { codeAt, firstValueCode, readPackedGrid, valueOf } from '../wire/packed_grid';
-import { makeGrid } from '../testing/made_grid';
+import { slantedGrid } from '../testing/written_grid';
 
-const grid = readPackedGrid(makeGrid(40, 36, 20).bytes);
+const grid = readPackedGrid(slantedGrid(40, 36, 20));
 const { halfXM, halfYM, bottomM, topM } = boxOf(grid);
 const box = { westM: -halfXM, eastM: halfXM, southM: -halfYM, northM: halfYM, bottomM, topM };
+const cells: Cells = { grid, middle: [0, 0] };
 const all = () => true;
 
 test('from straight above, the highest value of the column comes first', () => {
@@ -23,7 +25,7 @@ test('from straight above, the highest value of the column comes first', () => {
             const pixel = geometry.project([at[0], at[1], 0])!;
             let level = grid.nz - 1;
             while (level >= 0 && codeAt(grid, x, y, level) < firstValueCode) --level;
-            const seen = firstVisible({ grid, middle: [0, 0] }, geometry, box, pixel[0], pixel[1], all);
+            const seen = firstVisible(cells, new Ray(geometry, ...pixel), box, all);
             assert.equal(seen?.value ?? null, level < 0 ? null : valueOf(grid, codeAt(grid, x, y, level)));
             if (seen) assert.equal(seen.heightM, grid.levelsM[level]);
             if (seen) ++read;
@@ -40,17 +42,18 @@ test('what is not visible, or lies outside of the box, is passed', () => {
         let [passed, cut] = [0, 0];
         for (let x = 10; x < 400; x += 13) {
             for (let y = 10; y < 400; y += 13) {
-                const seen = firstVisible({ grid, middle: [0, 0] }, geometry, box, x, y, all);
-                const strong = firstVisible({ grid, middle: [0, 0] }, geometry, box, x, y, (value) => value >= least);
+                const ray = new Ray(geometry, x, y);
+                const seen = firstVisible(cells, ray, box, all);
+                const strong = firstVisible(cells, ray, box, (value) => value >= least);
                 if (strong) assert.ok(strong.value >= least);
                 if (strong && seen && strong.at[0] !== seen.at[0]) ++passed;
-                const west = firstVisible({ grid, middle: [0, 0] }, geometry, half, x, y, all);
+                const west = firstVisible(cells, ray, half, all);
                 if (west) assert.ok(west.at[0] <= 0);
                 if (west && seen && seen.at[0] > 0) ++cut;
             }
         }
         assert.ok(passed > 5 && cut >= 0);
-        assert.equal(firstVisible({ grid, middle: [0, 0] }, geometry, box, -5000, -5000, all), null);
+        assert.equal(firstVisible(cells, new Ray(geometry, -5000, -5000), box, all), null);
     }
 });
 
@@ -63,14 +66,8 @@ test('of a volume the cell is read that contributes most (2026-11-28: the first 
     for (let x = 1; x < grid.nx; x += 3) {
         for (let y = 1; y < grid.ny; y += 3) {
             const pixel = geometry.project([(x + 0.5 - grid.nx / 2) * width, (y + 0.5 - grid.ny / 2) * height, 0])!;
-            const { cell, share, through } = mostVisible(
-                { grid, middle: [0, 0] },
-                geometry,
-                box,
-                ...pixel,
-                Infinity,
-                perM,
-            );
+            const ray = new Ray(geometry, ...pixel);
+            const { cell, share, through } = mostVisible(cells, ray, box, Infinity, perM);
             const column = Array.from({ length: grid.nz }, (_, z) => codeAt(grid, x, y, z));
             const top = column
                 .map((code, z) => (code >= firstValueCode && valueOf(grid, code) >= strong ? z : -1))
@@ -88,6 +85,6 @@ test('of a volume the cell is read that contributes most (2026-11-28: the first 
     }
     assert.ok(below > 5);
     // Something solid that hides all leaves nothing to count.
-    const nothing = mostVisible({ grid, middle: [0, 0] }, geometry, box, 200, 200, -Infinity, perM);
+    const nothing = mostVisible(cells, new Ray(geometry, 200, 200), box, -Infinity, perM);
     assert.deepEqual([nothing.cell, nothing.through], [null, 1]);
 });

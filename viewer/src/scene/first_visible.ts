@@ -1,6 +1,6 @@
 // Finds what a ray from the eye meets, and what of it is seen most, from the exact codes of the grid.
 
-import { ViewGeometry } from '../camera/geometry';
+import { Ray } from '../camera/ray';
 import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 import { Cells } from './grid_box';
 import { Crop } from './layers';
@@ -23,9 +23,7 @@ function levelAt(grid: PackedGrid, heightM: number): number {
 }
 
 // Returns the first and the last depth of a ray within a box; null where it passes by.
-export function depthsWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): [number, number] | null {
-    const start = geometry.point(x, y, 0);
-    const way = geometry.along(x, y);
+export function depthsWithin({ geometry, start, way }: Ray, box: Crop): [number, number] | null {
     const least = [box.westM, box.southM, box.bottomM * geometry.exaggeration];
     const most = [box.eastM, box.northM, box.topM * geometry.exaggeration];
     let [near, far] = [geometry.isPerspective ? 0 : -Infinity, Infinity];
@@ -41,13 +39,10 @@ export function depthsWithin(geometry: ViewGeometry, box: Crop, x: number, y: nu
     return near < far ? [near, far] : null;
 }
 
-// Returns where the ray through a pixel enters and leaves a box, on the plane; null where it passes by.
-export function wayWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): [Plane, Plane] | null {
-    const depths = depthsWithin(geometry, box, x, y);
-    const start = geometry.point(x, y, 0);
-    const way = geometry.along(x, y);
-    const at = (depth: number): Plane => [start[0] + depth * way[0], start[1] + depth * way[1]];
-    return depths && [at(depths[0]), at(depths[1])];
+// Returns where a ray enters and leaves a box, on the plane; null where it passes by.
+export function wayWithin(ray: Ray, box: Crop): [Plane, Plane] | null {
+    const depths = depthsWithin(ray, box);
+    return depths && [ray.at(depths[0]), ray.at(depths[1])];
 }
 
 interface Step {
@@ -58,22 +53,13 @@ interface Step {
     lengthM: number; // of the step, in drawn space
 }
 
-// Goes along the ray through a pixel until a depth, as far as it is within a box, by half a cell; `visit` returns true
-// to end. `cells` is a grid, and where its middle is on the plane of the view.
-function walk(
-    { grid, middle }: Cells,
-    geometry: ViewGeometry,
-    box: Crop,
-    x: number,
-    y: number,
-    untilDepth: number,
-    visit: (step: Step) => boolean,
-): void {
-    const depths = depthsWithin(geometry, box, x, y);
+// Goes along a ray by half a cell, within a box and until a depth; `visit` returns true to end. `middle` of the cells
+// is on the plane of the view.
+function walk({ grid, middle }: Cells, ray: Ray, box: Crop, untilDepth: number, visit: (step: Step) => boolean): void {
+    const depths = depthsWithin(ray, box);
     if (!depths) return;
     const [width, height] = cellSizeM(grid);
-    const start = geometry.point(x, y, 0);
-    const way = geometry.along(x, y);
+    const { way, geometry } = ray;
     // Half a cell on the ground, or of the least height of a level, whichever the ray crosses first.
     let thinnestM = Infinity;
     for (let z = 1; z < grid.nz; ++z) thinnestM = Math.min(thinnestM, grid.levelsM[z]! - grid.levelsM[z - 1]!);
@@ -86,39 +72,23 @@ function walk(
     const step = Math.max(1 / (stepsACell * perMeter), (depths[1] - depths[0]) / mostSteps);
     const lengthM = step * Math.hypot(...way);
     for (let depth = depths[0] + step / 2; depth < Math.min(depths[1], untilDepth); depth += step) {
-        const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
-        const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
+        const at = ray.at(depth);
         const [column, row] = [
             Math.floor((at[0] - middle[0]) / width + 0.5 * grid.nx),
             Math.floor((at[1] - middle[1]) / height + 0.5 * grid.ny),
         ];
         if (column < 0 || row < 0 || column >= grid.nx || row >= grid.ny) continue;
-        const level = levelAt(grid, heightM);
+        const level = levelAt(grid, ray.heightM(depth));
         const code = codeAt(grid, column, row, level);
-        if (
-            visit({
-                code,
-                cell: (level * grid.ny + row) * grid.nx + column,
-                at,
-                heightM: grid.levelsM[level]!,
-                lengthM,
-            })
-        )
-            return;
+        const cell = (level * grid.ny + row) * grid.nx + column;
+        if (visit({ code, cell, at, heightM: grid.levelsM[level]!, lengthM })) return;
     }
 }
 
-// The first cell along the ray through a pixel whose value is visible, within a box; null if there is none.
-export function firstVisible(
-    cells: Cells,
-    geometry: ViewGeometry,
-    box: Crop,
-    x: number,
-    y: number,
-    isVisible: (value: number) => boolean,
-): Seen | null {
+// Returns the first cell along a ray whose value is visible, within a box; null if there is none.
+export function firstVisible(cells: Cells, ray: Ray, box: Crop, isVisible: (value: number) => boolean): Seen | null {
     let seen: Seen | null = null;
-    walk(cells, geometry, box, x, y, Infinity, ({ code, at, heightM }) => {
+    walk(cells, ray, box, Infinity, ({ code, at, heightM }) => {
         if (code < firstValueCode) return false;
         const value = valueOf(cells.grid, code);
         if (isVisible(value)) seen = { at, heightM, value };
@@ -140,17 +110,15 @@ const opaque = 0.002; // what is behind so little light is not seen
 // `perM` returns how opaque a value is (extinction per drawn meter), or 0 if it is not opaque at all.
 export function mostVisible(
     cells: Cells,
-    geometry: ViewGeometry,
+    ray: Ray,
     box: Crop,
-    x: number,
-    y: number,
     untilDepth: number,
     perM: (value: number) => number,
 ): Contribution {
     const found: Contribution = { cell: null, share: 0, through: 1, foldedM: 0 };
     const ofCode = new Map<number, number>();
     let [cell, share] = [-1, 0];
-    walk(cells, geometry, box, x, y, untilDepth, (step) => {
+    walk(cells, ray, box, untilDepth, (step) => {
         const { code, lengthM } = step;
         if (code === CellState.rangeFolded) found.foldedM += lengthM;
         if (code < firstValueCode) return false;

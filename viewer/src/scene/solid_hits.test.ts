@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { ViewGeometry, usualCamera } from '../camera/geometry';
+import { Vec3, ViewGeometry, usualCamera } from '../camera/geometry';
+import { Ray } from '../camera/ray';
 import { emptyField } from '../fields/flat_field';
 import { cutSection } from '../fields/section';
 import { beamAt, radialsByAzimuth } from '../fields/sweep_cone';
@@ -10,9 +11,9 @@ import { destination, planeOf } from '../earth/projection';
 import { fieldAt, levelHit, sectionHit, sweepHit } from './solid_hits';
 import { CellState, readPackedGrid } from '../wire/packed_grid';
 import { PackedSweep } from '../wire/packed_sweep';
-import { makeGrid } from '../testing/made_grid';
+import { slantedGrid } from '../testing/written_grid';
 
-const grid = readPackedGrid(makeGrid(40, 36, 20).bytes);
+const grid = readPackedGrid(slantedGrid(40, 36, 20));
 const box = boxOf(grid);
 const { halfXM, halfYM } = box;
 const cameras = [
@@ -20,6 +21,7 @@ const cameras = [
     { ...usualCamera, tiltDeg: 0 },
     { ...usualCamera, fieldOfViewDeg: 40, tiltDeg: 70, azimuthDeg: 30 },
 ];
+const rayTo = (geometry: ViewGeometry, drawn: Vec3): Ray => new Ray(geometry, ...geometry.project(drawn)!);
 const extent = { westM: -halfXM, eastM: halfXM, southM: -halfYM, northM: halfYM };
 
 test('a plane is read where the pixel shows it (2026-11-28: the ground behind it was)', () => {
@@ -32,11 +34,11 @@ test('a plane is read where the pixel shows it (2026-11-28: the ground behind it
             const at: [number, number] = [((i % 4) + 0.5) / 4, (Math.floor(i / 4) + 0.5) / 3].map(
                 (share, k) => (2 * share - 1) * [halfXM, halfYM][k]!,
             ) as [number, number];
-            const hit = levelHit(geometry, { field, extent }, 3000, ...geometry.project([at[0], at[1], 6000])!, false)!;
+            const hit = levelHit(rayTo(geometry, [...at, 6000]), { field, extent }, 3000, false)!;
             assert.equal(hit.value, 10 * i);
             assert.ok(Math.hypot(hit.at[0] - at[0], hit.at[1] - at[1]) < 1e-3);
         }
-        assert.equal(levelHit(geometry, { field, extent }, 3000, -1e5, -1e5, false), null);
+        assert.equal(levelHit(new Ray(geometry, -1e5, -1e5), { field, extent }, 3000, false), null);
     }
 });
 
@@ -69,7 +71,7 @@ test('a section is read where the ray meets it', () => {
         ) as [number, number];
         for (const row of [5, 25, 44]) {
             const heightM = section.bottomM + ((row + 0.5) / 50) * (section.topM - section.bottomM);
-            const hit = sectionHit(geometry, section, ...geometry.project([x, y, 2 * heightM])!, false)!;
+            const hit = sectionHit(rayTo(geometry, [x, y, 2 * heightM]), section, false)!;
             assert.ok(Math.abs(hit.heightM - heightM) < 1e-3 && Math.hypot(hit.at[0] - x, hit.at[1] - y) < 1e-3);
             assert.deepEqual(
                 [hit.state, hit.value],
@@ -81,27 +83,38 @@ test('a section is read where the ray meets it', () => {
     assert.ok(read > 0);
 });
 
-test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
-    const [count, gates] = [360, 60];
-    const site = { latitudeDeg: 35.3, longitudeDeg: -97.3, altitudeM: 400 };
-    const sweep: PackedSweep = {
+// A sweep with a radial in each degree.
+const [radialCount, gateCount] = [360, 60];
+const site = { latitudeDeg: 35.3, longitudeDeg: -97.3, altitudeM: 400 };
+function sweepOf(elevationDeg: number, firstGateM: number, codeOf: (radial: number, gate: number) => number) {
+    const gates: PackedSweep = {
         ...site,
         sweep: 0,
-        elevationDeg: 4,
-        firstGateM: 1000,
+        elevationDeg,
+        firstGateM,
         gateSpacingM: 250,
         firstValueCode: 2,
         scale: 1,
         offset: 0,
-        gateStride: gates,
-        azimuthsDeg: Float32Array.from({ length: count }, (_, i) => i + 0.5),
-        elevationsDeg: new Float32Array(count).fill(4),
-        gateCounts: new Uint32Array(count).fill(gates),
+        gateStride: gateCount,
+        azimuthsDeg: Float32Array.from({ length: radialCount }, (_, i) => i + 0.5),
+        elevationsDeg: new Float32Array(radialCount).fill(elevationDeg),
+        gateCounts: new Uint32Array(radialCount).fill(gateCount),
         startMs: 0,
-        timesMs: Float64Array.from({ length: count }, (_, i) => 50 * i),
-        codes: Uint16Array.from({ length: count * gates }, (_, i) => (i % 7 === 0 ? i % 2 : 2 + i)),
+        timesMs: Float64Array.from({ length: radialCount }, (_, i) => 50 * i),
+        codes: Uint16Array.from({ length: radialCount * gateCount }, (_, i) =>
+            codeOf(Math.floor(i / gateCount), i % gateCount),
+        ),
     };
-    const radials = radialsByAzimuth(sweep);
+    return { station: 'KTLX', gates, radials: radialsByAzimuth(gates) };
+}
+
+test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
+    const codeOf = (radial: number, gate: number) => {
+        const i = radial * gateCount + gate;
+        return i % 7 === 0 ? i % 2 : 2 + i;
+    };
+    const sweep = sweepOf(4, 1000, codeOf);
     const plane = planeOf(grid);
     let read = 0;
     for (const camera of cameras) {
@@ -111,13 +124,7 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
                 const rangeM = 1000 + 250 * gate;
                 const { arcM, heightM } = beamAt(site, 4, rangeM);
                 const [x, y] = plane.toPlane(destination(site, ((radial + 0.5) * Math.PI) / 180, arcM))!;
-                const hit = sweepHit(
-                    geometry,
-                    { station: 'KTLX', gates: sweep, radials },
-                    plane,
-                    ...geometry.project([x, y, 2 * heightM])!,
-                    () => true,
-                );
+                const hit = sweepHit(rayTo(geometry, [x, y, 2 * heightM]), sweep, plane, () => true);
                 assert.ok(
                     hit &&
                         Math.abs(hit.rangeM - rangeM) < 1 &&
@@ -125,7 +132,7 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
                         Math.abs(hit.heightM - heightM) < 1,
                     JSON.stringify(hit),
                 );
-                const code = sweep.codes[radial * gates + gate]!;
+                const code = codeOf(radial, gate);
                 assert.equal(
                     hit.state,
                     code >= 2 ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho,
@@ -140,37 +147,15 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
 });
 
 test('through clear gates of the near side of a sweep the far side is read, which is what is drawn (2026-11-28: the clear gate was)', () => {
-    const site = { latitudeDeg: 35.3, longitudeDeg: -97.3, altitudeM: 400 };
-    const [count, gates] = [360, 60];
-    const sweep: PackedSweep = {
-        ...site,
-        sweep: 0,
-        elevationDeg: 20,
-        firstGateM: 0,
-        gateSpacingM: 250,
-        firstValueCode: 2,
-        scale: 1,
-        offset: 0,
-        gateStride: gates,
-        azimuthsDeg: Float32Array.from({ length: count }, (_, i) => i + 0.5),
-        elevationsDeg: new Float32Array(count).fill(20),
-        gateCounts: new Uint32Array(count).fill(gates),
-        startMs: 0,
-        timesMs: new Float64Array(count),
-        // Echo is only north of the radar.
-        codes: Uint16Array.from({ length: count * gates }, (_, i) =>
-            Math.abs(Math.floor(i / gates) - 180) > 90 ? 50 : 0,
-        ),
-    };
-    const radials = radialsByAzimuth(sweep);
+    // Echo is only north of the radar.
+    const sweep = sweepOf(20, 0, (radial) => (Math.abs(radial - 180) > 90 ? 50 : 0));
     const plane = planeOf(grid);
     const { arcM, heightM } = beamAt(site, 20, 10_000);
     const north = plane.toPlane(destination(site, 0.01, arcM))!;
     // From the south, along the ground.
     const geometry = new ViewGeometry(box, { ...usualCamera, tiltDeg: 90 }, 1, 400, 400);
-    const pixel = geometry.project([north[0], north[1], heightM])!;
-    const read = (isShown: (hit: { state: CellState }) => boolean) =>
-        sweepHit(geometry, { station: 'KTLX', gates: sweep, radials }, plane, ...pixel, isShown)!;
+    const ray = rayTo(geometry, [...north, heightM]);
+    const read = (isShown: (hit: { state: CellState }) => boolean) => sweepHit(ray, sweep, plane, isShown)!;
     const seen = read((hit) => hit.state === CellState.value);
     assert.deepEqual([seen.state, seen.value, seen.station], [CellState.value, 50, 'KTLX']);
     assert.ok(seen.at[1] > 0 && Math.abs(seen.rangeM - 10_000) < 5, `${seen.rangeM}`);

@@ -3,7 +3,7 @@
 //
 // Heights are above sea level; depths are those of ViewGeometry. Null: the ray does not meet the layer.
 
-import { ViewGeometry } from '../camera/geometry';
+import { Ray } from '../camera/ray';
 import { FlatField } from '../fields/flat_field';
 import { Section } from '../fields/section';
 import { Mixer } from '../fields/status_rule';
@@ -56,37 +56,33 @@ export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean):
     return { state: mixer.state, value: mixer.value };
 }
 
+// Returns true if a depth is before the eye, which sees nothing behind it in perspective.
+const isAhead = ({ geometry }: Ray, depth: number): boolean =>
+    Number.isFinite(depth) && (depth > 0 || !geometry.isPerspective);
+
 // Finds where a ray meets the level through a height, where a field lies on an extent of it.
 export function levelHit(
-    geometry: ViewGeometry,
+    ray: Ray,
     { field, extent }: { field: FlatField; extent: Extent },
     heightM: number,
-    x: number,
-    y: number,
     mixes: boolean,
 ): SolidHit | null {
-    const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
-    const depth = (heightM * geometry.exaggeration - start[2]) / way[2];
-    if (!Number.isFinite(depth) || (geometry.isPerspective && depth <= 0)) return null;
-    const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
+    const depth = ray.depthAt(heightM);
+    if (!isAhead(ray, depth)) return null;
+    const at = ray.at(depth);
     const [across, up] = [
         (at[0] - extent.westM) / (extent.eastM - extent.westM),
         (at[1] - extent.southM) / (extent.northM - extent.southM),
     ];
     if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return null;
-    if (Math.abs(at[0]) > geometry.box.halfXM || Math.abs(at[1]) > geometry.box.halfYM) return null;
+    const { halfXM, halfYM } = ray.geometry.box;
+    if (Math.abs(at[0]) > halfXM || Math.abs(at[1]) > halfYM) return null;
     return { depth, at, heightM, ...fieldAt(field, across * field.width, up * field.height, mixes) };
 }
 
 // Finds where a ray meets the nearest of the upright strips of a section.
-export function sectionHit(
-    geometry: ViewGeometry,
-    section: Section,
-    x: number,
-    y: number,
-    mixes: boolean,
-): SolidHit | null {
-    const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
+export function sectionHit(ray: Ray, section: Section, mixes: boolean): SolidHit | null {
+    const { start, way } = ray;
     const { field, ends } = section;
     let best: SolidHit | null = null;
     for (let column = 0; column < field.width; ++column) {
@@ -96,17 +92,12 @@ export function sectionHit(
         const turn = way[0] * dy - way[1] * dx;
         const depth = ((a[0] - start[0]) * dy - (a[1] - start[1]) * dx) / turn;
         const share = ((a[0] - start[0]) * way[1] - (a[1] - start[1]) * way[0]) / turn;
-        if (!(share >= 0 && share < 1) || (geometry.isPerspective && depth <= 0) || (best && best.depth < depth))
-            continue;
-        const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
+        if (!(share >= 0 && share < 1) || !isAhead(ray, depth) || (best && best.depth < depth)) continue;
+        const heightM = ray.heightM(depth);
         const row = ((heightM - section.bottomM) / (section.topM - section.bottomM)) * field.height;
         if (!(row >= 0 && row < field.height) || section.inGrid[column] === 0) continue;
-        best = {
-            depth,
-            at: [a[0] + share * dx, a[1] + share * dy],
-            heightM,
-            ...fieldAt(field, column + share, row, mixes),
-        };
+        const at: Plane = [a[0] + share * dx, a[1] + share * dy];
+        best = { depth, at, heightM, ...fieldAt(field, column + share, row, mixes) };
     }
     return best;
 }
@@ -138,31 +129,22 @@ interface PlacedSweep {
     radials: Uint16Array;
 }
 
-// Finds the gate under a pixel, where the ray crosses the beam of the sweep's elevation. A ray from the side
-// crosses it twice, and through a gate that is not shown the next one is seen. If none is shown, returns the first.
+// Finds the gate where a ray crosses the beam of the sweep's elevation. A ray from the side crosses it twice, and
+// through a gate that is not shown the next one is seen. If none is shown, returns the first.
 export function sweepHit(
-    geometry: ViewGeometry,
+    ray: Ray,
     { station, gates, radials }: PlacedSweep,
     plane: GridPlane,
-    x: number,
-    y: number,
     isShown: (hit: SolidHit) => boolean,
 ): GateHit | null {
     const box = boxOfSweep(gates, plane);
-    const depths = box && depthsWithin(geometry, box, x, y);
+    const depths = box && depthsWithin(ray, box);
     if (!depths) return null;
-    const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
     const seenAt = (depth: number) => {
-        const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
-        const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
+        const [at, heightM] = [ray.at(depth), ray.heightM(depth)];
         const { distanceM, azimuth } = geodesic(gates, plane.toPlace(at));
-        return {
-            depth,
-            at,
-            heightM,
-            azimuthDeg: (azimuth / radians + 360) % 360,
-            ...beamTo(gates, distanceM, heightM),
-        };
+        const azimuthDeg = (azimuth / radians + 360) % 360;
+        return { depth, at, heightM, azimuthDeg, ...beamTo(gates, distanceM, heightM) };
     };
     const isAbove = (depth: number) => seenAt(depth).elevationDeg > gates.elevationDeg;
     let from = isAbove(depths[0]);

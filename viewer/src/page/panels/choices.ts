@@ -3,7 +3,7 @@
 import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
 import { App } from '../app';
-import { button, element, press, putOptions } from '../dom';
+import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
 import { texts } from '../texts';
 
@@ -23,7 +23,7 @@ function putChoices(app: App): void {
     putMoment(app);
 }
 
-// Lights the button of the moment that is drawn; another moment that was chosen is busy until it comes.
+// Lights the button of the moment that is drawn, and marks a chosen moment as busy until it comes.
 function putMoment({ state, shown, domain }: App): void {
     const drawn = shown?.domain === state.domain ? shown.moment : '';
     for (const { moment } of domain?.moments ?? []) {
@@ -49,13 +49,12 @@ function putTitle(app: App): void {
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
     const notes = [grid.isPartial ? texts.partial : '', shown.isBetween ? texts.isBetween : ''];
     // A saved picture has no age.
-    const age = document.createElement('span');
-    age.textContent = ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '';
+    const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '');
     element('title').replaceChildren([names, time, ...notes.filter((note) => note !== '')].join('  '), age);
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 
-// Shows what is wrong with the server, the radars, or what was asked for, until it is over.
+// Tells troubles of the server, of radars and of the request until they are over.
 function putNotice(app: App): void {
     const sites = app.shown?.loaded.grid.sites.map((site) => site.icao) ?? [];
     const silent = sites.flatMap((site) => {
@@ -106,14 +105,11 @@ function putSites(app: App, { sites }: FactsOfShown): void {
 }
 
 export function addChoices(app: App, facts: FactsOfShown): void {
-    const sites = document.createElement('p');
-    sites.id = 'sites-told';
-    sites.hidden = true;
-    element('title').after(sites);
+    element('title').after(make('p', { id: 'sites-told', hidden: '' }));
     element('notice').after(button('reload', texts.notice.reload, () => location.reload()));
     element('reload').hidden = true;
     app.on('choices', () => putChoices(app));
-    for (const happening of ['notice', 'time', 'shown', 'map'] as const) app.on(happening, () => putNotice(app));
+    app.on(['notice', 'time', 'shown', 'map'], () => putNotice(app));
     const askSites = () =>
         void facts.askSites().then(
             () => putSites(app, facts),

@@ -1,4 +1,4 @@
-// Tables of colors from files, and as .pal files: a part of the editor, which is loaded when it is opened.
+// Reads drafts from files of color tables, and writes them as .pal files. The page loads this with the editor.
 
 import { Draft, draftOf, tableForPal } from '../../tables/draft';
 import { readPal, writePal } from '../../tables/pal_file';
@@ -8,7 +8,7 @@ import { App } from '../app';
 import { ExportedFile, TableEditing } from '../table_editing';
 import { editorTexts } from '../texts';
 
-// The draft of a file, and what is to be said of it. Errors: a TableError.
+// Returns the draft of a file, and a sentence for the user. Errors: a TableError.
 export function draftFrom({ state, book }: App, text: string, fileName: string): { draft: Draft; said: string } {
     const ending = /\.(pal|toml)$/i.exec(fileName)?.[1]?.toLowerCase();
     if (!ending || !book) throw new TableError(editorTexts.otherEnding(fileName));
@@ -31,7 +31,7 @@ export function draftFrom({ state, book }: App, text: string, fileName: string):
     };
 }
 
-// The table as it is shown, as far as a .pal can say it; what is hidden is not in it.
+// Returns the table as it is shown, without what is hidden, as far as a .pal can hold it.
 export function palOf({ state, book }: App, { draft }: TableEditing): ExportedFile | undefined {
     if (!draft || !book) return undefined;
     const { table, isWhole } = tableForPal(draft, book.usual, state.least);

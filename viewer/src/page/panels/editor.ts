@@ -15,7 +15,7 @@ import { countCodes, histogramOf } from '../../atlas/histogram';
 import { TableError, colorOfHex, hexOf, mostFileBytes } from '../../tables/table_file';
 import { shownUnit } from '../../tables/units';
 import { App, Shown } from '../app';
-import { button, element, labeledButton, putOptions, saveFile } from '../dom';
+import { button, element, labeled, labeledButton, make, putOptions, saveFile } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { ColorTable } from '../../wire/color_tables';
@@ -42,7 +42,7 @@ export class Editor {
     });
     private selected: Selection = { kind: 'color', at: 0 };
     private counted: { shown: Shown; key: string; counts: Uint32Array; histogram: Uint32Array } | null = null;
-    private says = document.createElement('p');
+    private says = make('p', { id: 'editor-says', role: 'status' });
     private opener: HTMLElement | null = null;
 
     constructor(
@@ -53,8 +53,7 @@ export class Editor {
 
     begin(keys: Keys): void {
         keys.add('Escape', () => this.close());
-        for (const happening of ['view', 'shown', 'choices', 'units'] as const)
-            this.app.on(happening, () => this.put());
+        this.app.on(['view', 'shown', 'choices', 'units'], () => this.put());
         // One panel is open at a time.
         for (const other of otherPanels) element(other.opener).addEventListener('click', () => this.close(false));
         window.addEventListener('resize', () => this.put());
@@ -86,13 +85,15 @@ export class Editor {
     // -- the panel
 
     private make(): HTMLElement {
-        const section = document.createElement('section');
-        section.id = 'editor';
-        section.setAttribute('aria-label', words.title);
+        const section = make(
+            'section',
+            { id: 'editor', 'aria-label': words.title },
+            this.tools(),
+            this.plot.box,
+            this.pointRow(),
+            this.says,
+        );
         section.addEventListener('keydown', (event) => this.press(event));
-        this.says.id = 'editor-says';
-        this.says.setAttribute('role', 'status');
-        section.append(this.tools(), this.plot.box, this.pointRow(), this.says);
         section.addEventListener('dragover', (event) => event.preventDefault());
         section.addEventListener('drop', (event) => {
             event.preventDefault();
@@ -104,25 +105,19 @@ export class Editor {
     }
 
     private tools(): HTMLElement {
-        const tools = document.createElement('div');
-        tools.className = 'tools';
-        const preset = document.createElement('select');
-        preset.id = 'editor-preset';
-        preset.setAttribute('aria-label', words.preset);
+        const preset = make('select', { id: 'editor-preset', 'aria-label': words.preset });
         preset.addEventListener('change', () => {
             if (preset.value) this.editing.choosePreset(preset.value);
         });
-        const file = document.createElement('input');
-        file.type = 'file';
-        file.accept = '.pal,.toml';
-        file.hidden = true;
-        file.id = 'editor-file';
-        file.setAttribute('aria-label', words.import);
+        const attributes = { id: 'editor-file', type: 'file', accept: '.pal,.toml', hidden: '' };
+        const file = make('input', { ...attributes, 'aria-label': words.import });
         file.addEventListener('change', () => {
             if (file.files?.[0]) void this.take(file.files[0]);
             file.value = '';
         });
-        tools.append(
+        return make(
+            'div',
+            { class: 'tools' },
             preset,
             labeledButton('editor-undo', '↶', words.undo, () => this.editing.undo()),
             labeledButton('editor-redo', '↷', words.redo, () => this.editing.redo()),
@@ -132,44 +127,33 @@ export class Editor {
             button('editor-pal', words.toPal, () => this.save(palOf(this.app, this.editing))),
             labeledButton('editor-close', '×', words.close, () => this.close()),
         );
-        return tools;
     }
 
     private pointRow(): HTMLElement {
-        const row = document.createElement('div');
-        row.className = 'point';
-        const labeled = (id: string, text: string, type: string) => {
-            const label = document.createElement('label');
-            const name = document.createElement('span');
-            name.textContent = text;
-            const input = document.createElement('input');
-            [input.id, input.type] = [id, type];
-            label.append(name, input);
-            row.append(label);
-            return input;
-        };
-        const value = labeled('point-value', words.value, 'number');
-        value.step = 'any';
+        const value = make('input', { id: 'point-value', type: 'number', step: 'any' });
         value.addEventListener('change', () =>
             this.move(this.selected, Number(value.value) / this.unit.perStored, this.perKmOfSelected(), null),
         );
-        const color = labeled('point-color', words.color, 'color');
+        const color = make('input', { id: 'point-color', type: 'color' });
         color.addEventListener('input', () => {
             const rgba = colorOfHex(color.value);
             if (rgba && this.selected.kind === 'color')
                 this.edit((draft) => withColor(draft, this.selected.at, rgba), `color ${this.selected.at}`);
         });
         color.addEventListener('change', () => this.editing.rest());
-        const opacity = labeled('point-opacity', words.opacity, 'number');
-        [opacity.min, opacity.step] = ['0', 'any'];
+        const opacity = make('input', { id: 'point-opacity', type: 'number', min: '0', step: 'any' });
         opacity.addEventListener('change', () =>
             this.move(this.selected, this.valueOfSelected(), Number(opacity.value), null),
         );
-        row.append(
+        return make(
+            'div',
+            { class: 'point' },
+            labeled(words.value, value),
+            labeled(words.color, color),
+            labeled(words.opacity, opacity),
             button('point-add', words.add, () => this.addAfter()),
             button('point-remove', words.remove, () => this.remove(this.selected)),
         );
-        return row;
     }
 
     private press(event: KeyboardEvent): void {
@@ -186,7 +170,7 @@ export class Editor {
     private get unit() {
         return shownUnit(this.app.table?.unit ?? '', this.app.state.units);
     }
-    // The points of opacity that would be edited.
+    // Returns the points of opacity that an edit would change.
     private opacities(): OpacityPoint[] {
         const { draft } = this.editing;
         const { table, book } = this.app;
@@ -312,7 +296,7 @@ export class Editor {
         if (this.counted?.shown !== shown || this.counted.key !== key) {
             const { grid, atlas } = shown.loaded;
             const counts = this.counted?.shown === shown ? this.counted.counts : countCodes(grid, atlas);
-            this.counted = { shown, key, counts, histogram: histogramOf(grid, counts, ...range, this.plot.columns) };
+            this.counted = { shown, key, counts, histogram: histogramOf(grid, counts, range, this.plot.columns) };
         }
         return this.counted.histogram;
     }

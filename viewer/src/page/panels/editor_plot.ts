@@ -1,5 +1,5 @@
-// The plot of the editor: how often each value occurs, how opaque and of which color it is, and what hands
-// take hold of: the points of color and of opacity, and the threshold.
+// The plot of the editor: a histogram of the values, their opacity and color, and handles for the points of color and
+// of opacity and for the threshold.
 
 import { shades } from '../../renderer/shades';
 import { colorOf, extinctionPerM } from '../../tables/color_table';
@@ -7,7 +7,7 @@ import { ColorTable } from '../../wire/color_tables';
 import { Draft, OpacityPoint } from '../../tables/draft';
 import { ShownUnit } from '../../tables/units';
 import { stepOf } from '../color_bar';
-import { fontOf, textScale } from '../dom';
+import { fontOf, make, penOf, textScale } from '../dom';
 import { editorTexts, texts } from '../texts';
 
 export type Kind = 'color' | 'opacity' | 'least';
@@ -33,16 +33,16 @@ export interface PlotActions {
     rest(): void;
 }
 
-// Pixels of the plot, which are larger on large screens.
+// Margins in pixels of the plot, which are larger on large screens.
 const [left, right, top, below] = [34, 8, 16, 44];
 const stripHeight = 16;
 const farthestClick = 4;
-// The axis of opacity is logarithmic; below its start is nothing.
+// The axis of opacity is logarithmic; what is below its start is clear.
 const [leastPerKm, mostPerKm] = [0.0005, 30];
 
 export class EditorPlot {
-    readonly box = document.createElement('div');
-    private canvas = document.createElement('canvas');
+    readonly box = make('div', { class: 'plot' });
+    private canvas = make('canvas', { 'aria-hidden': 'true' });
     private handles: Record<Kind, HTMLElement[]> = { color: [], opacity: [], least: [] };
     private groups: Record<Kind, HTMLElement>;
     private content!: PlotContent; // show() comes before all that reads it
@@ -50,8 +50,6 @@ export class EditorPlot {
     private scale = 1; // pixels of the page in one of the plot
 
     constructor(private actions: PlotActions) {
-        this.box.className = 'plot';
-        this.canvas.setAttribute('aria-hidden', 'true');
         this.canvas.addEventListener('pointerup', (event) => this.addAt(event));
         this.groups = {
             least: this.group(texts.threshold),
@@ -62,10 +60,7 @@ export class EditorPlot {
     }
 
     private group(name: string): HTMLElement {
-        const group = document.createElement('div');
-        group.setAttribute('role', 'group');
-        group.setAttribute('aria-label', name);
-        return group;
+        return make('div', { role: 'group', 'aria-label': name });
     }
 
     // -- axes
@@ -114,12 +109,8 @@ export class EditorPlot {
     }
 
     private draw(): void {
-        const ratio = window.devicePixelRatio || 1;
         this.scale = textScale();
-        this.canvas.width = Math.round(this.box.clientWidth * ratio);
-        this.canvas.height = Math.round(this.box.clientHeight * ratio);
-        const pen = this.canvas.getContext('2d')!;
-        pen.scale(ratio * this.scale, ratio * this.scale);
+        const pen = penOf(this.canvas);
         pen.font = fontOf(12);
         this.drawAxes(pen);
         this.drawHistogram(pen);
@@ -201,7 +192,7 @@ export class EditorPlot {
 
     // -- handles
 
-    // In a group Tab comes to the selected handle alone; Page keys go to the others.
+    // Tab reaches only the selected handle of a group; the Page keys go to the others.
     private putHandles(kind: Kind, count: number): void {
         const handles = this.handles[kind];
         while (handles.length > count) handles.pop()!.remove();
@@ -242,10 +233,8 @@ export class EditorPlot {
     }
 
     private makeHandle(kind: Kind, at: number): HTMLElement {
-        const handle = document.createElement('div');
+        const handle = make('div', { class: `handle ${kind}`, role: 'slider' });
         const selection = { kind, at };
-        handle.className = `handle ${kind}`;
-        handle.setAttribute('role', 'slider');
         handle.addEventListener('focus', () => this.actions.select(selection));
         handle.addEventListener('keydown', (event) => this.press(event, selection));
         handle.addEventListener('keyup', () => this.actions.rest());
@@ -300,7 +289,7 @@ export class EditorPlot {
         if (sideways !== undefined) {
             this.actions.move(selection, value + sideways, perKm, doing);
         } else if (upward !== undefined && perKm !== null) {
-            // Up from nothing is the start of the axis.
+            // A step up from nothing reaches the start of the axis.
             const next = Math.max(perKm, leastPerKm) * (event.shiftKey ? 2 : 1.1) ** upward;
             this.actions.move(selection, value, next < leastPerKm ? 0 : next, doing);
         } else if (upward !== undefined) {
@@ -318,7 +307,7 @@ export class EditorPlot {
         event.stopPropagation();
     }
 
-    // Half way from a point to the next one, or before the last one.
+    // Returns the value half way between a point and the next one; the last point takes the one before it.
     middleAfter(kind: 'color' | 'opacity', at: number): number {
         const points: { value: number }[] = kind === 'color' ? this.content.draft.colors : this.content.opacity;
         const first = Math.max(0, Math.min(at, points.length - 2));

@@ -6,7 +6,7 @@ import { distanceText, heightText, shownUnit, valueText } from '../../tables/uni
 import { isRegion } from '../../wire/api';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
-import { element, paragraph } from '../dom';
+import { element, paragraph, pixelRatio } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { Picked, pick } from '../picked';
@@ -27,7 +27,7 @@ export class Hover {
     ) {}
 
     begin(): void {
-        for (const happening of ['choices', 'camera', 'map'] as const) this.app.on(happening, () => this.hide());
+        this.app.on(['choices', 'camera', 'map'], () => this.hide());
         // Each new picture is read again, because the box tells what is drawn, not what will be.
         this.drawing.pictureChanged.push(() => this.timer === 0 && this.put());
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
@@ -60,8 +60,7 @@ export class Hover {
         if (!picked || box.hidden) return;
         this.whenTold(() => this.put());
         box.replaceChildren(...this.lines(picked).map(paragraph));
-        const ratio = window.devicePixelRatio || 1;
-        const [x, y] = [this.at[0] / ratio, this.at[1] / ratio];
+        const [x, y] = this.at.map((one) => one / pixelRatio()) as [number, number];
         const { width, height } = box.getBoundingClientRect();
         box.style.left = `${Math.max(4, x + 14 + width < window.innerWidth ? x + 14 : x - 14 - width)}px`;
         box.style.top = `${Math.max(4, y + 14 + height < window.innerHeight ? y + 14 : y - 14 - height)}px`;

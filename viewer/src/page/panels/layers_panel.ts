@@ -1,11 +1,11 @@
-// The panel of layers: what is drawn beside the map, and its keys.
+// The panel of layers: a checkbox and a key for each, and the controls of those that are on.
 
 import { cutsOf, isChosen } from '../../fields/sweep_choice';
 import { Crop, Layers, isBelow, sectionOf, sectionText, toggledFolded, veilsFolded } from '../../scene/layers';
 import { planeOf } from '../../earth/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
-import { button, element, leaveByEscape, putOptions } from '../dom';
+import { button, element, labeled, leaveByEscape, make, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { cutText } from '../layer_maker';
@@ -21,27 +21,36 @@ const usualPlaneM = 3000;
 const planeStepM = 500;
 const usualReflectivity = 45;
 const lowestSweepDeg = 0.5; // the nearest is shown
-const sides = ['westM', 'eastM', 'southM', 'northM', 'bottomM', 'topM'] as const;
+const axes = [
+    ['westM', 'eastM'],
+    ['southM', 'northM'],
+    ['bottomM', 'topM'],
+] as const;
+const sides = axes.flat();
+const cropSliderId = (side: keyof Crop): string => `crop-${side.slice(0, -1)}`;
 
-function labeled(text: string, control: HTMLElement): HTMLLabelElement {
-    const label = document.createElement('label');
-    const name = document.createElement('span');
-    name.textContent = text;
-    label.append(name, control);
-    return label;
+// Puts a slider to a value within a range. Screen readers read the text.
+function putSlider(id: string, [low, high]: [number, number], step: number, value: number, text: string): void {
+    const slider = element<HTMLInputElement>(id);
+    slider.min = String(low);
+    slider.max = String(high);
+    slider.step = String(step);
+    slider.value = String(value); // the last, because a browser keeps it within the range
+    slider.setAttribute('aria-valuetext', text);
 }
 
-function input(id: string, type: string): HTMLInputElement {
-    const made = document.createElement('input');
-    made.id = id;
-    made.type = type;
-    return made;
+type ToggleName =
+    'volume' | 'plane' | 'section' | 'surface' | 'maximum' | 'sweep' | 'crop' | 'light' | 'haze' | 'folded';
+interface Toggle {
+    box: HTMLInputElement;
+    isOn: () => boolean;
+    more: HTMLElement | null; // controls that are shown while the layer is on
 }
 
 export class LayersPanel {
-    private box = document.createElement('section');
-    private told = document.createElement('p'); // which layers are shown, under the title
-    private parts = new Map<string, HTMLElement>(); // what is shown only while its layer is on
+    private box = make('section', { id: 'layers', hidden: '', 'aria-label': words.title });
+    private told = make('p', { id: 'layers-told' }); // the layers that are shown, under the title
+    private toggles: Toggle[] = [];
 
     constructor(
         private app: App,
@@ -50,9 +59,6 @@ export class LayersPanel {
     ) {}
 
     begin(keys: Keys): void {
-        this.box.id = 'layers';
-        this.box.hidden = true;
-        this.box.setAttribute('aria-label', words.title);
         element('settings').after(this.box);
         leaveByEscape(this.box, 'layers-open', () => this.open(false));
         const open = button('layers-open', words.title, () => this.open(this.box.hidden));
@@ -60,14 +66,11 @@ export class LayersPanel {
         open.setAttribute('aria-expanded', 'false');
         element('open').after(open);
         element('open').addEventListener('click', () => this.open(false));
-        this.told.id = 'layers-told';
         element('title').after(this.told);
-        this.addLayers();
-        this.addKeys(keys);
+        this.addLayers(keys);
         addMarks(this.app, this.drawing);
         new SectionPlot(this.app, this.drawing.windows);
-        for (const happening of ['view', 'shown', 'choices', 'units'] as const)
-            this.app.on(happening, () => this.put());
+        this.app.on(['view', 'shown', 'choices', 'units'], () => this.put());
         this.drawing.layers.layerCame = () => this.put();
     }
 
@@ -81,44 +84,64 @@ export class LayersPanel {
 
     // -- the controls
 
-    private addLayers(): void {
-        this.addToggle('volume', words.volume, () => this.set({ hasVolume: !this.layers.hasVolume }));
-        this.addToggle('plane', words.plane, () => this.togglePlane(), this.planeParts());
-        this.addToggle('section', words.section, () => this.toggleSection(), this.sectionParts());
-        this.addToggle('surface', words.surface, () => this.toggleSurface(), this.surfaceParts());
-        this.addToggle('maximum', words.maximum, () => this.set({ hasMaximum: !this.layers.hasMaximum }));
-        this.addToggle('sweep', words.sweep, () => this.toggleSweep(), this.sweepParts());
-        this.addToggle('crop', words.crop, () => this.toggleCrop(), this.cropParts());
-        this.addToggle('light', words.light, () => this.set({ isLit: !this.layers.isLit }));
-        this.addToggle('haze', words.haze, () => this.set({ hasHaze: !this.layers.hasHaze }));
-        this.addToggle('folded', words.folded, () => this.toggleFolded());
+    // Adds a checkbox and a key for each layer.
+    private addLayers(keys: Keys): void {
+        const add = (name: ToggleName, key: string, isOn: () => boolean, toggle: () => void, parts?: HTMLElement[]) => {
+            this.addToggle(name, isOn, toggle, parts);
+            keys.add(key, toggle);
+        };
+        const addFlag = (name: ToggleName, key: string, flag: 'hasVolume' | 'hasMaximum' | 'isLit' | 'hasHaze') =>
+            add(
+                name,
+                key,
+                () => this.layers[flag],
+                () => this.set({ [flag]: !this.layers[flag] }),
+            );
+        const is = (layer: 'planeM' | 'section' | 'surface' | 'sweepDeg' | 'crop') => () => this.layers[layer] !== null;
+        addFlag('volume', 'v', 'hasVolume');
+        add('plane', 'c', is('planeM'), () => this.togglePlane(), this.planeParts());
+        add('section', 'x', is('section'), () => this.toggleSection(), this.sectionParts());
+        add('surface', 'i', is('surface'), () => this.toggleSurface(), this.surfaceParts());
+        addFlag('maximum', 'm', 'hasMaximum');
+        add('sweep', 'w', is('sweepDeg'), () => this.toggleSweep(), this.sweepParts());
+        add('crop', 'b', is('crop'), () => this.toggleCrop(), this.cropParts());
+        addFlag('light', 'g', 'isLit');
+        addFlag('haze', 'n', 'hasHaze');
+        add(
+            'folded',
+            'u',
+            () => this.hasFolded,
+            () => this.toggleFolded(),
+        );
+        keys.add('[', () => this.movePlane(-planeStepM));
+        keys.add(']', () => this.movePlane(planeStepM));
+        keys.add('a', () => this.lookAtSection());
+        keys.add('Escape', () => this.open(false));
     }
 
-    private addToggle(name: string, text: string, act: () => void, parts?: HTMLElement[]): void {
-        const box = input(`layer-${name}`, 'checkbox');
-        box.addEventListener('change', act);
-        const label = labeled(text, box);
+    private addToggle(name: ToggleName, isOn: () => boolean, toggle: () => void, parts?: HTMLElement[]): void {
+        const box = make('input', { id: `layer-${name}`, type: 'checkbox' });
+        box.addEventListener('change', toggle);
+        const label = labeled(words[name], box);
         label.className = 'toggle';
-        this.box.append(label);
-        if (!parts) return;
-        const more = document.createElement('div');
-        more.append(...parts);
-        this.parts.set(name, more);
-        this.box.append(more);
+        const more = parts ? make('div', {}, ...parts) : null;
+        this.toggles.push({ box, isOn, more });
+        this.box.append(label, ...(more ? [more] : []));
+    }
+    private slider(id: string, take: (value: number) => void): HTMLInputElement {
+        const slider = make('input', { id, type: 'range' });
+        slider.addEventListener('input', () => take(Number(slider.value)));
+        return slider;
     }
 
     private planeParts(): HTMLElement[] {
-        const height = input('plane-height', 'range');
-        height.step = String(planeStepM / 5); // and both ends are whole steps
-        height.addEventListener('input', () => this.slide({ planeM: Number(height.value) }));
+        const height = this.slider('plane-height', (planeM) => this.slide({ planeM }));
         height.setAttribute('aria-label', words.plane);
-        const told = document.createElement('output');
-        told.id = 'plane-value';
-        return [height, told];
+        return [height, make('output', { id: 'plane-value' })];
     }
 
     private sectionParts(): HTMLElement[] {
-        const ends = input('section-ends', 'text');
+        const ends = make('input', { id: 'section-ends', type: 'text' });
         ends.addEventListener('change', () => {
             const section = sectionOf(ends.value);
             if (section) this.set({ section });
@@ -133,60 +156,37 @@ export class LayersPanel {
     }
 
     private surfaceParts(): HTMLElement[] {
-        const value = input('surface-value', 'range');
-        value.addEventListener('input', () => {
+        const slider = this.slider('surface-value', (value) => {
             const { surface } = this.layers;
-            if (surface) this.slide({ surface: { ...surface, value: Number(value.value) } });
+            if (surface) this.slide({ surface: { ...surface, value } });
         });
-        const told = document.createElement('output');
-        told.id = 'surface-told';
-        const of = document.createElement('select');
-        of.id = 'surface-of';
+        const of = make('select', { id: 'surface-of' });
         of.addEventListener('change', () => {
             const moment = of.value === this.app.state.moment ? '' : of.value;
             this.set({ surface: { moment, value: this.usualValue(of.value) } });
         });
-        const label = labeled(words.encloses, value);
-        label.append(told);
-        return [label, labeled(words.surfaceOf, of)];
+        return [labeled(words.encloses, slider, make('output', { id: 'surface-told' })), labeled(words.surfaceOf, of)];
     }
 
     private sweepParts(): HTMLElement[] {
-        const elevation = document.createElement('select');
-        elevation.id = 'sweep-elevation';
+        const elevation = make('select', { id: 'sweep-elevation' });
         elevation.addEventListener('change', () => this.chooseCut(Number(elevation.value)));
         return [labeled(words.elevation, elevation)];
     }
 
     private cropParts(): HTMLElement[] {
-        const sliders = sides.map((side) => {
-            const slider = input(`crop-${side.slice(0, -1)}`, 'range');
-            slider.addEventListener('input', () => this.slideCrop(side, Number(slider.value)));
-            return labeled(words.sides[side], slider);
-        });
+        const sliders = sides.map((side) =>
+            labeled(
+                words.sides[side],
+                this.slider(cropSliderId(side), (value) => this.slideCrop(side, value)),
+            ),
+        );
         return [button('crop-draw', words.draw, () => this.drawCrop()), ...sliders];
-    }
-
-    private addKeys(keys: Keys): void {
-        keys.add('v', () => this.set({ hasVolume: !this.layers.hasVolume }));
-        keys.add('c', () => this.togglePlane());
-        keys.add('[', () => this.movePlane(-planeStepM));
-        keys.add(']', () => this.movePlane(planeStepM));
-        keys.add('x', () => this.toggleSection());
-        keys.add('a', () => this.lookAtSection());
-        keys.add('i', () => this.toggleSurface());
-        keys.add('m', () => this.set({ hasMaximum: !this.layers.hasMaximum }));
-        keys.add('w', () => this.toggleSweep());
-        keys.add('b', () => this.toggleCrop());
-        keys.add('g', () => this.set({ isLit: !this.layers.isLit }));
-        keys.add('n', () => this.set({ hasHaze: !this.layers.hasHaze }));
-        keys.add('u', () => this.toggleFolded());
-        keys.add('Escape', () => this.open(false));
     }
 
     // -- what they do
 
-    // An address may name what is no moment, before the page has chosen another one.
+    // Returns the chosen moment; empty if the address names none that the page knows.
     private get momentOfVeils(): string {
         const { moment } = this.app.state;
         return isMoment(moment) ? moment : '';
@@ -298,23 +298,16 @@ export class LayersPanel {
     private drawCrop(): void {
         this.draw(CropTool, words.dragCrop);
     }
-    // Moves a side of the box, but not past the one opposite.
+    // Moves a side of the box, but leaves a hundredth of the range to the side opposite.
     private slideCrop(side: keyof Crop, value: number): void {
-        if (!this.layers.crop) return;
+        const box = wholeBox(this.app);
+        if (!this.layers.crop || !box) return;
         const crop = { ...this.layers.crop, [side]: value };
-        for (const [low, high] of [
-            ['westM', 'eastM'],
-            ['southM', 'northM'],
-            ['bottomM', 'topM'],
-        ] as const) {
-            const least =
-                0.01 *
-                (Number(element<HTMLInputElement>(`crop-${high.slice(0, -1)}`).max) -
-                    Number(element<HTMLInputElement>(`crop-${low.slice(0, -1)}`).min));
-            if (crop[high] - crop[low] < least) {
-                if (side === low) crop[low] = crop[high] - least;
-                else crop[high] = crop[low] + least;
-            }
+        for (const [low, high] of axes) {
+            const least = 0.01 * (box[high] - box[low]);
+            if (crop[high] - crop[low] >= least) continue;
+            if (side === low) crop[low] = crop[high] - least;
+            else crop[high] = crop[low] + least;
         }
         this.slide({ crop });
     }
@@ -323,22 +316,9 @@ export class LayersPanel {
 
     private put(): void {
         const { layers } = this;
-        const isOn: Record<string, boolean> = {
-            volume: layers.hasVolume,
-            plane: layers.planeM !== null,
-            section: layers.section !== null,
-            surface: layers.surface !== null,
-            maximum: layers.hasMaximum,
-            sweep: layers.sweepDeg !== null,
-            crop: layers.crop !== null,
-            light: layers.isLit,
-            haze: layers.hasHaze,
-            folded: this.hasFolded,
-        };
-        for (const [name, on] of Object.entries(isOn)) {
-            element<HTMLInputElement>(`layer-${name}`).checked = on;
-            const more = this.parts.get(name);
-            if (more) more.hidden = !on;
+        for (const { box, isOn, more } of this.toggles) {
+            box.checked = isOn();
+            if (more) more.hidden = !box.checked;
         }
         const told = this.drawing.layers.told();
         this.told.textContent = told.join(' · ');
@@ -353,13 +333,10 @@ export class LayersPanel {
     }
 
     private putPlane(box: Crop, heightM: number): void {
-        const slider = element<HTMLInputElement>('plane-height');
-        const step = Number(slider.step);
-        slider.min = String(Math.ceil(box.bottomM / step) * step);
-        slider.max = String(Math.floor(box.topM / step) * step);
-        slider.value = String(heightM);
+        const step = planeStepM / 5;
+        const range: [number, number] = [Math.ceil(box.bottomM / step) * step, Math.floor(box.topM / step) * step];
         const text = words.planeAt(heightText(heightM, this.app.state.units));
-        slider.setAttribute('aria-valuetext', text);
+        putSlider('plane-height', range, step, heightM, text);
         element('plane-value').textContent = text;
     }
 
@@ -370,15 +347,11 @@ export class LayersPanel {
             moment,
         );
         const table = this.app.book?.preset(moment, '');
-        const slider = element<HTMLInputElement>('surface-value');
-        slider.min = String(table?.bar_begin ?? value);
-        slider.max = String(table?.end ?? value);
-        slider.step = String(((table?.end ?? 1) - (table?.bar_begin ?? 0)) / 200);
-        slider.value = String(value);
-        const name = slider.closest('label')!.querySelector('span')!;
+        const name = element('surface-value').closest('label')!.querySelector('span')!;
         name.textContent = isBelow(moment, value) ? words.enclosesBelow : words.encloses;
         const text = valueText(value, table?.unit ?? '', this.app.state.units);
-        slider.setAttribute('aria-valuetext', text);
+        const range: [number, number] = table ? [table.bar_begin, table.end] : [value, value];
+        putSlider('surface-value', range, (range[1] - range[0]) / 200, value, text);
         element('surface-told').textContent = text;
     }
 
@@ -404,17 +377,12 @@ export class LayersPanel {
 
     private putCrop(box: Crop, crop: Crop): void {
         const { units } = this.app.state;
-        for (const side of sides) {
-            const slider = element<HTMLInputElement>(`crop-${side.slice(0, -1)}`);
-            const isUp = side === 'bottomM' || side === 'topM';
-            slider.min = String(isUp ? box.bottomM : side === 'westM' || side === 'eastM' ? box.westM : box.southM);
-            slider.max = String(isUp ? box.topM : side === 'westM' || side === 'eastM' ? box.eastM : box.northM);
-            slider.step = String((Number(slider.max) - Number(slider.min)) / 200);
-            slider.value = String(crop[side]);
-            slider.setAttribute(
-                'aria-valuetext',
-                isUp ? heightText(crop[side], units) : distanceText(crop[side], units),
-            );
+        for (const axis of axes) {
+            const [low, high] = [box[axis[0]], box[axis[1]]];
+            for (const side of axis) {
+                const text = axis[1] === 'topM' ? heightText(crop[side], units) : distanceText(crop[side], units);
+                putSlider(cropSliderId(side), [low, high], (high - low) / 200, crop[side], text);
+            }
         }
     }
 }

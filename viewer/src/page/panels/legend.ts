@@ -3,7 +3,7 @@
 import { veilsFolded } from '../../scene/layers';
 import { shades } from '../../renderer/shades';
 import { App } from '../app';
-import { element } from '../dom';
+import { element, make } from '../dom';
 import { texts } from '../texts';
 
 const css = (rgb: readonly number[]): string => `rgb(${rgb.slice(0, 3).join(' ')})`;
@@ -33,15 +33,10 @@ function rowsOf({ state, shown, shownTable: table }: App): Row[] {
 }
 
 function item({ text, color, isHatched }: Row): HTMLLIElement {
-    const row = document.createElement('li');
-    const swatch = document.createElement('span');
-    if (color) {
-        swatch.style.backgroundColor = css(color);
-        if (isHatched) swatch.classList.add('hatched');
-        row.append(swatch);
-    }
-    row.append(text);
-    return row;
+    if (!color) return make('li', {}, text);
+    const swatch = make('span', isHatched ? { class: 'hatched' } : {});
+    swatch.style.backgroundColor = css(color);
+    return make('li', {}, swatch, text);
 }
 
 export function addLegend(app: App): void {
@@ -51,5 +46,5 @@ export function addLegend(app: App): void {
         box.replaceChildren(...rowsOf(app).map(item));
         box.hidden = !app.shown;
     };
-    for (const happening of ['view', 'shown'] as const) app.on(happening, put);
+    app.on(['view', 'shown'], put);
 }

@@ -1,4 +1,4 @@
-// The settings of how the volume is shown: colors, threshold, opacity, heights, and from where.
+// The settings of the view: colors, threshold, opacity, exaggeration of heights, and camera.
 
 import { valueText } from '../../tables/units';
 import { usualRungs } from '../../renderer/ladder';
@@ -51,18 +51,12 @@ function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     slider('exaggeration', (value) => (app.state.exaggeration = value));
 }
 
-// Adds the choice of a way of drawing: as time allows, or one of the ladder.
+// Adds the choice of a rung of the ladder, or of the rung that time allows.
 function addQuality(app: App): void {
     const select = element<HTMLSelectElement>('quality');
-    const option = (value: string, text: string) => {
-        const one = document.createElement('option');
-        one.value = value;
-        one.textContent = text;
-        return one;
-    };
     select.append(
-        option('', texts.asTimeAllows),
-        ...usualRungs.map(({ name, dE }) => option(name, texts.rung(name, dE))),
+        new Option(texts.asTimeAllows, ''),
+        ...usualRungs.map(({ name, dE }) => new Option(texts.rung(name, dE), name)),
     );
     select.addEventListener('change', () => {
         app.state.quality = select.value;
@@ -99,6 +93,5 @@ export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEd
     element('open').addEventListener('click', () => openSettings(drawing, element('settings').hidden));
     leaveByEscape(element('settings'), 'open', () => openSettings(drawing, false));
     keys.add('Escape', () => openSettings(drawing, false));
-    app.on('view', () => putLook(app));
-    app.on('camera', () => putLook(app));
+    app.on(['view', 'camera'], () => putLook(app));
 }

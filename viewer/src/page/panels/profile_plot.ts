@@ -1,9 +1,9 @@
-// The column at a place as a plot: values over height, and between which heights it was seen.
+// Plots the column at a place: values over height, and the heights that a beam saw.
 
 import { colorOf } from '../../tables/color_table';
 import { heightText, shownUnit } from '../../tables/units';
 import { App } from '../app';
-import { fontOf, textScale } from '../dom';
+import { fontOf, make, pixelRatio, textScale } from '../dom';
 import { ColumnReading, LevelReading } from '../column_reading';
 import { shades } from '../../renderer/shades';
 import { texts } from '../texts';
@@ -12,13 +12,10 @@ const [width, height] = [250, 130]; // pixels at the usual size of texts
 const [left, bottom] = [52, 20];
 
 export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement {
-    const canvas = document.createElement('canvas');
-    canvas.className = 'profile';
-    canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', texts.tools.profile);
+    const canvas = make('canvas', { class: 'profile', role: 'img', 'aria-label': texts.tools.profile });
     const { shownTable: table, unit } = app;
     const { units } = app.state;
-    const scale = (window.devicePixelRatio || 1) * textScale();
+    const scale = pixelRatio() * textScale();
     [canvas.width, canvas.height] = [Math.round(width * scale), Math.round(height * scale)];
     const pen = canvas.getContext('2d')!;
     pen.scale(scale, scale);

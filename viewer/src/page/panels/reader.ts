@@ -1,4 +1,4 @@
-// Shows the numbers of the column under a click. After another volume has come, reads the same place again.
+// Shows the column under a click. Reads the same place again in each volume that comes.
 
 import { ViewGeometry } from '../../camera/geometry';
 import { shades } from '../../renderer/shades';
@@ -6,10 +6,11 @@ import { Plane, planeOf } from '../../earth/projection';
 import { Units, heightNumber, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App, Shown } from '../app';
-import { button, element, labeledButton, leaveByEscape, paragraph, textScale } from '../dom';
+import { button, element, labeledButton, leaveByEscape, make, paragraph, textScale } from '../dom';
 import { Drawing } from '../drawing';
 import { gridForColumn } from '../exact_column';
 import { Keys } from '../keys';
+import { pagePixel } from '../labels';
 import { Picked, pick } from '../picked';
 import { Tool } from '../pointers';
 import { ColumnReading, columnAt, readColumn } from '../column_reading';
@@ -42,7 +43,7 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
             profilePlot(app, reading),
         );
     }
-    const table = document.createElement('table');
+    const table = make('table');
     const told = reading.levels.filter((level) => level.value !== null || level.code === 2);
     const every = Math.ceil(told.length / mostRows);
     for (const level of told.filter((_, i) => i % every === 0).reverse()) {
@@ -69,10 +70,7 @@ export class Reader implements Tool {
 
     begin(keys: Keys): void {
         this.app.on('choices', () => this.takeDomain());
-        this.app.on('shown', () => {
-            if (this.at) this.put();
-        });
-        this.app.on('units', () => {
+        this.app.on(['shown', 'units'], () => {
             if (this.at) this.put();
         });
         this.app.on('cells', () => {
@@ -104,14 +102,11 @@ export class Reader implements Tool {
         this.drawing.drawMarks();
     }
 
-    // The column that was read, from the ground up to what was clicked.
+    // Marks the column from the ground up to the place that was clicked.
     private draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry): void {
         const { at, picked } = this;
         if (!at) return;
-        const ratio = window.devicePixelRatio || 1;
-        const pixelAt = (heightM: number) =>
-            geometry.project([at[0], at[1], heightM * geometry.exaggeration])?.map((one) => one / ratio) as
-                [number, number] | undefined;
+        const pixelAt = (heightM: number) => pagePixel(geometry, at, heightM);
         const foot = pixelAt(geometry.groundM);
         const head = picked?.of === this.app.shown ? pixelAt(picked.what.heightM) : foot;
         if (!foot || !head) return;
@@ -136,7 +131,7 @@ export class Reader implements Tool {
         pen.fill();
     }
 
-    // The place stays with another moment, but not elsewhere.
+    // Keeps the place when the moment changes, but not when the domain does.
     private takeDomain(): void {
         if (this.domain !== this.app.state.domain) this.clear();
         this.domain = this.app.state.domain;
@@ -161,9 +156,8 @@ export class Reader implements Tool {
         const { at } = this;
         const column = columnAt(grid, ...at);
         const place = planeOf(grid).toPlace(this.at);
-        const title = document.createElement('h2');
-        title.textContent = texts.place(place.latitudeDeg, place.longitudeDeg);
-        const body = document.createElement('div');
+        const title = make('h2', {}, texts.place(place.latitudeDeg, place.longitudeDeg));
+        const body = make('div');
         // Tell what was clicked only in the picture of that click, but read the column again at each time.
         const { picked } = this;
         const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];

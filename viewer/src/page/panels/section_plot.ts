@@ -1,4 +1,4 @@
-// A flat plot of the section, with distance and height, and what it says under the pointer.
+// A flat plot of the section over distance and height. It tells the value under the pointer.
 
 import { Section, cutSection, greatestOf } from '../../fields/section';
 import { shades } from '../../renderer/shades';
@@ -7,7 +7,7 @@ import { ColorTable } from '../../wire/color_tables';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
-import { fontOf, textScale } from '../dom';
+import { fontOf, make, pixelRatio, textScale } from '../dom';
 import { texts } from '../texts';
 import { Windows } from '../windows';
 
@@ -51,9 +51,14 @@ export function sectionPixels(section: Section, table: ColorTable, least: number
 }
 
 export class SectionPlot {
-    private box = document.createElement('section');
-    private canvas = document.createElement('canvas');
-    private reading = document.createElement('output');
+    private canvas = make('canvas', {
+        id: 'section-canvas',
+        tabindex: '0',
+        role: 'img',
+        'aria-label': texts.layers.plot,
+    });
+    private reading = make('output', { id: 'section-reading' });
+    private box = make('section', { id: 'section-plot', hidden: '' }, this.canvas, this.reading);
     private section: Section | null = null;
     private cursor: [number, number] | null = null; // in pixels of the plot
     private drawn: readonly unknown[] = [];
@@ -62,14 +67,6 @@ export class SectionPlot {
         private app: App,
         private windows: Windows,
     ) {
-        this.box.id = 'section-plot';
-        this.box.hidden = true;
-        this.canvas.id = 'section-canvas';
-        this.canvas.tabIndex = 0;
-        this.canvas.setAttribute('role', 'img');
-        this.canvas.setAttribute('aria-label', texts.layers.plot);
-        this.reading.id = 'section-reading';
-        this.box.append(this.canvas, this.reading);
         document.querySelector('main')!.append(this.box);
         this.canvas.addEventListener('pointermove', (event) =>
             this.point([event.offsetX / textScale() - left, event.offsetY / textScale() - top]),
@@ -78,10 +75,10 @@ export class SectionPlot {
         this.canvas.addEventListener('keydown', (event) => this.press(event));
         this.canvas.addEventListener('blur', () => this.point(null));
         window.addEventListener('resize', () => this.put());
-        for (const happening of ['view', 'shown', 'units', 'cells'] as const) app.on(happening, () => this.put());
+        app.on(['view', 'shown', 'units', 'cells'], () => this.put());
     }
 
-    // In pixels that are larger on large screens.
+    // Returns the size of the picture without its axes, in pixels that are larger on large screens.
     private get size(): [number, number] {
         const [width, height] = [this.canvas.clientWidth / textScale(), this.canvas.clientHeight / textScale()];
         return [Math.max(16, width - left - right), Math.max(16, height - top - bottom)];
@@ -101,7 +98,7 @@ export class SectionPlot {
         const now = [ends, cells, table, state.least, state.units, width, height];
         if (!hasBeenHidden && now.every((part, i) => part === this.drawn[i])) return;
         this.drawn = now;
-        const ratio = (window.devicePixelRatio || 1) * textScale();
+        const ratio = pixelRatio() * textScale();
         this.section = cutSection(
             cells.grid,
             shown.moment,
@@ -118,7 +115,7 @@ export class SectionPlot {
         const { section } = this;
         const { shownTable: table, state } = this.app;
         if (!section || !table) return;
-        const ratio = (window.devicePixelRatio || 1) * textScale();
+        const ratio = pixelRatio() * textScale();
         const [width, height] = this.size;
         this.canvas.width = Math.round((left + width + right) * ratio);
         this.canvas.height = Math.round((top + height + bottom) * ratio);

@@ -1,4 +1,4 @@
-// Lets the user take along what is shown: the address, the command that draws the same, the picture, the grid.
+// Buttons that give away what is shown: its link, its command, its picture, its grid.
 
 import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
@@ -6,7 +6,7 @@ import { commandOf, isBeyondLimits, isUsualGrid } from '../../scene/view_state';
 import { LoadedGrid } from '../../atlas/loaded_grid';
 import { address, gridPath, isRegion, rawAt } from '../../wire/api';
 import { App } from '../app';
-import { button, element, saveFile } from '../dom';
+import { button, element, make, saveFile } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { snapshotOf } from '../snapshot';
@@ -29,19 +29,18 @@ function save(app: App, drawing: Drawing): void {
         () => {
             if (!app.shown) return;
             const { domain, moment, time } = app.shown;
-            const link = document.createElement('a');
-            link.download = `${domain}_${moment}_${time.replace(/:/g, '')}.png`;
-            link.href = snapshotOf(drawing.picture, drawing.labels, moment).toDataURL('image/png');
-            link.click();
+            const download = `${domain}_${moment}_${time.replace(/:/g, '')}.png`;
+            const href = snapshotOf(drawing.picture, drawing.labels, moment).toDataURL('image/png');
+            make('a', { download, href }).click();
         },
         () => app.say(texts.notSaved),
     );
 }
 
-const savedFiles = new Set<string>(); // of commands that were copied
+const savedFiles = new Set<string>(); // files that commands name, once saved
 
-// The raw file that the grid was made of, if it is one: whoever has it needs no cache for the command. A
-// browser lets the page copy only at once, so the page asks for the file before.
+// The raw file of the grid, if there is just one. Its command needs no cache. A browser lets a click copy only at
+// once, so the page asks for the file before.
 class RawFile {
     private of: LoadedGrid | null = null;
     private name = '';
@@ -126,7 +125,7 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
     app.on('shown', askRaw);
     // Marks the button as disabled if no command draws what is shown; a press says why.
     const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app, drawing) !== ''));
-    for (const happening of ['view', 'shown', 'choices', 'cells'] as const) app.on(happening, mark);
+    app.on(['view', 'shown', 'choices', 'cells'], mark);
     drawing.pictureChanged.push(mark);
     element('actions').append(
         button('share', texts.share, () => copy(app, app.link, texts.shared)),

@@ -1,15 +1,15 @@
-// The foot of the page: every time of the domain, playing, and the live edge. How it plays is a part of the
-// settings.
+// The foot of the page: a slider over the times of the domain, and buttons to play and to follow the newest. The
+// settings have speed and loops.
 
 import { App } from '../app';
-import { button, element } from '../dom';
+import { button, element, labeled, make } from '../dom';
 import { Keys } from '../keys';
 import { texts } from '../texts';
 
 const speeds = [1, 2, 4, 8, 15, 30];
 const betweens = [0, 30, 60, 120];
 
-// The part of the slider that is played.
+// Marks the part of the slider that is played.
 function putLoop(app: App, slider: HTMLInputElement): void {
     const { times, loop } = app.player;
     const shareOf = (wanted: string) => {
@@ -39,15 +39,10 @@ function select(
     chosen: number,
     take: (value: number) => void,
 ): HTMLLabelElement {
-    const label = document.createElement('label');
-    const text = document.createElement('span');
-    text.textContent = name;
-    const made = document.createElement('select');
-    made.id = id;
+    const made = make('select', { id });
     for (const [value, shown] of options) made.add(new Option(shown, String(value), false, value === chosen));
     made.addEventListener('change', () => take(Number(made.value)));
-    label.append(text, made);
-    return label;
+    return labeled(name, made);
 }
 
 function addPlaying(app: App): void {

@@ -1,9 +1,9 @@
-// Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
+// The tools of the pointer (distance, area, flight), and links to the raw volumes of what is shown.
 
 import { LoadedGrid } from '../../atlas/loaded_grid';
 import { domains, hasRaw, isAbsent, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
-import { button, element, press } from '../dom';
+import { button, element, make, press } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { FlyTool } from '../flying';
@@ -17,7 +17,7 @@ interface RawFile {
     name: string;
 }
 
-// The files of volumes that began at these times, as far as they are there.
+// Returns the files that the server has of volumes that began at these times.
 async function filesOf(volumes: { station: string; time: string }[]): Promise<RawFile[]> {
     const found = await Promise.all(volumes.map(({ station, time }) => rawAt(station, time)));
     return volumes.flatMap(({ station }, i) => {
@@ -27,7 +27,7 @@ async function filesOf(volumes: { station: string; time: string }[]): Promise<Ra
 }
 
 export class ToolsPanel {
-    private toldOf: LoadedGrid | null = null; // whose raw volumes are named, or said not to be here
+    private toldOf: LoadedGrid | null = null; // the grid whose raw volumes the page tells
 
     constructor(
         private app: App,
@@ -81,7 +81,7 @@ export class ToolsPanel {
         if (!isUsed) this.tell(texts.tools.flyHint);
     }
 
-    // A tool that is used already is put away.
+    // Begins a tool, or ends it if it is in use.
     private use(id: string, isUsed: boolean, make: (ended: () => void) => Tool): void {
         this.toldOf = null;
         this.pointers.use(null);
@@ -130,12 +130,9 @@ export class ToolsPanel {
         });
         if (!files || loaded !== this.app.shown?.loaded) return this.tell('');
         this.toldOf = loaded;
-        const links = files.map(({ station, name }) => {
-            const link = document.createElement('a');
-            link.href = rawPath(station, name);
-            link.download = link.textContent = name;
-            return link;
-        });
+        const links = files.map(({ station, name }) =>
+            make('a', { href: rawPath(station, name), download: name }, name),
+        );
         if (links.length === 0) return this.tell(texts.tools.noRaw);
         element('tool-says').replaceChildren(...links.flatMap((link) => [link, ' ']));
         if (links.length === 1) links[0]!.click();

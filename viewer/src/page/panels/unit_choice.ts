@@ -1,22 +1,17 @@
-// In which units the page writes: chosen in the settings, kept in the address and by the browser.
+// The choice of units in the settings. The address and the browser keep it.
 
 import { Quantity, knownUnits, quantities } from '../../tables/units';
 import { App } from '../app';
-import { element } from '../dom';
+import { element, labeled, make } from '../dom';
 import { texts } from '../texts';
 
 function selectOf(app: App, quantity: Quantity): HTMLLabelElement {
-    const label = document.createElement('label');
-    const name = document.createElement('span');
-    name.textContent = texts.units[quantity];
-    const select = document.createElement('select');
-    select.id = `units-${quantity}`;
-    for (const { symbol, name: value } of knownUnits[quantity]) select.add(new Option(symbol, value));
+    const select = make('select', { id: `units-${quantity}` });
+    for (const { symbol, name } of knownUnits[quantity]) select.add(new Option(symbol, name));
     select.addEventListener('change', () => {
         app.useUnits({ ...app.state.units, [quantity]: knownUnits[quantity][select.selectedIndex]! });
     });
-    label.append(name, select);
-    return label;
+    return labeled(texts.units[quantity], select);
 }
 
 export function addUnits(app: App): void {

@@ -61,7 +61,7 @@ export class BaseMap {
     }
 
     private async refine(box: MapBox, withCounties: boolean): Promise<void> {
-        // Where too many lines are, the coarse ones stay.
+        // If there are too many lines, the coarse ones stay.
         const area = await this.load(box, 0, withCounties).catch(() => null);
         if (area) this.fine = area;
         if (area) this.loaded();

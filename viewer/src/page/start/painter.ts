@@ -1,4 +1,4 @@
-// Draws the start map: land and lines, what the radars see, outlines, stations and their names.
+// Draws the start map: land, echo, lines, outlines, stations and their names.
 
 import { MapView, Tile, mapPoint, nearestCopy, pixelOf, tilesOf } from '../../map/mercator';
 import { Pixel, StationPlace } from '../../map/places';
@@ -163,7 +163,7 @@ function drawOutlines(pen: CanvasRenderingContext2D, scene: StartScene, taken: R
     }
 }
 
-// Bright: a new grid; gray: an old one; hollow: none.
+// Draws a station: bright with a new grid, gray with an old one, hollow without.
 function drawDot(pen: CanvasRenderingContext2D, [x, y]: Pixel, station: StationPlace, isMarked: boolean): void {
     const isFresh = station.ageS !== null && station.ageS < freshS && !isAhead(station.ageS);
     pen.beginPath();
@@ -223,7 +223,7 @@ function drawCities(pen: CanvasRenderingContext2D, { view, map }: StartScene, ta
     }
 }
 
-// The scene in pixels that are larger, as texts are on large screens.
+// Returns the scene in larger pixels, as texts are larger on large screens.
 function inLargerPixels(scene: StartScene, scale: number): StartScene {
     const { view, box, covered } = scene;
     const pixel = ([x, y]: Pixel): Pixel => [x / scale, y / scale];

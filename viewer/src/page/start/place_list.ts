@@ -1,7 +1,7 @@
-// The list beside the start map: domains, and stations that a word finds.
+// The list beside the start map: domains, and the stations of a search.
 
 import { Found } from '../../map/places';
-import { element } from '../dom';
+import { element, make } from '../dom';
 import { texts } from '../texts';
 
 export interface ListedPlace {
@@ -42,8 +42,7 @@ export class PlaceList {
         const focused =
             document.activeElement instanceof HTMLElement ? document.activeElement.dataset['domain'] : undefined;
         this.list.replaceChildren(...places.map((place) => this.row(place)));
-        if (places.length === 0)
-            this.list.append(Object.assign(document.createElement('li'), { textContent: texts.start.noneFound }));
+        if (places.length === 0) this.list.append(make('li', {}, texts.start.noneFound));
         this.buttons.find((one) => one.dataset['domain'] === focused)?.focus();
     }
 
@@ -52,28 +51,25 @@ export class PlaceList {
     }
 
     private row(place: ListedPlace): HTMLLIElement {
-        const row = document.createElement('li');
-        const button = document.createElement('button');
-        button.dataset['domain'] = place.domain;
+        const button = make(
+            'button',
+            { 'data-domain': place.domain },
+            make('b', {}, place.domain),
+            make('span', {}, place.name),
+            make('small', {}, place.note),
+        );
         button.disabled = !place.isThere;
-        for (const [kind, text] of [
-            ['b', place.domain],
-            ['span', place.name],
-            ['small', place.note],
-        ] as const)
-            button.append(Object.assign(document.createElement(kind), { textContent: text }));
         button.addEventListener('click', () => this.actions.open(place.domain));
         button.addEventListener('focus', () => this.actions.point(place.domain));
         button.addEventListener('pointerenter', () => this.actions.point(place.domain));
-        row.append(button);
-        return row;
+        return make('li', {}, button);
     }
 
     private get buttons(): HTMLButtonElement[] {
         return [...this.list.querySelectorAll('button')];
     }
 
-    // Arrows go through the list; Enter in the field opens the first place.
+    // Goes through the list by arrows; Enter in the field opens the first place.
     private press(event: KeyboardEvent): void {
         const usable = this.buttons.filter((one) => !one.disabled);
         const at = usable.indexOf(document.activeElement as HTMLButtonElement);

@@ -1,4 +1,4 @@
-// Keeps what the start map knows of the server: stations, domains, what each sees now, and where it lies.
+// Keeps what the start map knows of stations and domains: where they are, and what each sees now.
 
 import { circleOf, outlineOf } from '../../map/outline';
 import { StationPlace, stationPlaces } from '../../map/places';
@@ -60,7 +60,7 @@ export class StartData {
         return domain.moments.find((one) => one.moment === pictured) ?? domain.moments[0];
     }
 
-    // Asks what a domain's newest grid is.
+    // Asks for the facts of a domain's newest grid.
     private async see(domain: Domain, isStation: boolean): Promise<SeenDomain> {
         const moment = StartData.momentOf(domain);
         const facts = moment
@@ -92,7 +92,7 @@ export class StartData {
             this.asked.add(key);
             void this.see(domain, true).then(() => this.changed());
         }
-        // Until the newest grid is known, the one before is drawn.
+        // The map draws the grid before until the newest one is known.
         return this.seen.get(domain.domain) ?? null;
     }
 
@@ -108,7 +108,7 @@ export class StartData {
         visible: StationPlace[],
         isWithin: (outline: Outline, station: StationPlace) => boolean,
     ): PicturedDomain[] {
-        // A clock that is wrong makes nothing old.
+        // A radar whose clock is wrong makes no mosaic old.
         const newestMs = (outline: Outline) =>
             Math.max(
                 ...this.stations

@@ -15,7 +15,7 @@ import {
 import { Pixel, StationPlace, isInside, nearestPixel, pixelToward, search } from '../../map/places';
 import { isRegion, regionName } from '../../wire/api';
 import { App } from '../app';
-import { button, element } from '../dom';
+import { button, element, pixelRatio } from '../dom';
 import { Rect } from '../labels';
 import { texts } from '../texts';
 import { BaseMap } from './base_map';
@@ -118,7 +118,7 @@ export class StartMap {
         this.draw();
     }
 
-    // All that there is, or the most of it: a few stations on other continents do not shrink the rest.
+    // Shows all stations, or most of them, so that a few on other continents do not shrink the rest.
     private fit(): MapView | null {
         const { stations, mosaics } = this.data;
         const middleDeg = stations.map((one) => one.longitudeDeg).sort((a, b) => a - b)[
@@ -160,7 +160,7 @@ export class StartMap {
     private drawNow(): void {
         const { view, canvas } = this;
         if (!view) return;
-        const ratio = window.devicePixelRatio || 1;
+        const ratio = pixelRatio();
         const [width, height] = [Math.round(view.width * ratio), Math.round(view.height * ratio)];
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
         paint(canvas.getContext('2d')!, this.scene(view), this.tiles, ratio);
@@ -221,7 +221,7 @@ export class StartMap {
         this.draw();
     }
 
-    // The station near a pixel, else the smallest domain that holds it.
+    // Returns the station near a pixel, else the smallest domain that holds it; null if there is none.
     at(x: number, y: number): string | null {
         const { view, data } = this;
         if (!view) return null;
@@ -315,7 +315,7 @@ export class StartMap {
     private tellBox(): void {
         this.say(texts.start.boxed(this.stationsInBox().map((one) => one.icao)));
     }
-    // The sites of the box become one domain; of one station, the station is opened.
+    // Opens the region of the box, or its station if it holds just one.
     async openBox(): Promise<void> {
         const box = this.boxDegrees();
         const inside = this.stationsInBox();
@@ -362,7 +362,7 @@ export class StartMap {
         event.preventDefault();
     }
 
-    // From the station that is chosen, else from the middle, to the next one.
+    // Chooses the next station from the chosen one, or from the middle.
     private step(way: Pixel): void {
         const { view, data } = this;
         if (!view || data.stations.length === 0) return;
@@ -389,7 +389,7 @@ export class StartMap {
         if (dx !== 0 || dy !== 0) this.move(dx, dy);
     }
 
-    // The key begins a box at the station that is chosen; arrows then widen it.
+    // Begins a box at the chosen station, which arrows then widen, or drops it.
     private boxByKeys(): void {
         if (this.anchor) return this.dropBox();
         this.anchor = this.chosen;
