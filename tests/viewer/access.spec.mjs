@@ -16,7 +16,7 @@ const sizes = [[360, 640, 13], [800, 600, 13], [1920, 1080, 14], [3840, 2160, 24
 const test = base.extend({
   viewport: { width: 800, height: 600 },
   contextOptions: { reducedMotion: 'reduce' },
-  // A page that is open, from far away, where pictures take little time.
+  // The page with a picture from far away, which takes little time.
   near: async ({ viewer, server: { station } }, use) => {
     await viewer.open(`domain=${station}&moment=REF&zoom=0.3&least=30`);
     await use(viewer);

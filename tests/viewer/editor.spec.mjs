@@ -7,7 +7,7 @@ import { expect, expectLikeSlicer, test as base } from './fixtures.mjs';
 import { mostDifference, viewOf } from './slicer.mjs';
 
 const [colorsPart, opacityPart] = [6, 7];
-// From far away pictures take little time.
+// A zoom from which pictures take little time.
 const far = 0.2;
 const handle = (kind) => `#editor .handle.${kind}`;
 

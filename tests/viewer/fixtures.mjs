@@ -67,7 +67,7 @@ export const test = base.extend({
     },
     { scope: 'worker', timeout: 120_000 },
   ],
-  // Where the page is; a check may put something before the server.
+  // The address of the page; a check may put something before the server.
   address: ({ server }, use) => use(server.address),
   // Errors of the page that a check provokes.
   provoked: [/(?!)/, { option: true }],

@@ -1,4 +1,4 @@
-// Checks what the page says of things that are not there: a radar, a moment or a time of a link, the server, news, the
+// Checks what the page says if something is missing: the radar, moment or time of a link, the server, its news, the
 // graphics processor.
 import { expect, test as base } from './fixtures.mjs';
 import { Relay } from './relay.mjs';
@@ -40,6 +40,12 @@ async function tell(relay, kind, data) {
   await expect.poll(() => relay.streams.size, 'streams of events').toBeGreaterThan(0);
   relay.tell(kind, data);
 }
+// Lets the page wait 1.5 seconds for the server instead of 40.
+const waitLess = (page) =>
+  page.addInitScript(() => {
+    const timer = setTimeout;
+    window.setTimeout = (act, ms, ...more) => timer(act, ms === 40000 ? 1500 : ms, ...more);
+  });
 // Changes answers that are JSON and whose path begins so.
 const changing = (pattern, change) => (path, body) => {
   if (body.length === 0 || !pattern.test(path)) return body;
@@ -62,7 +68,7 @@ test.describe('a link to what is not there', () => {
     await expect(says.notice).toContainText(`${station} has no XXX`);
     await expect(says.notice).toContainText('2099-01-01 00:00:00');
     await viewer.open(`domain=${station}&moment=REF&time=yesterday`);
-    await expect(says.notice).toContainText('yesterday is no time');
+    await expect(says.notice).toContainText('yesterday is not a time');
     await viewer.show(`domain=${station}&moment=REF&surface=20&surface-moment=XXX`);
     await expect(viewer.byId('layers-told')).toContainText('no XXX for this time');
   });
@@ -72,8 +78,8 @@ test.describe('a link to what is not there', () => {
     await viewer.open(newest);
     expect(await viewer.text('notice'), 'what is there needs no notice').toBe('');
     await viewer.turnTo(`domain=${station}&moment=REF&time=tomorrow`);
-    await expect(says.notice).toContainText('tomorrow is no time');
-    // What is no link of ours is no region.
+    await expect(says.notice).toContainText('tomorrow is not a time');
+    // A name with more than four numbers is not a region.
     await viewer.turnTo(`domain=${encodeURIComponent('region:-100,33,-95,37,/REF;x')}`);
     await expect(says.notice).toContainText('No data for region');
     // The page writes its own address meanwhile.
@@ -178,10 +184,7 @@ test.describe('a server that is gone', () => {
 
   // A server that takes connections and says nothing (2026-11-28: it looked alive).
   test('is told when it hangs', async ({ page, viewer, relay, says, newest }) => {
-    await page.addInitScript(() => {
-      const timer = setTimeout;
-      window.setTimeout = (act, ms, ...more) => timer(act, ms === 40000 ? 1500 : ms, ...more);
-    });
+    await waitLess(page);
     await viewer.open(newest);
     relay.isHanging = true;
     await expect(says.notice).toContainText('does not answer');
@@ -197,11 +200,7 @@ for (const [who, refusal] of [
   ['a proxy that refuses events', [403, 'text/html', '<h1>Forbidden</h1>']],
 ]) {
   test(`${who} is asked for the lists again`, async ({ page, viewer, relay, says, newest }) => {
-    // The page waits less.
-    await page.addInitScript(() => {
-      const timer = setTimeout;
-      window.setTimeout = (act, ms, ...more) => timer(act, ms === 40000 ? 1500 : ms, ...more);
-    });
+    await waitLess(page);
     relay.refusal = refusal;
     relay.isRefusing = true;
     await viewer.open(newest);

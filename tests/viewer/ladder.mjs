@@ -32,7 +32,7 @@ async function openPages(browser) {
   const viewers = new Map();
   for (const memory of new Set(rungs.map(memoryOf))) {
     const viewer = await openPage(browser, address, width, height);
-    // Without a domain the page may open the map of the stations.
+    // The address names a domain, because the page may open the map of the stations without one.
     await viewer.open(`domain=${stations[0]}&memory=${memory}`);
     viewers.set(memory, viewer);
   }

@@ -1,7 +1,7 @@
 // Checks layers: flat ones against the pictures of `stormcellar frame`, which cut the same grid by themselves, and what
 // mouse and keys do to them.
 import { expect, expectLikeSlicer, report, test as base } from './fixtures.mjs';
-import { image } from './pixels.mjs';
+import { decoded, image } from './pixels.mjs';
 import { mostDifference, pictureOf, viewOf } from './slicer.mjs';
 
 const [width, height] = [400, 266];
@@ -52,7 +52,7 @@ const test = base.extend({
         pictureOf(page, server.program, [server.volumes.at(-1), ...words, '--no-labels'], w, h, server.directory),
     });
   },
-  // Where the column maximum reaches 45 dBZ: the picture of it, and its middle in km.
+  // A picture of the column maximum where it reaches 45 dBZ, and the middle of that in km.
   strong: async ({ viewer, above }, use) => {
     await viewer.open(`${above.view}&moment=REF&maximum=1&least=45`);
     const picture = await above.pixels();
@@ -142,16 +142,9 @@ test.describe('layers', { tag: '@full' }, () => {
     const ends = [...at(strong.eastKm - 40, strong.northKm - 20), ...at(strong.eastKm + 40, strong.northKm + 20)];
     const line = ends.map((degrees) => degrees.toFixed(4)).join(',');
     await viewer.show(`domain=${above.station}&moment=REF&section=${line}&volume=0&tilt=70`);
-    const plot = await page.evaluate(() => {
-      const canvas = document.getElementById('section-canvas');
-      const [w, h] = [canvas.width - 46, canvas.height - 30];
-      const { data } = canvas.getContext('2d').getImageData(34, 8, w, h);
-      let text = '';
-      for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
-      return [w, h, btoa(text)];
-    });
-    const [w, h, bytes] = plot;
-    const drawn = image(Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(bytes, 'base64')]));
+    const plot = await decoded(page, await viewer.byId('section-canvas').evaluate((canvas) => canvas.toDataURL()));
+    const [w, h] = [plot.width - 46, plot.height - 30]; // without the axes
+    const drawn = { width: w, height: h, at: (x, y) => plot.at(x + 34, y + 8) };
     expectSame('section', compared(drawn, await above.framed(['--product', 'section', '--section', line], w, h)), 0.01);
     const reading = viewer.byId('section-reading');
     await expect(reading).toHaveText(/^Greatest [\d.]+ dBZ, [\d.]+ km from A, [\d.]+ km above sea level$/);

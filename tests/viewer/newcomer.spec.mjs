@@ -1,5 +1,5 @@
-// From the address alone to a shared section through the hook of KTLX, 3 May 1999, as somebody would who has never seen
-// the page: what is pressed, dragged and turned is counted.
+// Goes from the address alone to a shared section through the hook of KTLX, 3 May 1999, as a newcomer would. Counts
+// what is pressed, dragged and turned.
 import { expect, report, test } from './fixtures.mjs';
 import { image } from './pixels.mjs';
 import { ViewerPage } from './viewer_page.mjs';

@@ -1,55 +1,42 @@
 // Checks pictures that the page saves against what it shows.
 import { expect, test } from './fixtures.mjs';
+import { decoded } from './pixels.mjs';
 
 test.use({ viewport: { width: 796, height: 532 } });
 
 const view = (station, slices) => `domain=${station}&moment=REF&zoom=2&exaggeration=3&quality=${encodeURIComponent(slices)}`;
 
 // Returns how many pixels of letters the page shows over its picture, and how many of them a saved picture has there.
-function lettersIn(page, href) {
-  return page.evaluate(async (href) => {
-    const image = new Image();
-    image.src = href;
-    await image.decode();
-    const labels = document.getElementById('labels');
-    const copy = document.createElement('canvas');
-    [copy.width, copy.height] = [image.width, image.height];
-    const pen = copy.getContext('2d');
-    pen.drawImage(image, 0, 0);
-    const saved = pen.getImageData(0, 0, copy.width, copy.height).data;
+async function lettersIn(page, href) {
+  const saved = await decoded(page, href);
+  const letters = await page.locator('#labels').evaluate((labels) => {
     const shown = labels.getContext('2d').getImageData(0, 0, labels.width, labels.height).data;
-    let [letters, same] = [0, 0];
+    const found = [];
     for (let y = 80; y < labels.height; ++y) {
       for (let x = 0; x < labels.width - 100; ++x) {
         const at = 4 * (y * labels.width + x);
-        if (shown[at + 3] < 255 || shown[at] < 180) continue;
-        ++letters;
-        const there = 4 * (y * copy.width + x);
-        if (x < copy.width && y < copy.height && Math.abs(saved[there] - shown[at]) < 3) ++same;
+        if (shown[at + 3] === 255 && shown[at] >= 180) found.push([x, y, shown[at]]);
       }
     }
-    return { letters, same };
-  }, href);
+    return found;
+  });
+  const isSame = ([x, y, red]) => x < saved.width && y < saved.height && Math.abs(saved.at(x, y)[0] - red) < 3;
+  return { letters: letters.length, same: letters.filter(isSame).length };
 }
 
 // Returns how many pixels differ between two saved pictures.
-function differing(page, one, other) {
-  return page.evaluate(async (both) => {
-    const pixels = async (href) => {
-      const image = new Image();
-      image.src = href;
-      await image.decode();
-      const copy = document.createElement('canvas');
-      [copy.width, copy.height] = [image.width, image.height];
-      const pen = copy.getContext('2d');
-      pen.drawImage(image, 0, 0);
-      return pen.getImageData(0, 0, copy.width, copy.height).data;
-    };
-    const [one, other] = [await pixels(both[0]), await pixels(both[1])];
-    let off = 0;
-    for (let i = 0; i < one.length; i += 4) if (Math.abs(one[i] - other[i]) + Math.abs(one[i + 1] - other[i + 1]) > 12) ++off;
-    return one.length === other.length ? off : one.length;
-  }, [one, other]);
+async function differing(page, ...both) {
+  const [one, other] = await Promise.all(both.map((href) => decoded(page, href)));
+  const { width, height } = one;
+  if (width !== other.width || height !== other.height) return width * height;
+  let off = 0;
+  for (let y = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      const [a, b] = [one.at(x, y), other.at(x, y)];
+      if (Math.abs(a[0] - b[0]) + Math.abs(a[1] - b[1]) > 12) ++off;
+    }
+  }
+  return off;
 }
 
 test.describe('a saved picture', () => {

@@ -1,4 +1,4 @@
-// Reads pixels of pictures, and places of texts.
+// Reads pixels of pictures, and places from texts.
 
 // The different colors of a portable pixmap, each as one number.
 export function shadesOf(ppm) {
@@ -6,14 +6,32 @@ export function shadesOf(ppm) {
   return new Set(Array.from({ length: count }, (_, i) => ppm.readUIntBE(15 + 3 * i, 3)));
 }
 
-// A portable pixmap as pixels.
+// Returns the pixels of a portable pixmap.
 export function image(ppm) {
   const [, w, h] = ppm.toString('latin1', 0, 40).match(/^P6\n(\d+) (\d+)\n255\n/).map(Number);
   const from = ppm.length - 3 * w * h;
   return { width: w, height: h, at: (x, y) => [...ppm.subarray(from + 3 * (y * w + x), from + 3 * (y * w + x) + 3)] };
 }
 
-// Latitude and longitude of a text that says them as the page does: "35.292 N, 97.561 W".
+// Returns the pixels of a picture at an address, such as that of its data, which the browser decodes.
+export async function decoded(page, href) {
+  const [width, height, text] = await page.evaluate(async (href) => {
+    const picture = new Image();
+    picture.src = href;
+    await picture.decode();
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [picture.width, picture.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    let text = '';
+    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+    return [copy.width, copy.height, btoa(text)];
+  }, href);
+  return image(Buffer.concat([Buffer.from(`P6\n${width} ${height}\n255\n`), Buffer.from(text, 'base64')]));
+}
+
+// Returns latitude and longitude of a text that says them as the page does: "35.292 N, 97.561 W".
 export function placeOf(text) {
   const [, latitude, north, longitude, east] = text.match(/(\d+\.\d+) ([NS]), (\d+\.\d+) ([EW])/);
   return [Number(latitude) * (north === 'S' ? -1 : 1), Number(longitude) * (east === 'W' ? -1 : 1)];

@@ -2,11 +2,10 @@
 import { expect, report, test as base } from './fixtures.mjs';
 import { placeOf } from './pixels.mjs';
 
-// Where the stations are on the map, once it is drawn.
+// Returns the places of the stations on the map, once it is drawn.
 async function places(viewer) {
   await expect(viewer.byId('start')).toBeVisible();
-  const text = await viewer.until(() => document.documentElement.dataset.map);
-  return new Map(text.split(',').map((one) => one.split(' ')).map(([icao, x, y]) => [icao, [Number(x), Number(y)]]));
+  return viewer.stationsOnMap();
 }
 
 const test = base.extend({
@@ -117,7 +116,7 @@ test.describe('around a station', { tag: '@full' }, () => {
       const [a, b] = [extinction[high - 1], extinction[high]];
       return a.per_km + ((value - a.value) / (b.value - a.value)) * (b.per_km - a.per_km);
     };
-    // From above: the cell of the column that hides most of what is below it and is hidden least.
+    // The cell of the column that is seen most from above: it hides what is below it, and little hides it.
     const seenMost = (levels) => {
       let [seen, most, through] = [null, 0, 1];
       for (let z = levels.length - 1; z >= 0; --z) {

@@ -20,7 +20,7 @@ function inFolder(folder, station) {
 const squallLine = volume('KLBB20160601_150025_V06');
 const supercells = volume('KTLX19990503_235621.gz');
 const clearAir = volume('KLOT20220317_000842_V06');
-// Without real volumes there is a simulated one.
+// The checks use a simulated volume if no real one is here.
 const storms = existsSync(squallLine) ? [squallLine, supercells] : existsSync(clearAir) ? [clearAir] : [];
 const sequence = inFolder('sequence-kbgm', 'KBGM');
 // Three sites that reach each other, one of them at the sea.

@@ -11,8 +11,7 @@ const test = base.extend({
   region: async ({ viewer, server, sites: [one, other] }, use) => {
     await server.grids();
     await viewer.goto();
-    const text = await viewer.until((site) => document.documentElement.dataset.map?.includes(site) && document.documentElement.dataset.map, other);
-    const places = new Map(text.split(',').map((place) => place.split(' ')).map(([icao, x, y]) => [icao, [Number(x), Number(y)]]));
+    const places = await viewer.stationsOnMap(other);
     const [a, b] = [places.get(one), places.get(other)];
     const [left, top] = [Math.min(a[0], b[0]) - 25, Math.min(a[1], b[1]) - 25];
     const [right, bottom] = [Math.max(a[0], b[0]) + 25, Math.max(a[1], b[1]) + 25];
@@ -79,7 +78,7 @@ test('what can be taken along of a region', async ({ page, viewer, sites: [one, 
   await viewer.press('raw');
   const links = page.locator('#tool-says a');
   for (const site of [one, other]) await expect(links.filter({ hasText: site }), 'raw volumes').not.toHaveCount(0);
-  // There is no file of a grid that was made on request, and no command.
+  // A grid that was made on request has no file and no command.
   await viewer.press('netcdf');
   expect(await viewer.data('state')).toContain('cannot be downloaded');
   await viewer.press('command');

@@ -1,9 +1,10 @@
-// Checks what a user takes along: link, command that draws the same, picture, grid.
+// Checks what the page gives away: link, command, picture, grid.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 
 import { expect, test } from './fixtures.mjs';
+import { decoded } from './pixels.mjs';
 
 const [width, height] = [560, 420];
 test.use({ viewport: { width, height } });
@@ -118,27 +119,15 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     const { name, href } = await viewer.takenBy('save');
     expect(href).toMatch(/^data:image\/png/);
     expect(name).toMatch(new RegExp(`^${station}_REF_`));
-    const [w, h, heads, bars] = await page.evaluate(async (href) => {
-      const image = new Image();
-      image.src = href;
-      await image.decode();
-      const copy = document.createElement('canvas');
-      [copy.width, copy.height] = [image.width, image.height];
-      const pen = copy.getContext('2d');
-      pen.drawImage(image, 0, 0);
-      // Pixels of letters in the head, and colors of the bar.
-      const head = pen.getImageData(0, 8, 300, 22).data;
-      let letters = 0;
-      for (let i = 0; i < head.length; i += 4) if (head[i] > 200 && head[i + 1] > 200 && head[i + 2] > 200) ++letters;
-      const { left, top, height: long } = document.getElementById('bar').getBoundingClientRect();
-      const bar = pen.getImageData(left + 6, top + 22, 1, long - 34).data;
-      const colors = new Set();
-      for (let i = 0; i < bar.length; i += 4) colors.add(bar.slice(i, i + 3).join());
-      return [image.width, image.height, letters, colors.size];
-    }, href);
-    expect([w, h]).toEqual([width, height]);
-    expect(heads, 'light pixels of a title').toBeGreaterThan(300);
-    expect(bars, 'colors of the bar').toBeGreaterThan(40);
+    const saved = await decoded(page, href);
+    expect([saved.width, saved.height]).toEqual([width, height]);
+    let letters = 0;
+    for (let y = 8; y < 30; ++y) for (let x = 0; x < 300; ++x) if (Math.min(...saved.at(x, y)) > 200) ++letters;
+    expect(letters, 'light pixels of a title').toBeGreaterThan(300);
+    const bar = await viewer.byId('bar').boundingBox();
+    const [left, top, long] = [bar.x, bar.y, bar.height].map(Math.floor);
+    const colors = new Set(Array.from({ length: long - 34 }, (_, y) => String(saved.at(left + 6, top + 22 + y))));
+    expect(colors.size, 'colors of the bar').toBeGreaterThan(40);
     const pictures = process.env.STORMCELLAR_PICTURES;
     if (!pictures) return;
     mkdirSync(pictures, { recursive: true });
@@ -171,7 +160,7 @@ test.describe('what is taken along', { tag: '@full' }, () => {
       window.fetch = (url, options, ...more) => (options?.method === 'HEAD' ? gone() : own(url, options, ...more));
     });
     await viewer.press('raw');
-    await expect(viewer.byId('tool-says')).toContainText('not here');
+    await expect(viewer.byId('tool-says')).toContainText('does not have the raw files');
   });
 
   // 2026-11-29: its raw file was said not to be here.
@@ -228,7 +217,7 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     expect(await viewer.copiedBy('command')).toMatch(new RegExp(`^stormcellar frame ${station} `));
   });
 
-  // There is none over plain HTTP (2026-11-28: it was said that the link is there).
+  // A browser gives none over plain HTTP (2026-11-28: the page said that the link is there).
   test('without a clipboard the page says so', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF`);
     await page.evaluate(() => {

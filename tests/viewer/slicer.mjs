@@ -3,7 +3,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { image } from './pixels.mjs';
+import { decoded } from './pixels.mjs';
 
 // The largest difference allowed between page and slicer: CIEDE2000, 99th percentile of the pixels that show echo.
 export const mostDifference = 2;
@@ -45,22 +45,9 @@ export class Slicer {
   }
 }
 
-// The picture of `stormcellar frame`, which the browser reads.
+// Returns the picture of `stormcellar frame`.
 export async function pictureOf(page, program, words, w, h, directory) {
   const file = join(directory, 'frame.png');
   execFileSync(program, ['frame', ...words, '--width', w, '--height', h, '-o', file].map(String), { stdio: 'ignore' });
-  const text = await page.evaluate(async (bytes) => {
-    const picture = new Image();
-    picture.src = `data:image/png;base64,${bytes}`;
-    await picture.decode();
-    const copy = document.createElement('canvas');
-    [copy.width, copy.height] = [picture.width, picture.height];
-    const pen = copy.getContext('2d');
-    pen.drawImage(picture, 0, 0);
-    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
-    let text = '';
-    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
-    return btoa(text);
-  }, readFileSync(file).toString('base64'));
-  return image(Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(text, 'base64')]));
+  return decoded(page, `data:image/png;base64,${readFileSync(file).toString('base64')}`);
 }

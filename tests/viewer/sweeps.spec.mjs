@@ -1,6 +1,7 @@
 // Checks sweeps of raw volumes on the page: which cut is shown, all of them to choose from, what is said of layers, and
 // loops.
 import { expect, report, test as base } from './fixtures.mjs';
+import { image } from './pixels.mjs';
 
 const isOf = (row, moment) => row.moments.some((one) => one.moment === moment);
 const told = (viewer) => viewer.byId('layers-told');
@@ -93,30 +94,22 @@ test('what is hidden is said', async ({ viewer, server: { station } }) => {
 });
 
 // 2026-11-28: it was cut off at the grid's box.
-test('the whole sweep is drawn, also beyond the grid', async ({ page, viewer, cuts: { chosen }, above }, info) => {
+test('the whole sweep is drawn, also beyond the grid', async ({ viewer, cuts: { chosen }, above }, info) => {
   const reaches = Math.max(...chosen.moments.filter(({ moment }) => moment === 'REF').map(({ gates, gate_spacing_m }) => gates * gate_spacing_m));
   info.skip(reaches <= 3e5, `the sweep ends at ${reaches / 1000} km`);
   // At this zoom the grid is a third as high as the picture, and as wide as high.
   await viewer.open(`${above}&elevation=0.5&zoom=0.333&ground=0`);
-  const { within, beyond } = await page.evaluate(() => {
-    const picture = document.getElementById('picture');
-    const copy = document.createElement('canvas');
-    [copy.width, copy.height] = [picture.width, picture.height];
-    const pen = copy.getContext('2d');
-    pen.drawImage(picture, 0, 0);
-    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
-    const count = { within: 0, beyond: 0 };
-    for (let y = 0, i = 0; y < copy.height; ++y) {
-      for (let x = 0; x < copy.width; ++x, i += 4) {
-        const channels = [data[i], data[i + 1], data[i + 2]];
-        if (Math.max(...channels) - Math.min(...channels) <= 50) continue;
-        const away = Math.max(Math.abs(x - copy.width / 2), Math.abs(y - copy.height / 2)) - copy.height / 6;
-        if (away < -3) ++count.within;
-        if (away > 3) ++count.beyond;
-      }
+  const picture = image(await viewer.pixels());
+  let [within, beyond] = [0, 0];
+  for (let y = 0; y < picture.height; ++y) {
+    for (let x = 0; x < picture.width; ++x) {
+      const color = picture.at(x, y);
+      if (Math.max(...color) - Math.min(...color) <= 50) continue;
+      const away = Math.max(Math.abs(x - picture.width / 2), Math.abs(y - picture.height / 2)) - picture.height / 6;
+      if (away < -3) ++within;
+      if (away > 3) ++beyond;
     }
-    return count;
-  });
+  }
   report(`of a sweep that reaches ${reaches / 1000} km ${within} pixels are drawn within the grid, ${beyond} beyond`);
   expect(within, 'pixels within the grid').toBeGreaterThan(50);
   expect(beyond, 'pixels beyond the grid').toBeGreaterThan(0);

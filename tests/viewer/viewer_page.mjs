@@ -109,6 +109,13 @@ export class ViewerPage {
     expect(holds(before, after), `${what}: ${name} ${before} to ${after}`).toBe(true);
   }
 
+  // Returns the pixels of the stations on the start map, once it shows this one.
+  async stationsOnMap(station = '') {
+    const isThere = (station) => document.documentElement.dataset.map?.includes(station) && document.documentElement.dataset.map;
+    const places = (await this.until(isThere, station)).split(',').map((place) => place.split(' '));
+    return new Map(places.map(([icao, x, y]) => [icao, [Number(x), Number(y)]]));
+  }
+
   // Presses what need not be in sight.
   press(id) {
     return this.byId(id).evaluate((one) => one.click());

@@ -51,7 +51,7 @@ export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [num
     }
 }
 
-// The first texel of a slot.
+// Returns the first texel of a slot.
 export function placeOfSlot(slot: number, slots: readonly [number, number, number]): [number, number, number] {
     const [sx, sy] = slots;
     return [
@@ -152,7 +152,7 @@ export function rangeOfCodes(grid: PackedGrid): [number, number] {
     return [least, greatest];
 }
 
-// Slots in a box that is as near to a cube as rows of it allow.
+// Returns the numbers of slots along each axis, in a box that is nearly a cube.
 function slotsFor(count: number, mostTexels: number): [number, number, number] {
     const most = Math.floor(mostTexels / paddedEdge);
     const side = Math.min(most, Math.max(1, Math.ceil(Math.cbrt(count))));
@@ -196,8 +196,8 @@ function runsAlong(b: number, edge: number, cells: number): Run[] {
     return runs;
 }
 
-// Copies what a slot takes from one brick with values. `corner` is the slot's first texel. Returns
-// whether there was any value in it.
+// Copies what a slot takes from one brick with values. `corner` is the slot's first texel. Returns true if there was
+// any value in it.
 function copyRuns(
     filling: Filling,
     cells: { codes: Uint8Array | Uint16Array; from: number },
@@ -209,7 +209,7 @@ function copyRuns(
     const edge = grid.brickEdge;
     const { codes } = cells;
     let hasValues = false;
-    // Texels are written in the order in which they lie; a brick is small enough to be read in any.
+    // Write texels in their order; a brick is small enough to be read in any.
     for (let z = 0; z < zs.count; ++z) {
         for (let y = 0; y < ys.count; ++y) {
             let from = cells.from + (xs.from * edge + ys.from + y) * edge + zs.from + z;
@@ -226,8 +226,8 @@ function copyRuns(
     return hasValues;
 }
 
-// Copies a brick and one cell of its neighbors on each side into the slot whose first texel is `corner`;
-// where they have no values, the slot stays 0. Returns whether it has any.
+// Copies a brick and one cell of its neighbors on each side into the slot whose first texel is `corner`. The slot stays
+// 0 where they have no values. Returns true if it has any.
 export function fillSlot(filling: Filling, bx: number, by: number, bz: number, corner: number): boolean {
     const { grid } = filling;
     const edge = grid.brickEdge;

@@ -66,7 +66,7 @@ export class BrickStore {
         level?.columns.delete(x * level.grid.bricks[1] + y);
     }
 
-    // The texels of a column. Neighbors whose codes are not there lend no values.
+    // Makes the texels of a column. Neighbors whose codes are not here lend no values.
     make(levelNumber: number, x: number, y: number): MadeColumn {
         const { grid, columns } = this.levels.get(levelNumber)!;
         const layers = grid.bricks[2];

@@ -1,4 +1,4 @@
-// The worker, asked as by a function that answers later.
+// Asks the worker, as a function that answers later.
 
 import { Answers, Numbered, WorkerAnswer, WorkerRequest } from './worker';
 
@@ -22,7 +22,7 @@ export class Decoder {
         };
     }
 
-    // The bytes of a request are given away.
+    // Asks the worker, which takes the bytes of the request.
     ask<Kind extends WorkerRequest['kind']>(request: WorkerRequest & { kind: Kind }): Promise<Answers[Kind]> {
         const number = ++this.count;
         return new Promise<Answers[Kind]>((done, failed) => {

@@ -1,5 +1,5 @@
-// The indirection of a grid whose bricks come at several levels: for each brick of the grid itself the
-// finest one that is there.
+// Makes the indirection of a grid whose bricks come at several levels: each brick of the grid gets the finest one that
+// is here.
 
 import { pageEntry, putReaches } from './atlas';
 import { Pyramid } from './pyramid';

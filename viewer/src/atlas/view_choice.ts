@@ -114,7 +114,7 @@ export function wantedColumns(
     }
 }
 
-// All columns that a view shows, with echo or without, each of the level at which it is worth it.
+// Returns all columns that a view shows, with or without echo, each of the level that is worth it.
 export function seenColumns(placed: Placed, pyramid: Pyramid, mostPixels: number): WantedColumn[] {
     return collect(placed, pyramid, [0, pyramid.levels.length - 1], mostPixels, () => true);
 }

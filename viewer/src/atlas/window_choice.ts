@@ -27,7 +27,7 @@ const statesBlockBytes = 1024;
 const clipped = (from: number, to: number, count: number): [number, number] | null =>
     to < 0 || from >= count ? null : [Math.max(0, from), Math.min(count - 1, to)];
 
-// The columns about points of the plane; null if all lie beyond one side of the grid.
+// Returns the columns about points of the plane; null if all points are beyond one side of the grid.
 export function boundsAbout(points: readonly Plane[], grid: PackedGrid): Bounds | null {
     const size = cellSizeM(grid);
     const along = (axis: 0 | 1, count: number) => {
@@ -40,7 +40,7 @@ export function boundsAbout(points: readonly Plane[], grid: PackedGrid): Bounds 
 
 type Table = Pick<PackedGrid, 'nx' | 'ny' | 'brickEdge' | 'codeBytes'>;
 
-// The window of a level about the bounds, with so many cells of the level more on each side.
+// Returns the window of a level about the bounds, wider by `more` cells of the level on each side.
 function windowOf(bounds: Bounds, level: number, more: number, pyramid: Pyramid, { brickEdge }: Table): BrickWindow {
     const cell = 2 ** level;
     const columns = pyramid.levels[level]!.columns;

@@ -26,7 +26,7 @@ export function lookAtOf(camera: Camera, geometry: ViewGeometry): Vec3 {
     return camera.lookAtM ?? [geometry.middle[0], geometry.middle[1], geometry.middle[2] / geometry.exaggeration];
 }
 
-// The scene follows the pointer: what was under it stays under it, along the ground.
+// Moves the scene along the ground with the pointer.
 export function panned(camera: Camera, geometry: ViewGeometry, dx: number, dy: number): Camera {
     const at = lookAtOf(camera, geometry);
     const scale = geometry.metersPerPixel;

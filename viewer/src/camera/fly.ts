@@ -23,7 +23,7 @@ export function withEye(camera: Camera, window: Window, eye: Vec3): Camera {
 
 const flownFieldDeg = 60;
 
-// The camera from which a flight begins: a perspective whose eye is where the picture seems to be seen from.
+// Returns the camera that begins a flight: a perspective whose eye is where the picture seems to be seen from.
 export function takenOff(camera: Camera, window: Window): Camera {
     const now = geometryOf(camera, window);
     const lookAt = camera.lookAtM;

@@ -148,8 +148,8 @@ export class ViewGeometry {
         return [near, Math.max(far, near + nearest)];
     }
 
-    // The depths between which the picture shows the box: less than all of it where it shows a part. Depths
-    // at which rays meet a plane are least and greatest in corners of the picture.
+    // Returns the depths between which the picture shows the box, or the part of it in the picture. The depths at which
+    // rays meet a plane are least and greatest in corners of the picture.
     get shownDepths(): [number, number] {
         const corners: [number, number][] = [
             [0, 0],
@@ -173,7 +173,7 @@ export class ViewGeometry {
         return dot(minus(drawn, this.eye), this.forward);
     }
 
-    // The pixel of a point of drawn space; null behind a perspective camera.
+    // Returns the pixel of a point of drawn space; null behind a perspective camera.
     project(drawn: Vec3): [number, number] | null {
         const p = minus(drawn, this.eye);
         let scale = 1 / this.metersPerPixel;
@@ -185,7 +185,7 @@ export class ViewGeometry {
         return [0.5 * this.width + dot(p, this.right) * scale, 0.5 * this.height - dot(p, this.up) * scale];
     }
 
-    // Returns the way of a pixel's ray for each meter of depth.
+    // Returns the way of a pixel's ray in a meter of depth.
     along(x: number, y: number): Vec3 {
         if (!this.isPerspective) return this.forward;
         const a = (x - 0.5 * this.width) / this.focalPixels;
@@ -200,7 +200,7 @@ export class ViewGeometry {
         return plus(plus(plus(this.eye, a, this.right), b, this.up), depthM, direction);
     }
 
-    // The ground under a pixel, in meters from the middle; null where there is sky.
+    // Returns the ground under a pixel, in meters from the middle; null in the sky.
     ground(x: number, y: number): [number, number] | null {
         const start = this.point(x, y, 0);
         const step = this.along(x, y);

@@ -22,13 +22,13 @@ export function legOf(from: Place, to: Place): Leg {
     return { distanceM, azimuthDeg: (azimuth / radians + 360) % 360 };
 }
 
-// The sine of the authalic latitude, times its value at the pole (Snyder 1987, eq 3-12).
+// Returns the sine of the authalic latitude, times its value at the pole (Snyder 1987, eq 3-12).
 function equalAreaSine(latitudeDeg: number): number {
     const sine = Math.sin(latitudeDeg * radians);
     return (1 - e2) * (sine / (1 - e2 * sine * sine) - Math.log((1 - e * sine) / (1 + e * sine)) / (2 * e));
 }
 
-// The area of a polygon whose sides are geodesics and that holds no pole.
+// Returns the area of a polygon whose sides are geodesics and that holds no pole.
 export function areaM2(corners: Place[]): number {
     if (corners.length < 3) return 0;
     const points: Place[] = corners.flatMap((from, i) => {

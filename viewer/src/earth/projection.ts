@@ -73,7 +73,7 @@ export function geodesic(from: Place, to: Place): Geodesic {
     };
 }
 
-// The place at a distance and an azimuth from another.
+// Returns the place at a distance and an azimuth from another.
 export function destination(from: Place, azimuth: number, distanceM: number): Place {
     if (distanceM === 0) return from;
     const u1 = Math.atan((1 - f) * Math.tan(from.latitudeDeg * radians));
@@ -119,7 +119,7 @@ function azimuthalEquidistant(center: Place): GridPlane {
     };
 }
 
-// Meters of a degree at a latitude, along the parallel and along the meridian.
+// Returns the meters of a degree at a latitude, along the parallel and along the meridian.
 function metersOfADegree(latitudeDeg: number): [number, number] {
     const sine = Math.sin(latitudeDeg * radians);
     const w = Math.sqrt(1 - e2 * sine * sine);
@@ -185,14 +185,14 @@ function isInDegrees(projection: number): boolean {
     return found.isInDegrees;
 }
 
-// Widths of a cell to the east and to the north, in drawn meters.
+// Returns the widths of a cell to the east and to the north, in drawn meters.
 export function cellSizeM(grid: GridPlace): [number, number] {
     if (!isInDegrees(grid.projection)) return [grid.spacing, grid.spacing];
     const [east, north] = metersOfADegree(grid.centerDeg[0]);
     return [grid.spacing * east, grid.spacing * north];
 }
 
-// Half of what the grid covers to the east and to the north, in drawn meters.
+// Returns half of what the grid covers to the east and to the north, in drawn meters.
 export function halfWidthsM(grid: GridPlace): [number, number] {
     const [width, height] = cellSizeM(grid);
     return [0.5 * grid.nx * width, 0.5 * grid.ny * height];
@@ -226,7 +226,7 @@ export function planeOf(grid: GridPlace): GridPlane {
     };
 }
 
-// Where the middle of a grid is on the plane of another one with the same center, as of a window of a grid.
+// Returns the place of the middle of a grid on the plane of another one with the same center, such as a window of it.
 export function middleOn(plane: GridPlace, grid: GridPlace): Plane {
     const [whole, own] = [cellSizeM(plane), cellSizeM(grid)];
     return [

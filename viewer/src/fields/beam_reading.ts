@@ -38,7 +38,7 @@ function timeOf(sweep: SweepTime, azimuthDeg: number): number | null {
     return Date.parse(sweep.start) + (1000 * (((turned % 360) + 360) % 360)) / Math.abs(sweep.degrees_per_s);
 }
 
-// The site that is nearest to a place, and the way from it; null without sites.
+// Returns the site nearest to a place, and the way from it; null without sites.
 export function nearestTo(
     sites: Site[],
     place: Place,

@@ -28,8 +28,8 @@ export interface LevelPair {
     upperShare: number;
 }
 
-// The levels about a height; the cells of the outermost reach half a level beyond them. Null where the
-// grid has no cells.
+// Returns the levels about a height; null where the grid has no cells. The cells of the outermost levels reach half a
+// level beyond them.
 export function levelsAbout(levelsM: ArrayLike<number>, heightM: number): LevelPair | null {
     const { bottomM, topM } = heightRange(levelsM);
     if (!(heightM >= bottomM && heightM <= topM)) return null;
@@ -41,7 +41,7 @@ export function levelsAbout(levelsM: ArrayLike<number>, heightM: number): LevelP
     return { lower: upper - 1, upper, upperShare: (heightM - below) / (levelsM[upper]! - below) };
 }
 
-// The plane at a height above sea level; null where the grid has no cells.
+// Cuts the plane at a height above sea level; null where the grid has no cells.
 export function planeField(grid: PackedGrid, moment: string, heightM: number): FlatField | null {
     const levels = levelsAbout(grid.levelsM, heightM);
     if (!levels) return null;
@@ -66,7 +66,7 @@ export function planeField(grid: PackedGrid, moment: string, heightM: number): F
     return field;
 }
 
-// The greatest value of each column.
+// Finds the greatest value of each column.
 export function maximumField(grid: PackedGrid): FlatField {
     // Codes rank as the product has it: a value before range folded, that before no echo, that before not seen.
     const greatest = new Uint16Array(grid.nx * grid.ny);

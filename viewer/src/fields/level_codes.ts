@@ -1,4 +1,4 @@
-// The codes of one level of a grid, x fastest.
+// Returns the codes of one level of a grid, x fastest.
 
 import { BrickKind, PackedGrid } from '../wire/packed_grid';
 

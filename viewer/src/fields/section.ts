@@ -17,7 +17,7 @@ export interface Section {
     ends: Plane[];
 }
 
-// The two cells about a place along an axis, and the share of the second; null beyond the cells.
+// Returns the two cells about a place along an axis, and the share of the second; null beyond the cells.
 function neighbors(at: number, count: number): [number, number, number] | null {
     if (!(at >= -0.5 && at <= count - 0.5)) return null;
     const inside = Math.min(count - 1, Math.max(0, at));
@@ -105,7 +105,7 @@ export function cutSection(
     return section;
 }
 
-// The greatest value of a section, and where it is.
+// Returns the greatest value of a section and its place; null without values.
 export function greatestOf({
     field,
     lengthM,

@@ -1,4 +1,4 @@
-// Decides what lies between cells of a grid, by the status rule of the pictures (render/products/cell_mixer.h).
+// Finds state and value between cells of a grid, by the status rule of the pictures (render/products/cell_mixer.h).
 //
 // The cells give a place the weights of values, no echo, range folded and not seen. If more than half was not
 // seen, the place was not seen; else range folded where that is the largest part; else no echo where it

@@ -1,4 +1,4 @@
-// Finds the sweep that is meant, and its site.
+// Chooses the sweep to show, and its site.
 
 import { GridPlane, Plane } from '../earth/projection';
 import { SweepRow } from '../wire/api';
@@ -9,7 +9,7 @@ const sameElevationDeg = 0.2; // as include/stormcellar/grid/sweep_choice.h has 
 const has = (row: SweepRow, moment: string): boolean => row.moments.some((one) => one.moment === moment);
 const isSameElevation = (one: number, other: number): boolean => Math.abs(one - other) <= sameElevationDeg;
 
-// The cuts that have the moment, by rising elevation, and at one elevation as they were measured.
+// Returns the cuts that have the moment, by rising elevation, and at one elevation in the order of their times.
 export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
     const rising = rows.filter((row) => has(row, moment)).sort((a, b) => a.elevation_deg - b.elevation_deg);
     const groups: SweepRow[][] = [];
@@ -49,7 +49,7 @@ export function kindOf(row: SweepRow, rows: SweepRow[]): 'surveillance' | 'doppl
     return isDoppler ? 'doppler' : 'surveillance';
 }
 
-// The site that is nearest to a place; null without sites.
+// Returns the site nearest to a place; null without sites.
 export function nearestSite(sites: Site[], plane: GridPlane, [x, y]: Plane): Site | null {
     const off = (site: Site): number => {
         const at = plane.toPlane(site);

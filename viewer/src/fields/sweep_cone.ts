@@ -1,4 +1,4 @@
-// A sweep in its place: which radial sees an azimuth, and the cone on which its gates lie.
+// Puts a sweep in its place: the radial of each azimuth, and the cone that holds the gates.
 //
 // A gate is where the beam of the sweep's mean elevation has its slant range: a straight ray over a sphere
 // of 4/3 of the Gaussian earth radius (docs/geometry.md).
@@ -10,7 +10,7 @@ const semiMajorM = 6378137;
 const flattening = 1 / 298.257223563;
 const radians = Math.PI / 180;
 
-// The radius of the sphere over which a beam is straight.
+// Returns the radius of the sphere over which a beam is straight.
 function beamSphereM(latitudeDeg: number): number {
     const sine = Math.sin(latitudeDeg * radians);
     const gaussian = (semiMajorM * (1 - flattening)) / (1 - flattening * (2 - flattening) * sine * sine);

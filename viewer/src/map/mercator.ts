@@ -42,7 +42,7 @@ export function placeOfPoint([x, y]: MapPoint): Place {
     return { latitudeDeg, longitudeDeg: ((((x % 1) + 1) % 1) * 360 || 0) - 180 };
 }
 
-// The copy of a point that is nearest to another, across the antimeridian too.
+// Returns the copy of a point that is nearest to another, across the antimeridian too.
 export function nearestCopy(point: MapPoint, to: MapPoint): MapPoint {
     return [point[0] + Math.round(to[0] - point[0]), point[1]];
 }
@@ -65,7 +65,7 @@ export function draggedMap(view: MapView, dx: number, dy: number): MapView {
     return held({ ...view, center: [view.center[0] - dx / view.scale, view.center[1] - dy / view.scale] });
 }
 
-// The point under (x, y) stays there.
+// Scales a view, and keeps the point under (x, y) there.
 export function scaledMap(view: MapView, factor: number, x = view.width / 2, y = view.height / 2): MapView {
     const fixed = pointAt(view, x, y);
     const next = held({ ...view, scale: view.scale * factor });
@@ -73,7 +73,7 @@ export function scaledMap(view: MapView, factor: number, x = view.width / 2, y =
     return held({ ...next, center: [next.center[0] + fixed[0] - now[0], next.center[1] + fixed[1] - now[1]] });
 }
 
-// The least x from which all points follow within one turn of the earth, by the widest gap between them.
+// Returns the least x from which all points follow within one turn of the earth, by the widest gap between them.
 function westernmost(points: MapPoint[]): number {
     const xs = points.map(([x]) => ((x % 1) + 1) % 1).sort((a, b) => a - b);
     let widest = xs[0]! + 1 - xs[xs.length - 1]!;
@@ -88,7 +88,7 @@ function westernmost(points: MapPoint[]): number {
     return first;
 }
 
-// A view of all points. `clear` are pixels at each side (left, top, right, bottom) that the page covers.
+// Returns a view of all points. `clear` are the pixels at each side (left, top, right, bottom) that the page covers.
 export function fittedMap(
     points: MapPoint[],
     width: number,
@@ -122,7 +122,7 @@ export interface Tile {
     side: number;
 }
 
-// The tiles that the view shows, at the zoom whose pixels are nearest to the view's.
+// Returns the tiles that the view shows, at the zoom whose pixels are nearest to the view's.
 export function tilesOf(view: MapView): Tile[] {
     const zoom = Math.min(deepestZoom, Math.max(0, Math.round(Math.log2(view.scale / tileSide))));
     const count = 2 ** zoom;
@@ -139,7 +139,7 @@ export function tilesOf(view: MapView): Tile[] {
     return tiles;
 }
 
-// The degrees that a view shows, or that lie between two of its pixels.
+// Returns the degrees between two pixels of a view.
 export function boxBetween(view: MapView, a: [number, number], b: [number, number]): MapBox {
     const [west, north] = pointAt(view, Math.min(a[0], b[0]), Math.min(a[1], b[1]));
     const [east, south] = pointAt(view, Math.max(a[0], b[0]), Math.max(a[1], b[1]));
@@ -154,7 +154,7 @@ export function boxBetween(view: MapView, a: [number, number], b: [number, numbe
 
 const turned = (degrees: number): number => ((degrees % 360) + 360) % 360;
 
-// The box of places that lie about a longitude.
+// Returns the box of places about a longitude.
 export function boxAbout(middleDeg: number, places: Place[]): MapBox {
     const longitudes = places.map((place) => middleDeg - 180 + turned(place.longitudeDeg - middleDeg + 180));
     const latitudes = places.map((place) => place.latitudeDeg);
@@ -166,7 +166,7 @@ export function boxAbout(middleDeg: number, places: Place[]): MapBox {
     };
 }
 
-// A box with a margin at each side, as a share of its own sides; no wider than the earth.
+// Returns a box with a margin at each side, as a share of its own sides; no wider than the earth.
 export function grownBox({ west, south, east, north }: MapBox, share: number): MapBox {
     const wide = Math.min(360, east - west);
     const dx = Math.min(share * wide, (360 - wide) / 2);

@@ -1,4 +1,4 @@
-// The border of a grid on the earth.
+// Finds the border of a grid on the earth.
 
 import { Place, Plane, cellSizeM, destination, planeOf, projectionNamed } from '../earth/projection';
 import { GridFacts } from '../wire/api';
@@ -23,7 +23,7 @@ function halvesM(facts: GridFacts): [number, number] {
     return [(facts.nx * width) / 2, (facts.ny * height) / 2];
 }
 
-// The corners, and points between them, since a side is no straight line on another map.
+// Returns the corners, and points between them, because a side is not straight on another map.
 export function outlineOf(facts: GridFacts): Place[] {
     const plane = planeOf(geometryOf(facts));
     const [x, y] = halvesM(facts);

@@ -12,7 +12,7 @@ export interface StationPlace extends Place {
     newestGrid: string | null; // its time
 }
 
-// A station without a known place is in the list of domains alone.
+// Returns the stations with a known place. Only the list of domains has the others.
 export function stationPlaces(stations: Station[]): StationPlace[] {
     return stations.flatMap((one) => {
         const { latitude_deg: latitudeDeg, longitude_deg: longitudeDeg } = one;
@@ -34,7 +34,7 @@ export function stationPlaces(stations: Station[]): StationPlace[] {
 
 export type Pixel = [number, number];
 
-// The index of the pixel nearest to (x, y); -1 if none is within reach.
+// Returns the index of the pixel nearest to (x, y); -1 if none is within reach.
 export function nearestPixel(pixels: Pixel[], x: number, y: number, reach: number): number {
     let best = -1;
     let least = reach;
@@ -48,8 +48,8 @@ export function nearestPixel(pixels: Pixel[], x: number, y: number, reach: numbe
     return best;
 }
 
-// The index of the pixel that an arrow key leads to from another: near, and little aside of the way; -1 if
-// nothing lies there.
+// Returns the index of the pixel that an arrow key leads to from another: near, and little aside of the way; -1 if
+// there is none.
 export function pixelToward(pixels: Pixel[], from: Pixel, [wx, wy]: Pixel): number {
     let best = -1;
     let least = Infinity;
@@ -91,7 +91,7 @@ const simple = (text: string): string =>
         .toLowerCase()
         .trim();
 
-// Stations by their ICAO or name, then the nearest stations to cities of that name.
+// Finds stations by their ICAO or name, then the nearest stations to cities of that name.
 export function search(stations: StationPlace[], cities: City[], text: string): Found[] {
     const wanted = simple(text);
     const own = (station: StationPlace): Found => ({ station, near: null, distanceM: 0 });

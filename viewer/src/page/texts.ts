@@ -10,7 +10,7 @@ function span(seconds: number): string {
 }
 const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `${span(seconds)} ago`);
 
-// Tells how far from an instant the volumes are that show a site.
+// Tells how far the volumes of a site are from an instant.
 function ofVolumes(middlesS: number[]): string {
     const away = (seconds: number) =>
         Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`;
@@ -33,7 +33,7 @@ function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
     return [all, alone.length > 0 ? `as they were: ${asTheyWere}` : ''].filter(Boolean).join('; ');
 }
 
-// Sites with the server's reason, a sentence that begins with "it" or "its".
+// Names the sites that are left out, by the server's reason, which begins with "it" or "its".
 function leftOut(sites: [string, string][]): string {
     const reasons = [...new Set(sites.map(([, reason]) => reason))].map((reason) => {
         const names = sites.filter((one) => one[1] === reason).map(([site]) => site);
@@ -60,9 +60,9 @@ export const texts = {
         noDomain: (domain: string) => `No data for ${domain}. Choose another radar.`,
         otherDomain: (domain: string, shown: string) => `No data for ${domain}. This is ${shown}.`,
         otherMoment: (domain: string, moment: string, shown: string) => `${domain} has no ${moment}. This is ${shown}.`,
-        noTime: (text: string) => `${text} is no time. This is the newest.`,
+        noTime: (text: string) => `${text} is not a time. This is the newest volume.`,
         otherTime: (time: string) =>
-            `No volume of ${new Date(time).toISOString().slice(0, 19).replace('T', ' ')} UTC. This is the nearest that is here.`,
+            `No volume at ${new Date(time).toISOString().slice(0, 19).replace('T', ' ')} UTC. This is the nearest one.`,
     },
     failed: (what: string) => `This did not work: ${what}`,
     domain: 'Domain',
@@ -102,18 +102,18 @@ export const texts = {
     copyByHand: 'The clipboard is not available. Copy the text below.',
     save: 'Save picture',
     saving: 'Saving the picture',
-    notSaved: 'No picture was saved, because it did not become complete. Try again.',
+    notSaved: 'The picture was not saved, because it did not load completely. Try again.',
     command: 'Copy command',
     commandCopied: 'The command is in the clipboard.',
-    commandReads: (raw: string) => `It reads ${raw}, which Raw volume gives.`,
+    commandReads: (raw: string) => `It reads ${raw}. Raw volume downloads that file.`,
     commandReadsCache: 'It reads the cache of this server.',
-    commandColors: (name: string) => `Its colors are in ${name}, which was saved.`,
+    commandColors: (name: string) => `Its colors are in ${name}, which the page saved.`,
     commandFlat: 'It draws the layer as a map of the grid.',
     noCommand: {
         nothing: 'There is no picture yet.',
         coming: 'The picture is not complete yet.',
         region: 'No command draws a merged region.',
-        name: 'The name of this domain cannot be pasted.',
+        name: 'The name of this domain has characters that a terminal obeys.',
         between: 'No command draws an interpolated frame.',
         ground: 'No command draws echo without the ground.',
         surface: 'No command draws a surface. Hide it to copy one.',
@@ -197,8 +197,8 @@ export const texts = {
         told: (what: string, distance: string, height: string) =>
             `${what}, ${distance} from A, ${height} above sea level`,
         greatest: (told: string) => `Greatest ${told}`,
-        nothing: 'There is no echo in it.',
-        nothingButFolded: 'There is no echo in it, but range folded air.',
+        nothing: 'The section has no echo.',
+        nothingButFolded: 'The section has range-folded air, but no echo.',
         hidden: 'echo is hidden',
         hiddenOutside: (bottom: string, top: string) => `echo outside the box from ${bottom} to ${top} is hidden`,
         hiddenFolded: 'range-folded air is hidden',
@@ -216,7 +216,7 @@ export const texts = {
         cut: (elevation: string, time: string, kind: string) => [`${elevation}°`, time, kind].filter(Boolean).join(' '),
         kinds: { surveillance: 'long range', doppler: 'Doppler' },
         beyond: 'beyond the grid',
-        otherCells: 'not shown: its cells are others',
+        otherCells: 'not shown: its grid has other cells',
         otherComes: 'loading',
         noOther: (moment: string) => `not shown: no ${moment} for this time`,
         otherFailed: (moment: string) => `not shown: ${moment} could not be loaded`,
@@ -247,11 +247,9 @@ export const texts = {
         areaName: 'Area',
         flyName: 'Fly',
         raw: 'Raw volume',
-        noRaw: 'The raw files of this grid are not here.',
+        noRaw: 'The server does not have the raw files of this grid.',
         hint: (measure: 'distance' | 'area') =>
-            measure === 'distance'
-                ? 'Click from where to where. Escape ends this.'
-                : 'Click the corners. Escape ends this.',
+            measure === 'distance' ? 'Click both ends. Escape ends this.' : 'Click the corners. Escape ends this.',
         distance: (distance: string, azimuth: number, height: string) =>
             `${distance}, azimuth ${azimuth}°, height ${height}`,
         area: (area: string, around: string) => `${area}, ${around} around`,
@@ -279,7 +277,7 @@ export const texts = {
         unpictured: (count: number) =>
             `The echo of ${count === 1 ? '1 more radar' : `${count} more radars`} is not drawn here.`,
         lacksEcho: 'Some of the echo is not loaded yet.',
-        noneFound: 'No radar with data, and no city, has that name.',
+        noneFound: 'No station or city matches.',
         noGridsOf: (domain: string) => `There are no grids of ${domain}.`,
         age,
         from: (km: number, city: string) => `${km} km from ${city}`,
@@ -323,14 +321,13 @@ export const editorTexts = {
     remove: 'Remove',
     edited: (name: string) => `${name} (edited)`,
     noRoom: 'There is no room for another point here.',
-    lastPoints: 'These points must stay.',
+    lastPoints: 'The last points cannot be removed.',
     saved: (name: string) => `Saved as ${name}; stormcellar frame --colors ${name} draws the same.`,
-    savedInPart: (name: string) =>
-        `Saved as ${name}, but a .pal cannot say that echo is denser than usual; a .toml can.`,
+    savedInPart: (name: string) => `Saved as ${name}, but a .pal cannot make echo denser than usual. A .toml can.`,
     taken: (name: string, points: number) => `${name} is shown, with ${points} points of color.`,
     otherMoment: (name: string, moment: string) => `${name} is for ${moment}: choose ${moment} to see it.`,
     otherEnding: (name: string) => `${name}: the file of a color table must end in .pal or .toml.`,
     otherUnit: (name: string, unit: string, wanted: string) =>
-        `${name}: its values are in ${unit}, and not in ${wanted || 'numbers without a unit'}.`,
+        `${name}: its values are in ${unit}, not in ${wanted || 'numbers without a unit'}.`,
     tooLarge: (name: string) => `${name}: a file of a color table has at most 1 MiB.`,
 };

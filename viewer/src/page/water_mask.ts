@@ -28,8 +28,8 @@ export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, hal
         pen.fillStyle = color;
         pen.fill('nonzero');
     };
-    // Paint sea, land in it, and lakes in that. A cell in which two rings touch may get a little of the layer below. The
-    // picture does not show it, because a place is water if half of it is.
+    // Paint sea, land in it, and lakes in that. A cell in which two rings touch may get a little of the layer below.
+    // The picture does not show it, because a place is water if half of it is.
     pen.fillStyle = 'white';
     pen.fillRect(0, 0, picture.width, picture.height);
     paint(land, 'black');

@@ -1,8 +1,8 @@
-// Keeps the time of a frame while the camera moves: of the rungs whose error is allowed it takes the most
-// exact one that is expected to be drawn in time, else the fastest.
+// Keeps frames in time while the camera moves: takes the most exact rung with an allowed error that is expected to be
+// drawn in time, else the fastest.
 //
-// What a frame will take is expected from those before: each tells how long the first rung would have
-// taken, by the costs of the ladder.
+// The time of a frame is expected from the frames before: by the costs of the ladder, each tells how long the first
+// rung would have taken.
 
 import { Rung } from './ladder';
 
@@ -22,7 +22,7 @@ export class Governor {
         private mostDE: number,
     ) {}
 
-    // The rung of the next frame. A picture that stands still is drawn by the first one.
+    // Returns the rung of the next frame: the first one if the picture stands still.
     next(isMoving: boolean): Rung {
         const still = this.rungs[0]!;
         if (!isMoving) {
@@ -48,7 +48,7 @@ export class Governor {
         this.firstRungMs = this.firstRungMs === null ? unit : this.firstRungMs + weight * (unit - this.firstRungMs);
     }
 
-    // Another grid or another view of it: what is known of the time no longer counts.
+    // Call for another grid or view, of which the times before tell nothing.
     forget(): void {
         this.firstRungMs = null;
     }

@@ -135,8 +135,8 @@ export class Graphics {
     }
 }
 
-// Keeps the textures of what is drawn now. What is drawn again is not uploaded again; what the last picture
-// did not need is given back.
+// Keeps the textures of what is drawn now, so that they are uploaded once. Releases those that the last picture did not
+// need.
 export class TextureShelf {
     private held = new Map<string, { of: object; texture: WebGLTexture }>();
     private used = new Set<string>(); // for the last picture
@@ -153,7 +153,7 @@ export class TextureShelf {
         return texture;
     }
 
-    // Another picture begins.
+    // Begins another picture: releases what the last one did not need.
     clear(): void {
         for (const [name, { texture }] of this.held) {
             if (this.used.has(name)) continue;

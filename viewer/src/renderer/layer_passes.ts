@@ -1,5 +1,5 @@
-// Draws what stands beside ground and volume: what is solid into a target with its depth, maxima over the
-// ground, veils of air. A layer that is off has no program, no texture and no pass.
+// Draws the layers beside ground and volume: solid ones into a target with their depth, maxima over the ground, veils
+// of air. A layer that is off has no program, no texture and no pass.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { Vec3, ViewGeometry } from '../camera/geometry';
@@ -63,7 +63,7 @@ export interface DrawnLayers {
 export const hasSolids = ({ plane, section, surface, sweep }: DrawnLayers): boolean =>
     Boolean(plane ?? section ?? surface ?? sweep);
 
-// The direction of the sun, which stands beside the camera.
+// Returns the direction of the sun, which is beside the camera.
 function sunOf({ right }: ViewGeometry): Vec3 {
     const azimuth = Math.atan2(right[1], -right[0]) + (sunAsideDeg * Math.PI) / 180;
     const elevation = (sunElevationDeg * Math.PI) / 180;
@@ -90,7 +90,7 @@ export class LayerPasses {
         this.target = null;
     }
 
-    // A picture begins: what the last one did not need is given back.
+    // Begins a picture, and releases what the last one did not need.
     begin(hasSolids: boolean): void {
         this.shelf.clear();
         if (hasSolids) return;
@@ -159,7 +159,7 @@ export class LayerPasses {
         return program;
     }
 
-    // Corners with three coordinates and a place of two, as triangles or, without these, as a strip.
+    // Draws corners, each of three coordinates and a place of two, as triangles or, without these, as a strip.
     private drawMesh(corners: Float32Array, triangles: Uint32Array | null): void {
         const { gl } = this.graphics;
         const mesh: Mesh = { array: gl.createVertexArray()!, count: triangles?.length ?? corners.length / 5 };
@@ -274,7 +274,7 @@ export class LayerPasses {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    // The sun, for what draws a surface.
+    // Binds the sun, for programs that light a surface.
     bindSun(geometry: ViewGeometry, program: Program): void {
         program.vec3('sun', sunOf(geometry));
     }
@@ -309,7 +309,7 @@ export class LayerPasses {
         program.colors('foldedColor', layers.folded);
     }
 
-    // The light of a volume: where its values fall, and the sun.
+    // Binds the light of a volume: the falls of its values, and the sun.
     bindLight(
         unit: number,
         falls: Falls & { placing: Placing },

@@ -13,7 +13,7 @@ interface UploadedLines {
     count: number; // of vertices that are drawn
 }
 
-// In pixels.
+// Widths of the lines, in pixels.
 const widths: Record<MapLines['kind'], number> = {
     county: 0.7,
     state: 1.3,
@@ -55,7 +55,7 @@ export class LinePass {
         this.uploaded = [];
     }
 
-    // Takes other lines; those before are given back.
+    // Takes other lines, and releases those before.
     show(all: MapLines[]): void {
         const { gl } = this.graphics;
         for (const { array, buffers } of this.uploaded) {

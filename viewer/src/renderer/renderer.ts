@@ -1,5 +1,4 @@
-// Draws ground, map lines and volume with WebGL2. What was uploaded is made anew when the context was
-// lost and is restored.
+// Draws ground, map lines and volume with WebGL2. After a lost context is restored, uploads all again.
 
 import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
 import { LoadedGrid } from '../atlas/loaded_grid';
@@ -85,7 +84,7 @@ export class Renderer {
     get isSoftware(): boolean {
         return this.graphics.isSoftware;
     }
-    // The graphics processor forgot all, and nothing is drawn.
+    // Returns true if the graphics processor forgot all, so that nothing is drawn.
     get isLost(): boolean {
         return this.gl.isContextLost();
     }

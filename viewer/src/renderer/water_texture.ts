@@ -1,4 +1,4 @@
-// Texture of the ground that is water.
+// Holds the mask of water as a texture.
 
 import { Graphics } from './graphics';
 import { Program } from './program';
@@ -17,12 +17,12 @@ export class WaterTexture {
 
     constructor(private graphics: Graphics) {}
 
-    // After the context came back: the mask is shown again by its owner.
+    // Call after the context came back. The owner of the mask then shows it again.
     forget(): void {
         this.mask = this.texture = null;
     }
 
-    // Null: all is land.
+    // Shows a mask; null is land everywhere.
     show(mask: WaterMask | null): void {
         this.graphics.gl.deleteTexture(this.texture);
         this.texture = null;

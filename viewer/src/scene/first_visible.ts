@@ -1,4 +1,4 @@
-// Finds what a ray from the eye meets, and what of it is seen most, from the exact codes of the grid.
+// Finds the cells that a ray from the eye meets, and the one that is seen most, from the exact codes of the grid.
 
 import { Ray } from '../camera/ray';
 import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -15,14 +15,14 @@ export interface Seen {
 const stepsACell = 2;
 const mostSteps = 6000;
 
-// The level whose cells hold a height.
+// Returns the level whose cells hold a height.
 function levelAt(grid: PackedGrid, heightM: number): number {
     let level = 0;
     while (level + 1 < grid.nz && heightM >= (grid.levelsM[level]! + grid.levelsM[level + 1]!) / 2) ++level;
     return level;
 }
 
-// Returns the first and the last depth of a ray within a box; null where it passes by.
+// Returns the first and the last depth of a ray within a box; null if it misses the box.
 export function depthsWithin({ geometry, start, way }: Ray, box: Crop): [number, number] | null {
     const least = [box.westM, box.southM, box.bottomM * geometry.exaggeration];
     const most = [box.eastM, box.northM, box.topM * geometry.exaggeration];
@@ -39,7 +39,7 @@ export function depthsWithin({ geometry, start, way }: Ray, box: Crop): [number,
     return near < far ? [near, far] : null;
 }
 
-// Returns where a ray enters and leaves a box, on the plane; null where it passes by.
+// Returns the places on the plane where a ray enters and leaves a box; null if it misses the box.
 export function wayWithin(ray: Ray, box: Crop): [Plane, Plane] | null {
     const depths = depthsWithin(ray, box);
     return depths && [ray.at(depths[0]), ray.at(depths[1])];
@@ -97,7 +97,7 @@ export function firstVisible(cells: Cells, ray: Ray, box: Crop, isVisible: (valu
     return seen;
 }
 
-// The volume as a pixel shows it: the cell that contributes most to it, and how much of what is behind is seen.
+// What a pixel shows of the volume: the cell that contributes most, and the share of what is behind that is seen.
 export interface Contribution {
     cell: Seen | null; // null: no echo is visible
     share: number; // of the pixel, by that cell

@@ -15,7 +15,7 @@ export interface Cells {
     middle: Plane;
 }
 
-// Extent of the cells of a grid on a plane.
+// The extent of the cells of a grid on a plane.
 export interface Extent {
     westM: number;
     southM: number;

@@ -1,4 +1,4 @@
-// Lines and cities of the map, on the plane of a grid: what lies within reach of the picture.
+// Puts lines and cities of the map on the plane of a grid, as far as the picture reaches.
 
 import { Units, ringSpacingM } from '../tables/units';
 import { City, MapAnswer, MapLine } from '../wire/api';
@@ -17,9 +17,9 @@ export interface Mark {
     rank: number; // the greatest first
 }
 
-// Coasts may come from far away; what lies beyond this many half widths is not drawn.
+// Coasts beyond this many half widths are not drawn.
 const reach = 2.2;
-// Cities give way to what says how far away they are, and all give way to sites.
+// Ranks of marks: cities give way to the distances of rings, and all give way to sites.
 const ringRank = 1e8;
 const siteRank = 1e9;
 
@@ -87,7 +87,7 @@ export function mapLines(all: ProjectedLine[], halfM: number): MapLines[] {
     });
 }
 
-// Rings about the first site, and the border of the grid.
+// Returns rings about the first site, and the border of the grid.
 export function ringLines(
     sites: Site[],
     plane: GridPlane,

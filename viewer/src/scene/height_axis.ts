@@ -15,7 +15,7 @@ const leastBetween = 22;
 const parts = 32; // of the axis, of which as many are shown as there is room for
 const steps = [1, 2, 5, 10, 20, 50];
 
-// The axis over a place of the ground, as far up as the picture goes; null where it is too short, as from above.
+// Returns the axis over a place of the ground, as far up as the picture goes; null if it is too short, as from above.
 function axisOver(
     geometry: ViewGeometry,
     [x, y]: Plane,
@@ -47,8 +47,8 @@ function axisOver(
     return marks.length > 1 ? { foot, head, marks } : null;
 }
 
-// At the corner of the grid that is farthest to the left; where none is seen, in the left part of the picture.
-// `isFree`: whether a pixel is in the picture and not covered.
+// Places the axis at the leftmost corner of the grid, or in the left part of the picture if no corner is seen. `isFree`
+// tells if a pixel is in the picture and not covered.
 export function heightAxis(
     geometry: ViewGeometry,
     unit: Unit,

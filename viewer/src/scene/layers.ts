@@ -1,4 +1,4 @@
-// Layers that are drawn beside the map, and how: one value, and its part of the address.
+// The layers of a view as one value, and as a part of the address.
 
 import { Place } from '../earth/projection';
 import { momentFacts } from '../wire/moments';
@@ -25,7 +25,7 @@ export interface Layers {
     surface: Surface | null;
     hasMaximum: boolean; // of each column, on the ground
     sweepDeg: number | null; // elevation of a sweep
-    sweepNumber: number | null; // which one of the volume, if it has it at that elevation; null: the one that pictures take
+    sweepNumber: number | null; // of the volume, if it has it at that elevation; null: the sweep that pictures take
     crop: Crop | null; // of volume and surface
     isLit: boolean;
     hasHaze: boolean; // where no beam saw
@@ -35,12 +35,12 @@ export interface Layers {
 // Returns true if the value is a negative velocity, whose surface encloses what is faster toward the radar.
 export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
 
-// Air that is range folded is not clear: a volume of velocities or their widths shows it unless it is told not to.
-// `moment` is empty while nothing is shown.
+// Returns true if range folded air is shown. A volume of velocities or their widths shows it by itself, because such
+// air is not clear. `moment` is empty while nothing is shown.
 export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean =>
     hasFolded ?? (hasVolume && moment !== '' && momentFacts(moment).isDoppler);
 
-// Returns the other choice; null if the moment has it by itself, so that an address stays short.
+// Returns the opposite choice; null if the moment has it by itself, so that an address stays short.
 export function toggledFolded(layers: Layers, moment: string): boolean | null {
     const wanted = !veilsFolded(layers, moment);
     return wanted === veilsFolded({ ...layers, hasFolded: null }, moment) ? null : wanted;
@@ -69,7 +69,7 @@ const mostSweeps = 1000; // of a volume
 export const sectionText = (section: readonly [Place, Place]): string =>
     section.flatMap(({ latitudeDeg, longitudeDeg }) => [rounded(latitudeDeg, 5), rounded(longitudeDeg, 5)]).join(',');
 
-// Returns names and texts for the address, of what is not usual.
+// Returns names and texts for the address, without usual values.
 export function layersAddress(layers: Layers): [string, string][] {
     const parts: [string, string][] = [];
     if (!layers.hasVolume) parts.push(['volume', '0']);
@@ -96,7 +96,7 @@ function numbers(text: string | null, count: number, least: number, most: number
     return found.length === count && found.every((one) => one >= least && one <= most) ? found : null;
 }
 
-// Two places as "LAT,LON,LAT,LON"; null where the text makes no sense or the places are the same.
+// Reads two places from "LAT,LON,LAT,LON"; null if the text makes no sense or the places are the same.
 export function sectionOf(text: string | null): [Place, Place] | null {
     const found = numbers(text, 4, -360, 360);
     if (!found) return null;
@@ -123,7 +123,7 @@ function cropOf(text: string | null): Crop | null {
     return westM < eastM && southM < northM && bottomM < topM ? { westM, eastM, southM, northM, bottomM, topM } : null;
 }
 
-// Reads the layers from the address, without what makes no sense there.
+// Reads the layers from the address. A part that makes no sense keeps its usual value.
 export function layersOf(query: URLSearchParams): Layers {
     const one = (name: string, least: number, most: number) => numbers(query.get(name), 1, least, most)?.[0] ?? null;
     const planeKm = one('height-km', -1, 100);
@@ -151,8 +151,8 @@ export function layersOf(query: URLSearchParams): Layers {
 export const echoLayers = ({ hasVolume, planeM, section, surface, hasMaximum, sweepDeg }: Layers): number =>
     [hasVolume, planeM !== null, section, surface, hasMaximum, sweepDeg !== null].filter(Boolean).length;
 
-// Returns what keeps `stormcellar frame` from drawing the layers as they are, or null: it draws one, without
-// surfaces and boxes, and a sweep of one radar.
+// Returns what keeps `stormcellar frame` from drawing the layers; null if it can. It draws one layer, which must not be
+// a surface, a volume in a box, or a sweep of a mosaic.
 export function beyondCommand(
     layers: Layers,
     siteCount: number,
@@ -165,8 +165,7 @@ export function beyondCommand(
     return layers.sweepDeg !== null && siteCount > 1 ? 'mosaic' : null;
 }
 
-// Returns the words with which `stormcellar frame` draws one of the layers, of several the one that is named
-// first here; null if it draws the volume.
+// Returns the words with which `stormcellar frame` draws a layer: of several the first one here; null for the volume.
 export function productOf(layers: Layers): string[] | null {
     if (layers.hasVolume) return null;
     if (layers.section) return ['--product', 'section', '--section', sectionText(layers.section)];
@@ -181,11 +180,11 @@ export function productOf(layers: Layers): string[] | null {
     return layers.hasMaximum ? ['--product', 'composite'] : null;
 }
 
-// The sun stands so far to the left of the camera, and so high.
+// Place of the sun: degrees to the left of the camera, and above the horizon.
 export const sunAsideDeg = 65;
 export const sunElevationDeg = 40;
 
-// The box of a crop within another.
+// Returns the part of a box that a crop leaves.
 export function croppedBox(box: Crop, crop: Crop | null): Crop {
     if (!crop) return box;
     const within = { ...box };

@@ -152,7 +152,7 @@ test('through clear gates of the near side of a sweep the far side is read, whic
     const plane = planeOf(grid);
     const { arcM, heightM } = beamAt(site, 20, 10_000);
     const north = plane.toPlane(destination(site, 0.01, arcM))!;
-    // From the south, along the ground.
+    // The view is from the south, along the ground.
     const geometry = new ViewGeometry(box, { ...usualCamera, tiltDeg: 90 }, 1, 400, 400);
     const ray = rayTo(geometry, [...north, heightM]);
     const read = (isShown: (hit: { state: CellState }) => boolean) => sweepHit(ray, sweep, plane, isShown)!;

@@ -1,5 +1,4 @@
-// Finds where a ray from the eye meets what is solid, and what a plane, a section, a sweep or the column
-// maximum shows there.
+// Finds where a ray from the eye meets a plane, a section, a sweep or the column maximum, and what each shows there.
 //
 // Heights are above sea level; depths are those of ViewGeometry. Null: the ray does not meet the layer.
 
@@ -106,7 +105,7 @@ const steps = 400; // along the ray, before the beam is met between two of them
 const halvings = 30;
 const beyondM = 1000; // below the lowest gate and above the highest
 
-// The box in which a sweep lies.
+// Returns the box that holds a sweep; null if the plane has no place for its site.
 function boxOfSweep(gates: PackedSweep, plane: GridPlane): Crop | null {
     const site = plane.toPlane(gates);
     const lastM = gates.firstGateM + Math.max(0, ...gates.gateCounts) * gates.gateSpacingM;

@@ -192,8 +192,8 @@ export function isUsualGrid({
     );
 }
 
-// Returns the command that draws the same, of several layers one, with a table or a file of colors; empty
-// `colors` are the usual ones.
+// Returns the command that draws the same, or one of several layers. `colors` is a table or a file; if it is empty, the
+// moment's own colors are drawn.
 export function commandOf(
     state: ViewState,
     width: number,

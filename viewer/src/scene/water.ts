@@ -1,4 +1,4 @@
-// Where the ground is land and where it is lake, as rings on the plane of a grid; all else is sea.
+// Finds land and lakes as rings on the plane of a grid. All other ground is sea.
 //
 // Coasts and lakes of the map are rings that are cut along meridians and parallels (render/map/base_map.h). A
 // cut is straight in degrees: long ones are divided, at the same places on both sides, so that no gap opens
@@ -9,7 +9,7 @@ import { GridPlane, Plane } from '../earth/projection';
 
 const longestCutDeg = 0.25;
 
-// Places along a cut, at multiples of its longest part, without its ends.
+// Returns places along a cut, at multiples of its longest part, without its ends.
 function betweenOf(
     [longitudeA, latitudeA]: [number, number],
     [longitudeB, latitudeB]: [number, number],
@@ -34,7 +34,7 @@ function ringOf({ line, points }: ProjectedLine, plane: GridPlane): Plane[] {
     });
 }
 
-// The rings of a kind, 'coast' for land.
+// Returns the rings of a kind, 'coast' for land.
 export function ringsOf(all: ProjectedLine[], kind: 'coast' | 'lake', plane: GridPlane): Plane[][] {
     return all.filter(({ line }) => line.is_area && line.kind === kind).map((one) => ringOf(one, plane));
 }

@@ -1,8 +1,8 @@
-// Colors and opacities of values, by the server's tables.
+// Finds colors and opacities of values in the server's tables.
 
 import { ColorTable, Rgba } from '../wire/color_tables';
 
-// The color of a value; null below the first stop.
+// Returns the color of a value; null below the first stop.
 export function colorOf(table: ColorTable, value: number): Rgba | null {
     const stops = table.stops;
     if (!(value >= stops[0]!.from)) return null;
@@ -14,7 +14,7 @@ export function colorOf(table: ColorTable, value: number): Rgba | null {
     return stop.color.map((c, k) => c + share * (stop.until[k]! - c)) as Rgba;
 }
 
-// Extinction per meter of the drawn scene.
+// Returns the extinction per meter of the drawn scene.
 export function extinctionPerM(table: ColorTable, value: number, opacity: number): number {
     if (!colorOf(table, value)) return 0;
     const points = table.extinction;

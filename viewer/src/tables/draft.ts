@@ -53,7 +53,7 @@ function simplifiedColors(points: ColorPoint[], most: number): ColorPoint[] {
     return kept.map((i) => points[i]!);
 }
 
-// Between edges, lines of color are simplified each by itself.
+// Simplifies each line of color between two edges by itself.
 function blendedPoints(table: ColorTable, most: number): ColorPoint[] {
     const points: ColorPoint[] = [];
     let run: ColorPoint[] = [];
@@ -76,7 +76,7 @@ function colorsOf(table: ColorTable): { isStepped: boolean; colors: ColorPoint[]
     const isStepped = table.stops.every(({ color, until }) => color.every((c, k) => c === until[k]));
     const plain = table.stops.map(({ from, color }) => ({ value: roundedValue(from), color }));
     if (isStepped && plain.length <= mostPoints) return { isStepped, colors: plain };
-    // More classes than anybody tells apart are a line.
+    // Treat more classes than anybody tells apart as a line.
     let colors = isStepped ? simplifiedColors(plain, nearEnough) : blendedPoints(table, nearEnough);
     for (let most = 2 * nearEnough; colors.length > mostPoints && most < 4; most *= 2) {
         colors = isStepped || most > 0.5 ? simplifiedColors(plain, most) : blendedPoints(table, most);
@@ -105,7 +105,7 @@ const isSame = (a: ExtinctionPoint[], b: ExtinctionPoint[]): boolean =>
     a.length === b.length &&
     a.every((point, i) => point.value === b[i]!.value && Math.abs(point.per_km - b[i]!.per_km) <= 1e-9);
 
-// A table with few points that looks like the given one.
+// Returns a draft with few points that looks like the table.
 export function draftOf(table: ColorTable, moment: string, usual: UsualOpacity): Draft {
     const lowest = table.stops[0]!.from;
     const hasUsual = table.moment === moment && isSame(table.extinction, usualExtinctionOf(table, usual));
@@ -123,7 +123,7 @@ export function draftOf(table: ColorTable, moment: string, usual: UsualOpacity):
 
 // ---- To tables
 
-// The place of a value among points: the last point at or below it, and the share of the way to the next.
+// Returns the last point at or below a value, and the share of the way to the next.
 function placeAmong(points: { value: number }[], value: number): [number, number] {
     let i = points.length - 1;
     while (i > 0 && points[i]!.value > value) --i;
@@ -146,7 +146,7 @@ export function perKmAt(points: OpacityPoint[], value: number): number {
     return share === 0 ? here.perKm : here.perKm + share * (points[i + 1]!.perKm - here.perKm);
 }
 
-// The content of the draft's file. What is weaker than `least` is left out of it.
+// Returns the content of the draft's file, without values below `least`.
 export function fileOf(draft: Draft, least: number | null = null): TableFile {
     const { colors, opacity } = draft;
     const lowest = colors[0]!.value;
@@ -187,8 +187,8 @@ export function tableOf(draft: Draft, usual: UsualOpacity, least: number | null 
     return { ...table, bar_begin: Math.max(table.bar_begin, draft.barBegin) };
 }
 
-// The same table with its opacity as alpha, for a .pal file; `isWhole` is false where it is denser than
-// usual, which such a file cannot say.
+// Returns the table with its opacity as alpha, for a .pal file. `isWhole` is false if it is denser than usual
+// somewhere, which such a file cannot say.
 export function tableForPal(
     draft: Draft,
     usual: UsualOpacity,

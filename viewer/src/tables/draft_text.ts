@@ -1,5 +1,5 @@
-// A draft as one word of an address: fields between '!', points between '_', and of a point the value and
-// the color or the opacity between '~'.
+// Writes a draft as one word of an address, and reads it. '!' separates fields, '_' separates points, and '~' separates
+// the value of a point from its color or opacity.
 
 import { Rgba } from '../wire/color_tables';
 import { ColorPoint, Draft, OpacityPoint, mostPoints, roundedPerKm, roundedValue } from './draft';
@@ -48,7 +48,7 @@ const opacityPoint = (value: number, word: string): OpacityPoint | null => {
     return perKm >= 0 && Number.isFinite(perKm) ? { value, perKm: roundedPerKm(perKm) } : null;
 };
 
-// null: the text is no draft.
+// Reads a draft; null if the text is none.
 export function draftOfText(text: string): Draft | null {
     if (text.length > mostLetters) return null;
     const fields = text.split('!');

@@ -1,4 +1,4 @@
-// Undo and redo of whole values.
+// Keeps whole values for undo and redo.
 
 const mostSteps = 200;
 

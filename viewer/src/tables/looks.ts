@@ -1,9 +1,9 @@
-// A color table by value, for what is drawn flat.
+// Prepares a color table for layers that are drawn flat: colors by value.
 
 import { colorOf } from './color_table';
 import { ColorTable } from '../wire/color_tables';
 
-// In rows of a texture.
+// The entries fill rows of a texture.
 export const lookColumns = 2048;
 export const lookCount = 4 * lookColumns;
 
@@ -15,7 +15,7 @@ export interface Looks {
     slope: number;
 }
 
-// So that a value at which a class begins is in it.
+// Moves each value up by a little, so that the value at which a class begins is in it.
 const slack = 1 / 64;
 
 export function looksOf(table: ColorTable, least: number): Looks {
@@ -32,7 +32,7 @@ export function looksOf(table: ColorTable, least: number): Looks {
     return { rgba, offset: 1 + slack - low / width, slope: 1 / width };
 }
 
-// The color of a value over another one, as maps have it; null where it is clear.
+// Returns the color of a value over another color, as maps have it; null where it is clear.
 export function lookOver(looks: Looks, value: number, under: readonly number[]): [number, number, number] | null {
     const entry = Math.min(lookCount - 1, Math.max(0, Math.floor(looks.offset + looks.slope * value)));
     const alpha = looks.rgba[4 * entry + 3]! / 255;

@@ -1,9 +1,9 @@
-// Lines with fewer corners that are near enough to the given ones.
+// Simplifies lines: leaves out corners that change little.
 
 import { Rgba } from '../wire/color_tables';
 
-// The corners to keep of a line of `count` points, so that `errorAt(first, last, i)` of each point i
-// between two kept neighbors is at most `most` (Douglas and Peucker).
+// Returns the corners to keep of a line of `count` points, so that `errorAt(first, last, i)` of each point i between
+// two kept neighbors is at most `most` (Douglas and Peucker).
 export function cornersToKeep(
     count: number,
     most: number,

@@ -1,5 +1,5 @@
-// Content of a file of a color table, and the table that it makes. render/color/color_file.h has the same
-// rules, so that `stormcellar frame --colors FILE` and the page draw the same.
+// Makes a color table of the content of a file. render/color/color_file.h has the same rules, so that `stormcellar
+// frame --colors FILE` and the page draw the same.
 //
 // Errors: a TableError that names the file, the line where there is one, and the reason.
 
@@ -63,7 +63,7 @@ export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
     return table;
 }
 
-// The opacity of a table whose file does not say it.
+// Returns the opacity of a table whose file does not say it.
 export function usualExtinctionOf(table: ColorTable, usual: UsualOpacity): ColorTable['extinction'] {
     const lowest = table.stops[0]!.from;
     return fadedByAlpha(table.moment ? usual.of(table.moment, lowest) : rising(lowest, table.end), table);
@@ -71,20 +71,20 @@ export function usualExtinctionOf(table: ColorTable, usual: UsualOpacity): Color
 
 const twoDigits = (channel: number): string => channel.toString(16).padStart(2, '0');
 
-// "#rrggbb", with alpha where it is not opaque.
+// Writes a color as "#rrggbb", with alpha if it is not opaque.
 export function hexOf(color: Rgba): string {
     const channels = color[3] === 255 ? color.slice(0, 3) : color;
     return `#${channels.map(twoDigits).join('')}`;
 }
 
-// null: the text is no color.
+// Reads such a color; null if the text is none.
 export function colorOfHex(text: string): Rgba | null {
     const found = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})?$/i.exec(text);
     if (!found) return null;
     return [found[1]!, found[2]!, found[3]!, found[4] ?? 'ff'].map((digits) => parseInt(digits, 16)) as Rgba;
 }
 
-// A part of a file in a form that is safe in a message.
+// Returns a part of a file in a form that is safe in a message.
 export function shownWord(word: string): string {
     return word.slice(0, 64).replace(/[^\x20-\x7e]/g, '?');
 }

@@ -31,7 +31,7 @@ export function unitsOf(names: string): Units {
     return { speed: chosen('speed'), distance: chosen('distance'), height: chosen('height') };
 }
 
-// The units that are not the usual ones, as unitsOf() and `stormcellar frame --units` read them.
+// Names the units that are not the usual ones, as unitsOf() and `stormcellar frame --units` read them.
 export function namesOf(units: Units): string {
     return quantities
         .filter((quantity) => units[quantity].name !== usualUnits[quantity].name)
@@ -39,12 +39,12 @@ export function namesOf(units: Units): string {
         .join(',');
 }
 
-// Feet to a hundred of them, all other units to a tenth.
+// Rounds feet to hundreds, and other units to tenths.
 function rounded(meters: number, { name, si }: Unit): string {
     return name === 'feet' ? String(100 * Math.round(meters / si / 100)) : (meters / si).toFixed(1);
 }
 
-// A height as a number without its unit.
+// Returns a height as a number without its unit.
 export function heightNumber(meters: number, units: Units): string {
     return rounded(meters, units.height);
 }
@@ -67,7 +67,7 @@ export function shownUnit(stored: string, units: Units): ShownUnit {
     return { symbol: stored === '1' ? '' : stored, perStored: 1 };
 }
 
-// A value of a moment with its unit; as many digits as its stored form has, at most `digits`.
+// Writes a value of a moment with its unit, with as many digits as its stored form has, at most `digits`.
 export function valueText(value: number, stored: string, units: Units, digits = 2): string {
     const { symbol, perStored } = shownUnit(stored, units);
     const number = Number((value * perStored).toFixed(perStored === 1 ? digits : 1));

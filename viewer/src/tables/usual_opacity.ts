@@ -1,5 +1,5 @@
-// Opacity of echo of a moment where a table does not say it: default_extinction() of
-// render/color/built_in_tables.h, from the tables of the server.
+// Finds the opacity of a moment's echo if a table does not say it, as default_extinction() of
+// render/color/built_in_tables.h does, from the tables of the server.
 
 import { colorOf } from './color_table';
 import { ColorTable, ExtinctionPoint } from '../wire/color_tables';
@@ -30,7 +30,7 @@ export function usualOpacity(tables: ColorTable[], usual: Record<string, string>
     };
 }
 
-// The opacity of a table that is for no moment.
+// Returns the opacity of a table that is for no moment.
 export function rising(lowest: number, end: number): ExtinctionPoint[] {
     return [
         { value: lowest, per_km: 0.02 },

@@ -1,4 +1,4 @@
-// Packed grids for tests, written by docs/web/packed-grid.md.
+// Writes packed grids for tests as docs/web/packed-grid.md says.
 
 import { GridPlace } from '../wire/packed_grid';
 
@@ -123,7 +123,7 @@ export function packedGrid(made: Made): Uint8Array {
     return new Uint8Array(view.buffer);
 }
 
-// Where a grid of 400 x 400 km lies about its center.
+// Returns the place of a grid of 400 x 400 km about a center.
 export const placeAbout = (centerDeg: [number, number]): GridPlace => ({
     projection: 0,
     centerDeg,
@@ -145,7 +145,7 @@ export function scrambled(x: number, y: number, z: number): number {
     return (bits ^ (bits >>> 16)) >>> 0;
 }
 
-// A slanted band of echo, its neighborhood seen, the rest not: codes that tell every axis apart.
+// Makes a slanted band of echo with seen air about it and unseen air beyond. Its codes tell every axis apart.
 export function slantedGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 1, scale = 1): Uint8Array {
     const codeOf = (x: number, y: number, z: number): number => {
         const far = Math.abs(x - 2 * y + 3 * z - 10);

@@ -1,4 +1,4 @@
-// Finds the grids that the page keeps and that are old once one was made again.
+// Finds the kept grids that are outdated after one was made again.
 //
 // Their keys are DOMAIN/MOMENT/TIME, and times are rising texts of ISO 8601.
 

@@ -16,8 +16,7 @@ export interface Loop {
 
 export const stopped: PlayerState = { times: [], at: -1, isPlaying: false, follows: true, loop: null };
 
-// Takes a new list, of which the time at `newest` is followed. The time that is shown stays, or gives way to
-// the nearest.
+// Takes a new list, of which the time at `newest` is followed. Keeps the time that is shown, or goes to the nearest.
 export function withTimes(player: PlayerState, times: string[], newest = times.length - 1): PlayerState {
     const shown = player.times[player.at];
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
@@ -34,7 +33,7 @@ export function withTimes(player: PlayerState, times: string[], newest = times.l
     };
 }
 
-// The index of the time that is nearest to another; -1: there is none.
+// Returns the index of the time nearest to another; -1 without times.
 export function nearestTime(times: string[], wanted: string): number {
     const away = (index: number) => Math.abs(Date.parse(times[index]!) - Date.parse(wanted));
     return times.reduce((best, _, i) => (best < 0 || away(i) < away(best) ? i : best), -1);
@@ -60,7 +59,7 @@ export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null 
     return first + ((at - first + by) % count);
 }
 
-// The next time of a loop, or the same if it is not loaded yet.
+// Goes to the next time of a loop, or stays if that is not loaded yet.
 export function advanced(
     player: PlayerState,
     isLoaded: (time: string) => boolean,
@@ -72,7 +71,7 @@ export function advanced(
     return { player: { ...player, at: next, follows: false }, waitsFor: null };
 }
 
-// One end of the loop is put where the player is. An end beyond the other takes it along.
+// Puts an end of the loop where the player is. An end beyond the other takes it along.
 export function looped(player: PlayerState, end: 'from' | 'to'): PlayerState {
     const now = player.times[player.at];
     if (now === undefined) return player;

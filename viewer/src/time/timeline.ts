@@ -1,5 +1,4 @@
-// The times of the domain and moment that are chosen, and which of them is to be shown: those of stored grids, and of
-// frames between them.
+// The times of the chosen domain and moment, of stored grids and of frames between them, and the one to show.
 
 import { instantsBetween } from './between';
 import { PlayerState, followed, nearestTime, stopped, withTimes } from './player';
@@ -12,8 +11,8 @@ export class Timeline {
     stored: string[] = []; // times of the domain's grids
     private missing = new Set<string>(); // instants between them for which there is no frame
 
-    // `betweenS`: seconds from one frame between volumes to the next; 0: there are none. `believedMs`: of a time beyond
-    // it the clock of a radar is wrong.
+    // `betweenS`: seconds from one frame between volumes to the next; 0: there are none. A time beyond `believedMs` is
+    // of a radar whose clock is wrong.
     constructor(
         follows: boolean,
         private betweenS: () => number,
@@ -22,11 +21,11 @@ export class Timeline {
         this.player = { ...stopped, follows };
     }
 
-    // The time that is to be shown.
+    // Returns the time to show.
     get now(): string | undefined {
         return this.player.times[this.player.at];
     }
-    // The one that is followed: a wrong time in the future only if all are.
+    // Returns the time to follow: one in the future only if all are.
     get newest(): string | undefined {
         return this.player.times[this.newestOf(this.player.times)];
     }
@@ -39,7 +38,7 @@ export class Timeline {
         return this.betweenS() > 0 && !this.stored.includes(time);
     }
 
-    // Another domain or moment is chosen: its times come with take().
+    // Forgets the times, because another domain or moment is chosen. Its times come with take().
     forget(): void {
         this.missing.clear();
         this.player = { ...this.player, times: [], at: -1 };
@@ -53,14 +52,14 @@ export class Timeline {
     follow(): void {
         this.player = followed(this.player, this.newestOf(this.player.times));
     }
-    // The time that is nearest to the wanted one. Returns false if the page tells it as another.
+    // Goes to the time nearest to the wanted one. Returns false if that is in another second.
     find(wanted: string): boolean {
         this.player = { ...this.player, at: nearestTime(this.player.times, wanted) };
         const second = (time: string) => Math.floor(Date.parse(time) / 1000);
         return this.now === undefined || second(this.now) === second(wanted);
     }
-    // Near the ends and in gaps there is no frame between volumes, and a loop may meet a grid that was evicted: the
-    // time is left out. Returns false if it is not.
+    // Leaves out a time without a grid: a frame near an end or in a gap, or an evicted grid of a loop. Returns false if
+    // the time stays.
     leaveOut(time: string): boolean {
         const isBetween = this.isBetween(time);
         if (!isBetween && !this.player.isPlaying) return false;

@@ -16,7 +16,7 @@ export class ApiError extends Error {
     }
 }
 
-// Returns true if the server has no such thing, but not if it could not be asked.
+// Returns true if the server answered that it has no such thing.
 export const isAbsent = (error: unknown): boolean =>
     error instanceof ApiError && (error.status === 404 || error.status === 410);
 
@@ -121,11 +121,11 @@ export const address = (path: string): string => new URL(path.replace(/^\//, '')
 // Greatest width of a map: all around the earth, but for what sides lose when they are rounded.
 const mostWideDeg = 359.99;
 
-// A server that computes as much as it may says so, and is asked again.
+// The status of a server that computes as much as it may. The page then asks again.
 const busy = 503;
 const mostTries = 10;
 
-// The server's, ms since 1970; NaN if it does not say.
+// Returns the server's time in ms since 1970; NaN if it does not say.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
 // A proxy in front of a server that is gone, or that wants a password, answers for it. The server sends no
@@ -190,7 +190,8 @@ export interface Times {
     times: string[]; // rising
     more: boolean; // there are older ones
 }
-// The newest times of a domain's grids, at most `limit`, up to 10,000, but all of a region; until `to`, inclusive.
+// Returns the newest times of a domain's grids until `to`, inclusive: at most `limit`, up to 10,000, but all of a
+// region.
 export async function times(domain: string, moment: string, limit: number, to?: string): Promise<Times> {
     if (isRegion(domain)) {
         const found = (await region(domain)).moments.find((one) => one.moment === moment);
@@ -219,14 +220,14 @@ export function packed(
     const options: RequestInit = { ...(query['id'] === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
     return bytesOf(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options);
 }
-// A grid that is made on request, whole: for an instant between volumes, or of a region.
+// Returns a whole grid that is made on request: for an instant between volumes, or of a region.
 export function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
     const path = isRegion(domain)
         ? `${gridPath(domain, moment, time)}/packed`
         : `api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
     return bytesOf(path);
 }
-// Events after the one of this id; empty: from now on. Errors: those of fetch().
+// Opens the stream of events after the one of this id; empty: from now on. Errors: those of fetch().
 export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
     const query = id === '' ? '' : `?last_event_id=${encodeURIComponent(id)}`;
     return fetch(address(`api/v1/events${query}`), {
@@ -275,7 +276,7 @@ export async function hasRaw(station: string, name: string): Promise<boolean> {
     const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
     return status !== 404 && status !== 410;
 }
-// The newest volume of a station that began at a time or before. It may have come in several files.
+// Returns the newest volume of a station that began at a time or before. It may have come in several files.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
     const { volumes } = await told<{ volumes: RawVolume[] }>(
         `${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=8`,
@@ -286,7 +287,7 @@ export async function rawBefore(station: string, time: string): Promise<RawVolum
         : (volumes.filter((one) => one.time === newest?.time && one.raw).pop() ?? newest ?? null);
 }
 const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
-// The volume that began at a time; null if its file is not given.
+// Returns the volume that began at a time; null if the server does not give its file.
 export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
     return volume?.time && volume.raw && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs

@@ -201,7 +201,7 @@ export function readPlace(bytes: Uint8Array): GridPlace {
     return new Header(bytes).place;
 }
 
-// A whole grid, or the table of one, which has no states and codes.
+// Reads a whole grid, or the table of one, which has no states and codes.
 export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole: boolean } {
     const header = new Header(bytes);
     need(header.part !== Part.bricks, 'a part of a packed grid is no grid');
@@ -293,7 +293,7 @@ function needBlocks(grid: PackedGrid, stateBlocks: number, codeBlocks: number): 
     }
 }
 
-// The whole of a grid: its table, states and codes.
+// Reads a whole grid: its table, states and codes.
 export function readPackedGrid(bytes: Uint8Array): PackedGrid {
     const { grid, isWhole } = readGridOrTable(bytes);
     need(isWhole, 'a part of a packed grid is no grid');
@@ -316,7 +316,7 @@ export function readPackedBricks(bytes: Uint8Array): PackedBricks {
     };
 }
 
-// A grid of which the table was there, with the cells of some bricks; its other bricks must not be read.
+// Returns the grid of a table with the cells of some bricks. Its other bricks must not be read.
 export function withBricks(grid: PackedGrid, bricks: PackedBricks): PackedGrid {
     const block = grid.block.slice();
     for (let i = bricks.first; i < bricks.end; ++i)
@@ -324,7 +324,7 @@ export function withBricks(grid: PackedGrid, bricks: PackedBricks): PackedGrid {
     return { ...grid, block, states: bricks.states, codes: bricks.codes };
 }
 
-// The code of a cell: 0 not seen, 1 no echo, 2 range folded, from 3 on a value.
+// Returns the code of a cell: 0 not seen, 1 no echo, 2 range folded, from 3 on a value.
 export function codeAt(grid: PackedGrid, x: number, y: number, z: number): number {
     const edge = grid.brickEdge;
     const brick =

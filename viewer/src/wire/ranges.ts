@@ -5,9 +5,9 @@ export interface BrickRange {
     end: number; // behind the last
 }
 
-// `columns`: numbers of columns of bricks, `layers` bricks each. Columns that follow each other are asked
-// for at once, and so are those between which there is little: `weightOf` says how many bytes a column
-// takes, of which a range skips at most `mostSkipped` in a row and holds at most `most`.
+// Returns the ranges of columns of `layers` bricks each. One range has columns that follow each other or that have
+// little between them: by the bytes of a column, `weightOf`, it skips at most `mostSkipped` in a row and holds at most
+// `most`.
 export function rangesOf(
     columns: readonly number[],
     layers: number,

@@ -3,7 +3,7 @@
 const side = String.raw`-?\d{1,3}(\.\d+)?`;
 const pattern = new RegExp(`^region:(${side},){3}${side}$`);
 
-// True for exactly four numbers: the name goes into requests and commands as it is.
+// Returns true for exactly four numbers, because the name goes into requests and commands as it is.
 export const isRegion = (domain: string): boolean => pattern.test(domain);
 
 export function regionName({
@@ -20,7 +20,7 @@ export function regionName({
     return `region:${[west, south, east, north].map((degrees) => Number(degrees.toFixed(3))).join(',')}`;
 }
 
-// The four numbers of a name, as the server takes them.
+// Returns the four numbers of a name, as the server takes them.
 export function sidesOf(domain: string): string {
     return domain.replace(/^region:/, '');
 }

@@ -15,7 +15,7 @@ const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pix
 const keyStep = 4;
 const hatchPeriod = 9;
 
-// Says why a section has no value.
+// Tells why a section has no value.
 function nothingIn({ field, inGrid }: Section): string {
     if (!inGrid.includes(1)) return texts.layers.beyond;
     if (field.states.includes(CellState.rangeFolded)) return texts.layers.nothingButFolded;

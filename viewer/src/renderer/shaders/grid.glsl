@@ -1,4 +1,4 @@
-// How rays meet the cells of a grid, whose bricks of 16 x 16 x 16 cells are scattered over a texture, the atlas.
+// Steps rays through the cells of a grid, whose bricks of 16 x 16 x 16 cells are scattered over a texture, the atlas.
 //
 // A processor that runs a program checks each reading of a uniform, and goes through all sides of a condition. So
 // the programs read what loops need before them, and have few conditions.
