@@ -80,14 +80,15 @@ test.describe('the page says what it does not draw', () => {
 // 2026-11-28: a box, layers that are off, and a veil that is off looked like clear air.
 test('what is hidden is said', async ({ viewer, server: { station } }) => {
   await viewer.open(`domain=${station}&moment=REF`);
-  for (const [view, words] of [
-    ['moment=REF&crop-km=-50,50,-50,50,14,16', 'echo outside the box from 14.0 km to 16.0 km is hidden'],
-    ['moment=REF&volume=0', 'echo is hidden'],
-    ['moment=REF&opacity=0.01', 'opacity × 0.01'],
-    ['moment=VEL&folded=0', 'range-folded air is hidden'],
-    ['moment=REF&folded=0', ''],
-    ['moment=VEL', ''],
-  ]) {
+  const wordsOfViews = {
+    'moment=REF&crop-km=-50,50,-50,50,14,16': 'echo outside the box from 14.0 km to 16.0 km is hidden',
+    'moment=REF&volume=0': 'echo is hidden',
+    'moment=REF&opacity=0.01': 'opacity × 0.01',
+    'moment=VEL&folded=0': 'range-folded air is hidden',
+    'moment=REF&folded=0': '',
+    'moment=VEL': '',
+  };
+  for (const [view, words] of Object.entries(wordsOfViews)) {
     await viewer.show(`domain=${station}&${view}`);
     expect(await viewer.text('layers-told'), view).toBe(words);
   }

@@ -91,13 +91,8 @@ test('a view asks for all that it shows, no finer than it shows it, and for what
     for (const geometry of [viewOf(6, 0, 0), viewOf(6, 55, 40), viewOf(1, 0, 0)]) {
         const window = windowSeen(placed(geometry), pyramid, grid, plenty)!;
         const { westM, southM, eastM, northM } = extentOf(cellsOf(window));
-        for (const [x, y] of [
-            [0, 0],
-            [300, 0],
-            [0, 240],
-            [300, 240],
-            [150, 120],
-        ] as const) {
+        const pixels = [0, 150, 300].flatMap((x) => [0, 120, 240].map((y) => [x, y] as const));
+        for (const [x, y] of pixels) {
             const at = geometry.ground(x, y);
             if (!at || Math.abs(at[0]) > 75000 || Math.abs(at[1]) > 50500) continue;
             assert(at[0] >= westM && at[0] <= eastM && at[1] >= southM && at[1] <= northM, `${at}`);

@@ -3,18 +3,14 @@ import test from 'node:test';
 
 import { colorOf, extinctionPerM } from './color_table';
 import { ColorTable } from '../wire/color_tables';
+import { smooth } from '../testing/made_tables';
 
 const table: ColorTable = {
-    name: 'a',
-    moment: 'REF',
-    unit: 'dBZ',
+    ...smooth,
     stops: [
         { from: 5, color: [0, 0, 0, 255], until: [100, 200, 40, 255] },
         { from: 15, color: [9, 9, 9, 255], until: [9, 9, 9, 255] },
     ],
-    end: 20,
-    bar_begin: 5,
-    range_folded: [1, 2, 3, 255],
     extinction: [
         { value: 5, per_km: 1 },
         { value: 15, per_km: 3 },

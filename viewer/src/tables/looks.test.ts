@@ -3,16 +3,12 @@ import test from 'node:test';
 
 import { lookCount, lookOver, looksOf } from './looks';
 import { ColorTable } from '../wire/color_tables';
+import { smooth } from '../testing/made_tables';
 
 test('looks are the colors of values, clear below the table and the threshold', () => {
     const table: ColorTable = {
-        name: 'two',
-        moment: 'REF',
-        unit: 'dBZ',
-        bar_begin: 0,
+        ...smooth,
         end: 20,
-        range_folded: [1, 2, 3, 255],
-        extinction: [],
         stops: [
             { from: 5, color: [255, 0, 0, 255], until: [255, 0, 0, 255] },
             { from: 10, color: [0, 0, 255, 51], until: [0, 0, 255, 51] },

@@ -12,13 +12,9 @@ const stop = (from: number, r: number, g: number) => ({
     until: [r, g, 0, 255] as [number, number, number, number],
 });
 const stepped: ColorTable = {
-    name: 'stepped',
-    moment: 'REF',
-    unit: 'dBZ',
+    ...smooth,
     stops: [stop(5, 255, 0), stop(10, 0, 255), stop(20, 128, 128)],
     end: 30,
-    bar_begin: 5,
-    range_folded: [0, 0, 0, 255],
     extinction: [
         { value: 5, per_km: 0.2 },
         { value: 20, per_km: 2 },
