@@ -28,10 +28,6 @@ export class BrickStore {
 
     constructor(readonly shown: ShownCodes) {}
 
-    hasLevel(level: number): boolean {
-        return this.levels.has(level);
-    }
-
     // Takes the table of a level, and all codes if the grid has them.
     addLevel(grid: PackedGrid): void {
         const level: StoredLevel = { grid, columns: new Map() };

@@ -1,7 +1,6 @@
 // Lists instants between volumes, for which the server makes grids on request (docs/web/grids.md).
 
 export const longestBridgeMs = 30 * 60 * 1000; // as pipeline/mosaic/between_grids.h has it
-export const usualBetweenS = 60;
 
 // Returns the stored times, and whole multiples of `everyS` seconds between neighbors, except in long gaps. `missing`
 // are instants for which the server had no grid.

@@ -108,11 +108,6 @@ export interface MapAnswer {
     lines: MapLine[];
     cities: City[];
 }
-export interface ProbedLevel {
-    height_m: number;
-    state: 'value' | 'no_echo' | 'not_seen' | 'range_folded';
-    value: number | null;
-}
 
 // The page lies at BASE/view/.
 const base = new URL('..', document.baseURI);
