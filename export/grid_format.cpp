@@ -1,10 +1,8 @@
 #include "stormcellar/export/grid_format.h"
 
-#include <algorithm>
 #include <array>
 
-#include <fmt/ranges.h>
-
+#include "base/format_list.h"
 #include "stormcellar/export/grid_netcdf.h"
 
 namespace stormcellar::grid_export {
@@ -26,25 +24,15 @@ std::span<const GridFormat> grid_formats() {
 }
 
 const GridFormat* grid_format_of(std::string_view file_name) {
-    for (const GridFormat& format : formats) {
-        const auto fits = [&](std::string_view ending) { return file_name.ends_with(ending); };
-        if (std::ranges::any_of(format.endings, fits)) return &format;
-    }
-    return nullptr;
+    return find_format(grid_formats(), file_name);
 }
 
 std::vector<std::string_view> grid_endings() {
-    std::vector<std::string_view> all;
-    for (const GridFormat& format : formats)
-        all.insert(all.end(), format.endings.begin(), format.endings.end());
-    return all;
+    return endings_in(grid_formats());
 }
 
 std::string known_grid_formats() {
-    std::vector<std::string> known;
-    for (const GridFormat& format : formats)
-        known.push_back(fmt::format("{} ({})", format.name, fmt::join(format.endings, ", ")));
-    return fmt::format("{}", fmt::join(known, " or "));
+    return formats_in(grid_formats());
 }
 
 }  // namespace stormcellar::grid_export

@@ -8,6 +8,7 @@
 
 #include "base/floating_point.h"
 #include "render/animation/animation_format.h"
+#include "render/image/check_size.h"
 #include "render/image/xmp.h"
 
 namespace stormcellar::render {
@@ -185,17 +186,7 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
 }
 
 Status check_frame(const Image& frame, int first_width, int first_height, int largest_side) {
-    if (frame.width < 1 || frame.height < 1 ||
-        frame.rgba.size() !=
-            static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4) {
-        return fail(ErrorCode::bad_argument, "a frame of {} by {} pixels cannot have {} bytes",
-                    frame.width, frame.height, frame.rgba.size());
-    }
-    if (frame.width > largest_side || frame.height > largest_side) {
-        return fail(ErrorCode::bad_argument,
-                    "a frame of {} by {} pixels is too large; this format allows {} along a side",
-                    frame.width, frame.height, largest_side);
-    }
+    if (auto fits = check_size(frame, largest_side, "frame"); !fits) return fits;
     if (frame.width != first_width || frame.height != first_height) {
         return fail(ErrorCode::bad_argument,
                     "a frame of {} by {} pixels cannot follow one of {} by {}", frame.width,

@@ -48,8 +48,7 @@ inline constexpr const char* video_module_entry = "stormcellar_make_video_encode
 [[nodiscard]] Result<std::unique_ptr<AnimationWriter>> make_png_directory_writer(
     const std::string& output, const AnimationOptions& options, FileSystem& file_system);
 
-// Checks that the bytes fit the size, that there is a pixel, that no side exceeds the limit, and
-// that the frame has the size of the first one.
+// Checks the frame (render/image/check_size.h), and that it has the size of the first one.
 [[nodiscard]] Status check_frame(const Image& frame, int first_width, int first_height,
                                  int largest_side);
 

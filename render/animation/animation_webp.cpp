@@ -3,13 +3,12 @@
 // (docs/decisions.md).
 #include <climits>
 #include <cmath>
-#include <span>
 
 #include <webp/encode.h>
 #include <webp/mux.h>
 
 #include "render/animation/animation_format.h"
-#include "render/image/xmp.h"
+#include "render/image/webp_bytes.h"
 
 namespace stormcellar::render {
 namespace {
@@ -19,18 +18,6 @@ constexpr float effort = 50;
 
 struct EncoderDeleter {
     void operator()(WebPAnimEncoder* encoder) const { WebPAnimEncoderDelete(encoder); }
-};
-struct MuxDeleter {
-    void operator()(WebPMux* mux) const { WebPMuxDelete(mux); }
-};
-
-// Memory of libwebp, freed at the end of a scope.
-struct Data {
-    WebPData data{};
-    Data() { WebPDataInit(&data); }
-    Data(const Data&) = delete;
-    Data& operator=(const Data&) = delete;
-    ~Data() { WebPDataClear(&data); }
 };
 struct Picture {
     WebPPicture picture{};
@@ -52,7 +39,7 @@ class WebpEncoder final : public FrameEncoder {
         }
         Picture holder;
         WebPPicture& picture = holder.picture;
-        if (WebPPictureInit(&picture) == 0) return version_mismatch();
+        if (WebPPictureInit(&picture) == 0) return webp_version_mismatch();
         picture.use_argb = 1;
         picture.width = frame.width;
         picture.height = frame.height;
@@ -66,18 +53,14 @@ class WebpEncoder final : public FrameEncoder {
         const auto end = milliseconds(count_) +
                          static_cast<int>(std::llround(options_.last_frame_dwell_s * 1e3));
         if (auto ended = add_to_encoder(nullptr, end); !ended) return pass_on(ended);
-        Data assembled;
+        WebpBytes assembled;
         if (WebPAnimEncoderAssemble(encoder_.get(), &assembled.data) == 0) {
             return fail(ErrorCode::internal, "WebP: {}", WebPAnimEncoderGetError(encoder_.get()));
         }
-        return with_metadata(assembled.data);
+        return webp_file(assembled.data, options_.metadata);
     }
 
   private:
-    static tl::unexpected<Error> version_mismatch() {
-        return fail(ErrorCode::internal, "WebP: the library's version is not the header's");
-    }
-
     [[nodiscard]] int milliseconds(std::size_t index) const {
         return static_cast<int>(frame_start(options_, index, 1000));
     }
@@ -85,7 +68,7 @@ class WebpEncoder final : public FrameEncoder {
     Status start(int width, int height) {
         WebPAnimEncoderOptions options;
         if (WebPAnimEncoderOptionsInit(&options) == 0 || WebPConfigInit(&config_) == 0) {
-            return version_mismatch();
+            return webp_version_mismatch();
         }
         options.anim_params.loop_count = 0;  // without end
         // Only seeking needs key frames; without them, only what changed is stored.
@@ -105,24 +88,6 @@ class WebpEncoder final : public FrameEncoder {
             return fail(ErrorCode::internal, "WebP: {}", WebPAnimEncoderGetError(encoder_.get()));
         }
         return {};
-    }
-
-    Result<std::vector<std::byte>> with_metadata(const WebPData& assembled) const {
-        if (options_.metadata.empty()) return bytes_of(assembled);
-        const std::unique_ptr<WebPMux, MuxDeleter> mux(WebPMuxCreate(&assembled, 0));
-        const std::string packet = xmp_packet(options_.metadata);
-        const WebPData xmp{reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size()};
-        Data whole;
-        if (!mux || WebPMuxSetChunk(mux.get(), "XMP ", &xmp, 0) != WEBP_MUX_OK ||
-            WebPMuxAssemble(mux.get(), &whole.data) != WEBP_MUX_OK) {
-            return fail(ErrorCode::internal, "WebP: the metadata cannot be added");
-        }
-        return bytes_of(whole.data);
-    }
-
-    static std::vector<std::byte> bytes_of(const WebPData& data) {
-        const auto bytes = std::as_bytes(std::span(data.bytes, data.size));
-        return {bytes.begin(), bytes.end()};
     }
 
     AnimationOptions options_;

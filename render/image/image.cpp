@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "render/image/check_size.h"
 #include "render/image/level.h"
 
 namespace stormcellar::render {
@@ -22,6 +23,21 @@ Image::Image(int w, int h, Rgba8 fill)
     const auto pixel = std::bit_cast<std::uint32_t>(fill);
     for (std::size_t i = 0; i < rgba.size(); i += sizeof pixel)
         std::memcpy(rgba.data() + i, &pixel, sizeof pixel);
+}
+
+Status check_size(const Image& image, int largest_side, std::string_view what) {
+    const auto pixels =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    if (image.width < 1 || image.height < 1 || image.rgba.size() != pixels * 4) {
+        return fail(ErrorCode::bad_argument, "a {} of {} by {} pixels cannot have {} bytes", what,
+                    image.width, image.height, image.rgba.size());
+    }
+    if (image.width > largest_side || image.height > largest_side) {
+        return fail(ErrorCode::bad_argument,
+                    "a {} of {} by {} pixels is too large; this format allows {} along a side",
+                    what, image.width, image.height, largest_side);
+    }
+    return {};
 }
 
 }  // namespace stormcellar::render

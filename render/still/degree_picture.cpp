@@ -13,37 +13,11 @@ namespace {
 
 constexpr int mesh_step = 8;  // pixels
 
-bool is_inside(const grid::GridSpec& spec, grid::ColumnPoint at) {
-    return at.x >= -0.5 && at.x < spec.nx - 0.5 && at.y >= -0.5 && at.y < spec.ny - 0.5;
-}
-
-// Returns the box about the outer edge of the cells; longitudes are continuous about the center's.
-DegreeBox box_of(const grid::GridSpec& spec, const grid::GridProjection& projection) {
-    DegreeBox box{-90, 90, -1e9, 1e9};
-    const auto take = [&](double x, double y) {
-        const grid::GeoPoint place = projection.to_geo({x, y});
-        const double longitude = projection.continuous_longitude_deg(place.longitude_deg);
-        box.north_deg = std::max(box.north_deg, place.latitude_deg);
-        box.south_deg = std::min(box.south_deg, place.latitude_deg);
-        box.east_deg = std::max(box.east_deg, longitude);
-        box.west_deg = std::min(box.west_deg, longitude);
-    };
-    for (int ix = 0; ix <= spec.nx; ++ix) {
-        take(ix - 0.5, -0.5);
-        take(ix - 0.5, spec.ny - 0.5);
-    }
-    for (int iy = 0; iy <= spec.ny; ++iy) {
-        take(-0.5, iy - 0.5);
-        take(spec.nx - 0.5, iy - 0.5);
-    }
-    return box;
-}
-
 struct PixelSize {
     int width = 0, height = 0;
 };
 
-PixelSize size_of(const grid::GridSpec& spec, const DegreeBox& box) {
+PixelSize size_of(const grid::GridSpec& spec, const EarthBox& box) {
     const double cell_deg =
         spec.in_degrees() ? spec.spacing_deg
                           : spec.spacing_m / grid::degree_length(spec.center_latitude_deg).north_m;
@@ -64,7 +38,7 @@ PixelSize size_of(const grid::GridSpec& spec, const DegreeBox& box) {
 // The places on the grid of the corners of a mesh of pixels.
 class DegreeMesh {
   public:
-    DegreeMesh(const grid::GridProjection& projection, const DegreeBox& box, PixelSize size,
+    DegreeMesh(const grid::GridProjection& projection, const EarthBox& box, PixelSize size,
                int threads)
         : across_((size.width + mesh_step - 1) / mesh_step + 1),
           down_((size.height + mesh_step - 1) / mesh_step + 1),
@@ -113,20 +87,20 @@ Result<DegreePicture> draw_in_degrees(const grid::GridSpec& spec, const FlatFiel
                                       const ColorTable& table, int threads) {
     const grid::GridProjection projection(spec);
     for (const double pole_deg : {-90.0, 90.0}) {
-        if (!spec.in_degrees() && is_inside(spec, projection.to_column({pole_deg, 0}))) {
+        if (!spec.in_degrees() && is_on_grid(spec, projection.to_column({pole_deg, 0}))) {
             return fail(ErrorCode::unsupported,
                         "a grid that holds a pole cannot be laid over latitude and longitude");
         }
     }
-    DegreePicture drawn{box_of(spec, projection), {}};
-    const DegreeBox box = drawn.box;
+    DegreePicture drawn{earth_box_of(spec), {}};
+    const EarthBox box = drawn.box;
     const PixelSize size = size_of(spec, box);
     const DegreeMesh mesh(projection, box, size, threads);
     drawn.image = Image(size.width, size.height, {0, 0, 0, 0});
     for_each_piece(size.height, threads, [&](int y) {
         for (int x = 0; x < size.width; ++x) {
             const grid::ColumnPoint at = mesh.at(x + 0.5, y + 0.5);
-            if (!is_inside(spec, at)) continue;
+            if (!is_on_grid(spec, at)) continue;
             const auto ix = static_cast<int>(std::lround(at.x));
             const auto iy = static_cast<int>(std::lround(at.y));
             const std::size_t place =

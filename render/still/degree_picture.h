@@ -10,6 +10,7 @@
 #pragma once
 
 #include "render/products/flat_field.h"
+#include "render/still/plane_picture.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/render/color_table.h"
@@ -17,14 +18,10 @@
 
 namespace stormcellar::render {
 
-// The edges of the outer pixels. West is at least -180 and below 180; across the antimeridian, east
-// is above 180.
-struct DegreeBox {
-    double north_deg = 0, south_deg = 0, east_deg = 0, west_deg = 0;
-};
-
 struct DegreePicture {
-    DegreeBox box;
+    // The edges of the outer pixels. West is at least -180 and below 180; across the antimeridian,
+    // east is above 180.
+    EarthBox box;
     Image image;  // clear outside of the grid
 };
 

@@ -17,7 +17,7 @@
 namespace stormcellar::render {
 namespace {
 
-std::string kml_of(const StillMap& map, const DegreeBox& box, const StillOptions& options) {
+std::string kml_of(const StillMap& map, const EarthBox& box, const StillOptions& options) {
     const std::string time = format_utc(map.facts.time);
     const std::string name = fmt::format("{} {}", map.facts.domain, product_title(map.scene));
     return fmt::format(

@@ -21,10 +21,6 @@ constexpr double degrees_per_mercator_m = 180 / mercator_edge_m;
 
 using grid::ColumnPoint;
 
-bool holds(const grid::GridSpec& spec, ColumnPoint at) {
-    return at.x >= -0.5 && at.x < spec.nx - 0.5 && at.y >= -0.5 && at.y < spec.ny - 0.5;
-}
-
 ColumnPoint mixed(ColumnPoint a, ColumnPoint b, double share) {
     return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share)};
 }
@@ -217,7 +213,7 @@ class PlanePainter {
         }
     }
     void set_pixel(int x, int y, ColumnPoint at) {
-        if (!holds(map_.spec, at)) return;
+        if (!is_on_grid(map_.spec, at)) return;
         const Rgba8 color = colors_.at(at.x, at.y);
         if (color[3] != 0) std::memcpy(pixel(x, y), color.data(), color.size());
     }
@@ -257,7 +253,7 @@ EarthBox earth_box_of(const grid::GridSpec& spec) {
         take(spec.nx - 0.5, iy - 0.5);
     }
     for (const double pole_deg : {-90.0, 90.0}) {
-        if (spec.in_degrees() || !holds(spec, projection.to_column({pole_deg, 0}))) continue;
+        if (spec.in_degrees() || !is_on_grid(spec, projection.to_column({pole_deg, 0}))) continue;
         (pole_deg < 0 ? box.south_deg : box.north_deg) = pole_deg;
         box.west_deg = spec.center_longitude_deg - 180;
         box.east_deg = spec.center_longitude_deg + 180;

@@ -14,6 +14,7 @@
 
 #include "render/products/flat_field.h"
 #include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/grid/projection.h"
 #include "stormcellar/render/color_table.h"
 #include "stormcellar/render/image.h"
 
@@ -37,6 +38,10 @@ struct EarthBox {
     double south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
 };
 [[nodiscard]] EarthBox earth_box_of(const grid::GridSpec& spec);
+// Returns true if the place is on a cell of the grid.
+[[nodiscard]] inline bool is_on_grid(const grid::GridSpec& spec, grid::ColumnPoint at) {
+    return at.x >= -0.5 && at.x < spec.nx - 0.5 && at.y >= -0.5 && at.y < spec.ny - 0.5;
+}
 
 // These return the latitude of a place in Web Mercator, and the inverse, for latitudes below 89.9
 // degrees.

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/ranges.h>
-
-#include "base/name_list.h"
+#include "base/format_list.h"
 #include "render/still/still_format.h"
 #include "stormcellar/render/png_file.h"
 
@@ -43,43 +41,15 @@ std::span<const StillFormat> still_formats() {
 }
 
 const StillFormat* still_format_of(std::string_view file_name) {
-    for (const StillFormat& format : formats) {
-        const auto fits = [&](std::string_view ending) { return file_name.ends_with(ending); };
-        if (std::ranges::any_of(format.endings, fits)) return &format;
-    }
-    return nullptr;
+    return find_format(still_formats(), file_name);
 }
 
 std::vector<std::string_view> still_endings() {
-    std::vector<std::string_view> all;
-    for (const StillFormat& format : formats)
-        all.insert(all.end(), format.endings.begin(), format.endings.end());
-    return all;
+    return endings_in(still_formats());
 }
 
 std::string known_still_formats() {
-    struct Named {
-        std::string name;
-    };
-    std::vector<Named> known;
-    for (const StillFormat& format : formats)
-        known.push_back({fmt::format("{} ({})", format.name, fmt::join(format.endings, ", "))});
-    return names_in(known, ", ", " or ");
-}
-
-Status check_picture(const Image& picture, int largest_side) {
-    const auto pixels =
-        static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-    if (picture.width < 1 || picture.height < 1 || picture.rgba.size() != pixels * 4) {
-        return fail(ErrorCode::bad_argument, "a picture of {} by {} pixels cannot have {} bytes",
-                    picture.width, picture.height, picture.rgba.size());
-    }
-    if (picture.width > largest_side || picture.height > largest_side) {
-        return fail(ErrorCode::bad_argument,
-                    "a picture of {} by {} pixels is too large; this format allows {} along a side",
-                    picture.width, picture.height, largest_side);
-    }
-    return {};
+    return formats_in(still_formats());
 }
 
 }  // namespace stormcellar::render

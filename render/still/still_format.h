@@ -16,7 +16,4 @@ namespace stormcellar::render {
 [[nodiscard]] Result<std::vector<std::byte>> encode_kmz(const StillMap& map,
                                                         const StillOptions& options);
 
-// Checks that there is a pixel, that the bytes fit the size, and that no side exceeds the limit.
-[[nodiscard]] Status check_picture(const Image& picture, int largest_side);
-
 }  // namespace stormcellar::render

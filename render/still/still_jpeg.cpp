@@ -10,6 +10,7 @@
 
 #include <jpeglib.h>
 
+#include "render/image/check_size.h"
 #include "render/image/xmp.h"
 #include "render/still/still_format.h"
 
@@ -91,7 +92,7 @@ std::string xmp_marker(const PictureTexts& texts) {
 }  // namespace
 
 Result<std::vector<std::byte>> encode_jpeg(const Image& picture, const StillOptions& options) {
-    if (auto fits = check_picture(picture, JPEG_MAX_DIMENSION); !fits) return pass_on(fits);
+    if (auto fits = check_size(picture, JPEG_MAX_DIMENSION, "picture"); !fits) return pass_on(fits);
     JpegErrors errors;
     jpeg_compress_struct jpeg{};
     jpeg.err = jpeg_std_error(&errors.manager);

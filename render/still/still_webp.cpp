@@ -1,12 +1,8 @@
 // WebP through libwebp, lossless as in loops (render/animation/animation_webp.cpp).
-#include <memory>
-#include <span>
-#include <string>
-
 #include <webp/encode.h>
-#include <webp/mux.h>
 
-#include "render/image/xmp.h"
+#include "render/image/check_size.h"
+#include "render/image/webp_bytes.h"
 #include "render/still/still_format.h"
 
 namespace stormcellar::render {
@@ -15,18 +11,6 @@ namespace {
 constexpr int still_method = 3;  // a still has more time than the frames of a loop
 constexpr float still_effort = 60;
 
-struct StillMuxDeleter {
-    void operator()(WebPMux* mux) const { WebPMuxDelete(mux); }
-};
-
-// Memory of libwebp, freed at the end of a scope.
-struct StillData {
-    WebPData data{};
-    StillData() { WebPDataInit(&data); }
-    StillData(const StillData&) = delete;
-    StillData& operator=(const StillData&) = delete;
-    ~StillData() { WebPDataClear(&data); }
-};
 struct StillWriter {
     WebPPicture picture{};
     WebPMemoryWriter writer{};
@@ -39,19 +23,14 @@ struct StillWriter {
     }
 };
 
-std::vector<std::byte> copy_of(const std::uint8_t* data, std::size_t size) {
-    const auto bytes = std::as_bytes(std::span(data, size));
-    return {bytes.begin(), bytes.end()};
-}
-
 }  // namespace
 
 Result<std::vector<std::byte>> encode_webp(const Image& picture, const StillOptions& options) {
-    if (auto fits = check_picture(picture, WEBP_MAX_DIMENSION); !fits) return pass_on(fits);
+    if (auto fits = check_size(picture, WEBP_MAX_DIMENSION, "picture"); !fits) return pass_on(fits);
     StillWriter out;
     WebPConfig config;
     if (WebPPictureInit(&out.picture) == 0 || WebPConfigInit(&config) == 0) {
-        return fail(ErrorCode::internal, "WebP: the library's version is not the header's");
+        return webp_version_mismatch();
     }
     config.lossless = 1;
     config.exact = 1;
@@ -70,17 +49,7 @@ Result<std::vector<std::byte>> encode_webp(const Image& picture, const StillOpti
         return fail(ErrorCode::internal, "WebP: error {} of the encoder",
                     static_cast<int>(out.picture.error_code));
     }
-    if (options.metadata.empty()) return copy_of(out.writer.mem, out.writer.size);
-    const WebPData plain{out.writer.mem, out.writer.size};
-    const std::unique_ptr<WebPMux, StillMuxDeleter> mux(WebPMuxCreate(&plain, 0));
-    const std::string packet = xmp_packet(options.metadata);
-    const WebPData xmp{reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size()};
-    StillData whole;
-    if (!mux || WebPMuxSetChunk(mux.get(), "XMP ", &xmp, 0) != WEBP_MUX_OK ||
-        WebPMuxAssemble(mux.get(), &whole.data) != WEBP_MUX_OK) {
-        return fail(ErrorCode::internal, "WebP: the metadata cannot be added");
-    }
-    return copy_of(whole.data.bytes, whole.data.size);
+    return webp_file({out.writer.mem, out.writer.size}, options.metadata);
 }
 
 }  // namespace stormcellar::render
