@@ -55,18 +55,23 @@ std::optional<std::array<double, 4>> read_numbers(TomlTable& table, std::string_
     return numbers;
 }
 
+template <class Value>
+std::optional<Value> read_choice(TomlTable& table, std::string_view key,
+                                 std::optional<Value> (*from_name)(std::string_view),
+                                 const std::string& known) {
+    const auto name = table.text(key);
+    if (!name) return std::nullopt;
+    const auto value = from_name(*name);
+    if (!value)
+        table.complain(key, fmt::format("\"{}\" must be one of {}", printable(*name), known));
+    return value;
+}
+
 void read_projection(TomlTable& table, GridSpec& spec) {
-    spec.projection =
-        table.has("bounds") ? Projection::latitude_longitude : Projection::azimuthal_equidistant;
-    if (const auto name = table.text("projection")) {
-        const auto projection = grid::projection_from_name(*name);
-        if (projection) {
-            spec.projection = *projection;
-        } else {
-            table.complain("projection", fmt::format("\"{}\" must be one of {}", printable(*name),
-                                                     names_in(grid::projection_facts)));
-        }
-    }
+    const auto projection = read_choice(table, "projection", grid::projection_from_name,
+                                        names_in(grid::projection_facts));
+    spec.projection = projection.value_or(table.has("bounds") ? Projection::latitude_longitude
+                                                              : Projection::azimuthal_equidistant);
     const auto parallels = read_numbers(table, "parallels_deg", 2, "[latitude, latitude]");
     if (!grid::facts_of(spec.projection).takes_parallels) {
         if (parallels) table.complain("parallels_deg", "can be given only for lambert_conformal");
@@ -190,25 +195,14 @@ void read_frames(TomlTable& table, Domain& domain) {
     if (const auto seconds = table.whole_number("interval_seconds", {10, 86'400})) {
         domain.interval = std::chrono::seconds{*seconds};
     }
-    if (const auto name = table.text("overlap")) {
-        domain.overlap = grid::overlap_from_name(*name);
-        if (!domain.overlap) {
-            table.complain("overlap", fmt::format("\"{}\" must be one of {}", printable(*name),
-                                                  names_in(grid::overlap_facts)));
-        }
-    }
+    domain.overlap =
+        read_choice(table, "overlap", grid::overlap_from_name, names_in(grid::overlap_facts));
     if (const auto km = table.number("overlap_km", {1, 10'000})) {
         domain.overlap_length_m = *km * 1000;
     }
-    if (const auto name = table.text("time_method")) {
-        const auto method = grid::time_method_from_name(*name);
-        if (method) {
-            domain.time = *method;
-        } else {
-            table.complain("time_method", fmt::format("\"{}\" must be one of {}", printable(*name),
-                                                      names_in(grid::time_method_facts)));
-        }
-    }
+    domain.time = read_choice(table, "time_method", grid::time_method_from_name,
+                              names_in(grid::time_method_facts))
+                      .value_or(domain.time);
 }
 
 Domain read_domain(TomlTable& table) {

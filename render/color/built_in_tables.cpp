@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/name_list.h"
-#include "base/nearest_name.h"
 #include "render/color/smooth_tables.h"
+#include "render/image/unknown_name.h"
 
 namespace stormcellar::render {
 namespace {
@@ -342,11 +342,8 @@ Result<ColorTable> find_color_table(std::string_view name) {
         if (table.name == name) return table;
         names.push_back(table.name);
     }
-    if (const std::string meant = did_you_mean(name, names); !meant.empty())
-        return fail(ErrorCode::not_found, "there is no color table '{}'{}", name, meant);
-    const std::string known = names_in(built_in_tables());
-    return fail(ErrorCode::not_found, "there is no color table '{}'; the known tables are {}", name,
-                known);
+    return unknown_name("color table", name, names, "tables are " + names_in(built_in_tables()),
+                        ErrorCode::not_found);
 }
 
 const ColorTable& nws_reflectivity() {

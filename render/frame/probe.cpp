@@ -1,6 +1,7 @@
 #include "render/frame/probe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/floating_point.h"
@@ -168,22 +169,12 @@ Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, 
 }
 
 std::string probe_text(const Probe& probe, const Units& units) {
-    switch (probe.status) {
-        case CellStatus::not_seen:
-            return "not seen";
-        case CellStatus::no_echo:
-            return "no echo";
-        case CellStatus::range_folded:
-            return "range folded";
-        case CellStatus::value:
-            break;
-    }
+    constexpr std::array states = {"not seen", "no echo", "range folded"};
+    if (probe.status != CellStatus::value) return states[static_cast<std::size_t>(probe.status)];
     const ShownUnit unit = shown_unit(probe.unit, units);
     // A converted value gets no more digits than it had before.
     const int digits = unit.symbol == probe.unit ? 6 : 4;
-    return fmt::format("{}{}{}{}", probe.at_least ? "at least " : "",
-                       number_text(unit.per_stored * static_cast<double>(probe.value), digits),
-                       unit.symbol.empty() ? "" : " ", unit.symbol);
+    return (probe.at_least ? "at least " : "") + value_text(probe.value, unit, digits);
 }
 
 }  // namespace stormcellar::render

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/name_list.h"
-#include "base/nearest_name.h"
+#include "render/image/unknown_name.h"
 
 namespace stormcellar::render {
 namespace {
@@ -29,10 +29,7 @@ Result<Theme> theme_from_name(std::string_view name) {
         if (known.name == name) return known.theme;
         names.emplace_back(known.name);
     }
-    if (const std::string meant = did_you_mean(name, names); !meant.empty())
-        return fail(ErrorCode::bad_argument, "there is no theme '{}'{}", name, meant);
-    return fail(ErrorCode::bad_argument, "there is no theme '{}'; the known themes are {}", name,
-                themes_for_help());
+    return unknown_name("theme", name, names, "themes are " + themes_for_help());
 }
 
 std::string themes_for_help() {

@@ -20,9 +20,7 @@ std::string clear_words(const Scene& scene, std::string_view between) {
         table.bar_begin || (look_of(scene.moment).is_never_negative && !(table.lowest() > 0));
     if (takes_all) return "no echo";
     const ShownUnit unit = written_unit(scene);
-    return fmt::format("no echo {} < {}{}{}", between,
-                       number_text(unit.per_stored * static_cast<double>(table.lowest()), 4),
-                       unit.symbol.empty() ? "" : " ", unit.symbol);
+    return fmt::format("no echo {} < {}", between, value_text(table.lowest(), unit, 4));
 }
 
 void add_volume_rows(const Scene& scene, Legend& legend) {

@@ -27,6 +27,11 @@ std::string number_text(double number, int digits) {
     return fmt::format("{:.12g}", rounded(number, digits));
 }
 
+std::string value_text(float value, const ShownUnit& unit, int digits) {
+    const std::string number = number_text(unit.per_stored * static_cast<double>(value), digits);
+    return unit.symbol.empty() ? number : number + " " + unit.symbol;
+}
+
 std::string distance_text(double metres, const Units& units) {
     return length_text(metres, units.distance);
 }

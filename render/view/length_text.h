@@ -1,4 +1,4 @@
-// render/view/length_text.h -- how labels write numbers, lengths on the ground and heights.
+// render/view/length_text.h -- how labels write numbers, values, lengths on the ground and heights.
 //
 // Threads   Pure functions.
 #pragma once
@@ -12,6 +12,10 @@ namespace stormcellar::render {
 // Returns the number rounded to `digits` significant digits, without trailing zeros and never with
 // an exponent: "9840".
 [[nodiscard]] std::string number_text(double number, int digits = 6);
+
+// Returns the stored value with the unit in which it is shown: "45.5 dBZ", or "0.98" without a
+// unit.
+[[nodiscard]] std::string value_text(float value, const ShownUnit& unit, int digits);
 
 // Returns "50 km", "200 m" or "30 mi". A length that is not round in its unit has three digits.
 [[nodiscard]] std::string distance_text(double metres, const Units& units);

@@ -7,7 +7,7 @@
 
 #include <fmt/ranges.h>
 
-#include "base/nearest_name.h"
+#include "render/image/unknown_name.h"
 
 namespace stormcellar::render {
 namespace {
@@ -24,11 +24,7 @@ Status unknown_light(std::string_view name) {
     std::vector<std::string> known{"none"};
     for (const Named& kind : kinds)
         known.emplace_back(kind.name);
-    const std::string meant = did_you_mean(name, known);
-    if (!meant.empty())
-        return fail(ErrorCode::bad_argument, "there is no light '{}'{}", name, meant);
-    return fail(ErrorCode::bad_argument, "there is no light '{}'; the known kinds are {}", name,
-                fmt::join(known, ", "));
+    return unknown_name("light", name, known, fmt::format("kinds are {}", fmt::join(known, ", ")));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/name_list.h"
-#include "base/nearest_name.h"
 #include "render/color/built_in_tables.h"
+#include "render/image/unknown_name.h"
 #include "render/view/length_text.h"
 #include "stormcellar/render/scene.h"
 
@@ -132,16 +132,12 @@ std::string_view product_name(Product product) {
 }
 
 Result<Product> product_from_name(std::string_view name) {
+    std::vector<std::string> names;
     for (const ProductFacts& facts : product_facts) {
         if (facts.name == name) return facts.product;
-    }
-    std::vector<std::string> names;
-    for (const ProductFacts& facts : product_facts)
         names.emplace_back(facts.name);
-    if (const std::string meant = did_you_mean(name, names); !meant.empty())
-        return fail(ErrorCode::bad_argument, "there is no product '{}'{}", name, meant);
-    return fail(ErrorCode::bad_argument, "there is no product '{}'; the known products are {}",
-                name, names_in(product_facts));
+    }
+    return unknown_name("product", name, names, "products are " + names_in(product_facts));
 }
 
 std::string products_for_help() {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/name_list.h"
-#include "base/nearest_name.h"
+#include "render/image/unknown_name.h"
 
 namespace stormcellar::render {
 namespace {
@@ -65,10 +65,7 @@ Result<const UnitFacts*> unit_named(std::string_view name) {
         if (lower == facts.name || lower == facts.symbol) return &facts;
         names.emplace_back(facts.name);
     }
-    if (const std::string meant = did_you_mean(name, names); !meant.empty())
-        return fail(ErrorCode::bad_argument, "there is no unit '{}'{}", name, meant);
-    return fail(ErrorCode::bad_argument, "there is no unit '{}'; the known units are {}", name,
-                units_for_help());
+    return unknown_name("unit", name, names, "units are " + units_for_help());
 }
 
 // The units that were named so far, in the order of `quantities`.

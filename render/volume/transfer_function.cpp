@@ -1,6 +1,7 @@
 #include "render/volume/transfer_function.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -104,15 +105,9 @@ void fill_second_order(const BinLooks& look, int threads, Entries& entries) {
 }  // namespace
 
 std::string_view integration_name(Integration integration) {
-    switch (integration) {
-        case Integration::riemann:
-            return "riemann";
-        case Integration::first_order:
-            return "pre-integrated";
-        case Integration::second_order:
-            break;
-    }
-    return "pre-integrated-2";
+    constexpr std::array<std::string_view, 3> names = {"riemann", "pre-integrated",
+                                                       "pre-integrated-2"};
+    return names[static_cast<std::size_t>(integration)];
 }
 
 // The bin of a stop begins at the stop if a whole number of bins fits between any two stops.
