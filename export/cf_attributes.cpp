@@ -53,6 +53,14 @@ void add_origin(CfAttributes& attributes, const grid::GridSpec& spec) {
     }
 }
 
+template <class Place>
+std::vector<double> places_of(int count, const Place& place) {
+    std::vector<double> places;
+    for (int i = 0; i < count; ++i)
+        places.push_back(place(i));
+    return places;
+}
+
 }  // namespace
 
 MapNames map_names(const grid::GridSpec& spec) {
@@ -176,20 +184,16 @@ std::vector<std::string_view> status_meanings() {
 
 std::vector<double> row_places(const grid::GridSpec& spec) {
     const grid::GridProjection projection(spec);
-    std::vector<double> rows;
-    rows.reserve(static_cast<std::size_t>(spec.ny));
-    for (int iy = 0; iy < spec.ny; ++iy)
-        rows.push_back(spec.in_degrees() ? projection.row_latitude_deg(iy) : spec.y_m(iy));
-    return rows;
+    return places_of(spec.ny, [&](int iy) {
+        return spec.in_degrees() ? projection.row_latitude_deg(iy) : spec.y_m(iy);
+    });
 }
 
 std::vector<double> column_places(const grid::GridSpec& spec) {
     const grid::GridProjection projection(spec);
-    std::vector<double> columns;
-    columns.reserve(static_cast<std::size_t>(spec.nx));
-    for (int ix = 0; ix < spec.nx; ++ix)
-        columns.push_back(spec.in_degrees() ? projection.column_longitude_deg(ix) : spec.x_m(ix));
-    return columns;
+    return places_of(spec.nx, [&](int ix) {
+        return spec.in_degrees() ? projection.column_longitude_deg(ix) : spec.x_m(ix);
+    });
 }
 
 }  // namespace stormcellar::netcdf

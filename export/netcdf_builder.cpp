@@ -112,29 +112,27 @@ void NetcdfBuilder::bytes(int variable, const char* name, std::span<const signed
     good(nc_put_att_schar(id_, variable, name, NC_BYTE, values.size(), values.data()), name);
 }
 
+template <class Value>
+void NetcdfBuilder::write_by(int (*put)(int, int, const Value*), int variable,
+                             std::span<const Value> values) {
+    if (failure_ != NC_NOERR || values.empty()) return;
+    good(put(id_, variable, values.data()), "write");
+}
+
 void NetcdfBuilder::write(int variable, std::span<const double> values) {
-    if (failure_ != NC_NOERR || values.empty()) return;
-    good(nc_put_var_double(id_, variable, values.data()), "write");
+    write_by(nc_put_var_double, variable, values);
 }
-
 void NetcdfBuilder::write(int variable, std::span<const float> values) {
-    if (failure_ != NC_NOERR || values.empty()) return;
-    good(nc_put_var_float(id_, variable, values.data()), "write");
+    write_by(nc_put_var_float, variable, values);
 }
-
 void NetcdfBuilder::write(int variable, std::span<const int> values) {
-    if (failure_ != NC_NOERR || values.empty()) return;
-    good(nc_put_var_int(id_, variable, values.data()), "write");
+    write_by(nc_put_var_int, variable, values);
 }
-
 void NetcdfBuilder::write(int variable, std::span<const signed char> values) {
-    if (failure_ != NC_NOERR || values.empty()) return;
-    good(nc_put_var_schar(id_, variable, values.data()), "write");
+    write_by(nc_put_var_schar, variable, values);
 }
-
 void NetcdfBuilder::write(int variable, std::span<const char> characters) {
-    if (failure_ != NC_NOERR || characters.empty()) return;
-    good(nc_put_var_text(id_, variable, characters.data()), "write");
+    write_by(nc_put_var_text, variable, characters);
 }
 
 void NetcdfBuilder::write_first(int variable, double value) {
@@ -143,23 +141,24 @@ void NetcdfBuilder::write_first(int variable, double value) {
     good(nc_put_var1_double(id_, variable, &first, &value), "write");
 }
 
-void NetcdfBuilder::write_rows(int variable, const Rows& rows, std::span<const int> values) {
+template <class Value>
+void NetcdfBuilder::write_rows_by(int (*put)(int, int, const std::size_t*, const std::size_t*,
+                                             const Value*),
+                                  int variable, const Rows& rows, std::span<const Value> values) {
     if (failure_ != NC_NOERR || values.empty()) return;
     const std::array<std::size_t, 2> start = {rows.first, 0};
     const std::array<std::size_t, 2> count = {rows.count, rows.width};
-    good(values.size() == rows.count * rows.width ? NC_NOERR : NC_EINVAL, "write rows");
-    if (failure_ != NC_NOERR) return;
-    good(nc_put_vara_int(id_, variable, start.data(), count.data(), values.data()), "write rows");
+    const bool fits = values.size() == rows.count * rows.width;
+    good(fits ? put(id_, variable, start.data(), count.data(), values.data()) : NC_EINVAL,
+         "write rows");
 }
 
+void NetcdfBuilder::write_rows(int variable, const Rows& rows, std::span<const int> values) {
+    write_rows_by(nc_put_vara_int, variable, rows, values);
+}
 void NetcdfBuilder::write_rows(int variable, const Rows& rows,
                                std::span<const signed char> values) {
-    if (failure_ != NC_NOERR || values.empty()) return;
-    const std::array<std::size_t, 2> start = {rows.first, 0};
-    const std::array<std::size_t, 2> count = {rows.count, rows.width};
-    good(values.size() == rows.count * rows.width ? NC_NOERR : NC_EINVAL, "write rows");
-    if (failure_ != NC_NOERR) return;
-    good(nc_put_vara_schar(id_, variable, start.data(), count.data(), values.data()), "write rows");
+    write_rows_by(nc_put_vara_schar, variable, rows, values);
 }
 
 Result<std::vector<std::byte>> NetcdfBuilder::finish() {

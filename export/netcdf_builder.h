@@ -56,15 +56,16 @@ class NetcdfBuilder {
     // Writes rows of equal length, one after the other, as a variable of characters.
     void write(int variable, std::span<const char> characters);
 
+    // Writes element 0 of a variable on an unlimited dimension; the dimension then has a length of
+    // 1, as write() needs it for the other variables.
+    void write_first(int variable, double value);
+
     // Some rows of a variable with two dimensions, each over the whole second dimension.
     struct Rows {
         std::size_t first = 0;
         std::size_t count = 0;
         std::size_t width = 0;
     };
-    // Writes element 0 of a variable on an unlimited dimension; the dimension then has a length of
-    // 1, as write() needs it for the other variables.
-    void write_first(int variable, double value);
     void write_rows(int variable, const Rows& rows, std::span<const int> values);
     void write_rows(int variable, const Rows& rows, std::span<const signed char> values);
 
@@ -73,6 +74,11 @@ class NetcdfBuilder {
 
   private:
     bool good(int code, const char* doing);
+    template <class Value>
+    void write_by(int (*put)(int, int, const Value*), int variable, std::span<const Value> values);
+    template <class Value>
+    void write_rows_by(int (*put)(int, int, const std::size_t*, const std::size_t*, const Value*),
+                       int variable, const Rows& rows, std::span<const Value> values);
 
     int id_ = -1;
     bool open_ = false;
