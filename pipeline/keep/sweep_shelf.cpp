@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -121,11 +122,24 @@ Result<Sweep> sweep_of(std::span<const char> bytes) {
     return sweep;
 }
 
-tl::unexpected<Error> system_failure(const char* what, int number) {
+tl::unexpected<Error> system_failure(std::string_view what, int number) {
     auto failed = stormcellar::system_failure(fmt::format("{} of a growing volume", what), number);
     // Callers take not_found to mean that a raw file is gone.
     if (failed.value().code == ErrorCode::not_found) failed.value().code = ErrorCode::io;
     return failed;
+}
+
+// Calls move(done), which reads or writes the bytes behind those that are done, until all are done.
+template <class Move>
+Status move_all(std::uint64_t bytes, std::string_view verb, const Move& move) {
+    for (std::uint64_t done = 0; done < bytes;) {
+        const ssize_t moved = move(done);
+        if (moved < 0 && errno == EINTR) continue;
+        if (moved < 0) return system_failure(fmt::format("cannot {} shelved sweeps", verb), errno);
+        if (moved == 0) return fail(ErrorCode::io, "shelved sweeps are gone");
+        done += static_cast<std::uint64_t>(moved);
+    }
+    return {};
 }
 
 // Opens a file without a name, or, if the file system cannot, one that loses its name at once.
@@ -158,29 +172,22 @@ Result<SweepShelf::Place> SweepShelf::put(const Sweep& sweep) {
         LZ4_compress_default(bytes.data(), packed.data(), size, static_cast<int>(packed.size()));
     if (packed_size <= 0) return fail(ErrorCode::io, "a sweep cannot be packed");
     const Place place{end_, static_cast<std::uint64_t>(packed_size), bytes.size()};
-    for (std::uint64_t done = 0; done < place.packed_bytes;) {
-        const ssize_t written =
-            ::pwrite(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
-                     static_cast<off_t>(place.offset + done));
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return system_failure("cannot write shelved sweeps", errno);
-        done += static_cast<std::uint64_t>(written);
-    }
+    const auto moved = move_all(place.packed_bytes, "write", [&](std::uint64_t done) {
+        return ::pwrite(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
+                        static_cast<off_t>(place.offset + done));
+    });
+    if (!moved) return pass_on(moved);
     end_ += place.packed_bytes;
     return place;
 }
 
 Result<Sweep> SweepShelf::get(const Place& place) const {
     std::vector<char> packed(place.packed_bytes);
-    for (std::uint64_t done = 0; done < place.packed_bytes;) {
-        const ssize_t got =
-            ::pread(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
-                    static_cast<off_t>(place.offset + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return system_failure("cannot read shelved sweeps", errno);
-        if (got == 0) return fail(ErrorCode::io, "shelved sweeps are gone");
-        done += static_cast<std::uint64_t>(got);
-    }
+    const auto moved = move_all(place.packed_bytes, "read", [&](std::uint64_t done) {
+        return ::pread(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
+                       static_cast<off_t>(place.offset + done));
+    });
+    if (!moved) return pass_on(moved);
     std::vector<char> bytes(place.bytes);
     const int size =
         LZ4_decompress_safe(packed.data(), bytes.data(), static_cast<int>(packed.size()),

@@ -22,58 +22,42 @@ enum class IngestResult {
     no_moment,    // registered; has no sweep of the moment, so there is nothing to grid
     no_position,  // registered; neither the file nor the table gives the position of the radar
     other_station,  // registered; its station's data are not accepted, so nothing is gridded
-    incomplete,     // not settled: the volume has not ended and finish_as_is is false, or the file
-                    // changed while it was read; try again when it was closed or quiet
-    rejected,       // registered as rejected: no volume, or none that can be gridded
-    unchanged,      // settled before; nothing was done
-    vanished,  // the file is gone, and its rows, if any, are marked so. If a volume of chunks waits
-               // in its name, the result is incomplete instead, and the file is tried again
-    registered,  // registered; the Ingestor has no cache
+    // Not settled: the volume has not ended and finish_as_is is false, or the file changed while it
+    // was read, or an archive has more members than one turn takes. The file must be offered again,
+    // when it was closed or is quiet.
+    incomplete,
+    rejected,   // registered as rejected: no volume, or none that can be gridded
+    unchanged,  // settled before; nothing was done
+    // The file is gone, and its rows, if any, are marked so. If it represents a volume of chunks,
+    // the result is incomplete instead, and the file must be offered again although it is gone.
+    vanished,
+    // Registered, with nothing else to do: the Ingestor has no cache, or the file is a chunk of a
+    // growing volume that another chunk represents.
+    registered,
 };
 
 namespace ended {
 
-// Registered, and every volume with the moment is in the cache, or too old for it.
-struct Gridded {
-    static constexpr IngestResult result = IngestResult::gridded;
+template <IngestResult value>
+struct WithoutFacts {
+    static constexpr IngestResult result = value;
 };
-// Registered; holds no sweep of the moment, so there is nothing to grid.
-struct NoMoment {
-    static constexpr IngestResult result = IngestResult::no_moment;
-};
-// Registered; neither the file nor the station table gives the radar's position.
-struct NoPosition {
-    static constexpr IngestResult result = IngestResult::no_position;
-};
-// Registered; its station is not accepted, so nothing is gridded.
-struct OtherStation {
-    static constexpr IngestResult result = IngestResult::other_station;
-};
-// Not settled: the volume has not ended and finish_as_is is false, or the file changed while it was
-// read, or an archive has more members than one turn takes. The file must be offered again.
+using Gridded = WithoutFacts<IngestResult::gridded>;
+using NoMoment = WithoutFacts<IngestResult::no_moment>;
+using NoPosition = WithoutFacts<IngestResult::no_position>;
+using OtherStation = WithoutFacts<IngestResult::other_station>;
+using Unchanged = WithoutFacts<IngestResult::unchanged>;
+using Vanished = WithoutFacts<IngestResult::vanished>;
+using Registered = WithoutFacts<IngestResult::registered>;
+
 struct Incomplete {
     static constexpr IngestResult result = IngestResult::incomplete;
     bool is_followed = false;    // only appended data will be read
     bool has_next_turn = false;  // an archive that can continue at once
 };
-// Registered as rejected: it holds no volume, or none that can be gridded.
 struct Rejected {
     static constexpr IngestResult result = IngestResult::rejected;
     ErrorCode with = ErrorCode::internal;  // the kind of the reason
-};
-// Settled before; nothing was done.
-struct Unchanged {
-    static constexpr IngestResult result = IngestResult::unchanged;
-};
-// The file is gone; its rows, if any, are marked. If the file represents a volume of chunks, the
-// result is Incomplete instead, and the file must be offered again although it is gone.
-struct Vanished {
-    static constexpr IngestResult result = IngestResult::vanished;
-};
-// Registered, with nothing else to do: the Ingestor has no cache, or the file is a chunk of a
-// growing volume that another chunk represents.
-struct Registered {
-    static constexpr IngestResult result = IngestResult::registered;
 };
 
 }  // namespace ended
