@@ -20,18 +20,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns true for the documents below, and for all in docs/: cmake/Install.cmake installs them in
-// the same places below one directory.
+// Documents outside of docs/. cmake/Install.cmake installs these and docs/, in the same places
+// below one directory.
+const std::vector<fs::path> single_documents = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
+                                                "bunzip/README.md"};
+
 bool is_installed(const fs::path& path) {
-    static const std::set<fs::path> single = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
-                                              "bunzip/README.md"};
-    return *path.begin() == "docs" || single.contains(path);
+    return *path.begin() == "docs" || std::ranges::count(single_documents, path) > 0;
 }
 
-// Every document, from the root of the source tree.
+// Returns the installed documents, from the root of the source tree.
 std::vector<fs::path> documents() {
-    std::vector<fs::path> found = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
-                                   "bunzip/README.md"};
+    std::vector<fs::path> found = single_documents;
     const fs::path root = testing::source_directory();
     for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
         if (entry.path().extension() == ".md") found.push_back(fs::relative(entry.path(), root));
@@ -51,13 +51,6 @@ std::string without_code(const std::string& text) {
     return rest;
 }
 
-std::vector<std::string> found_in(const std::string& text, const std::regex& what) {
-    std::vector<std::string> found;
-    for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at)
-        found.push_back((*at)[1]);
-    return found;
-}
-
 struct Link {
     fs::path file;  // from the root of the source tree
     std::string heading;
@@ -68,7 +61,7 @@ std::vector<Link> links_of(const fs::path& document) {
     static const std::regex link(R"(\]\(([^)\s]+)\))");
     std::vector<Link> links;
     const std::string text = without_code(testing::text_of(testing::source_directory() / document));
-    for (const std::string& target : found_in(text, link)) {
+    for (const std::string& target : testing::found_in(text, link)) {
         if (target.find("://") != std::string::npos) continue;
         const std::size_t hash = target.find('#');
         const std::string file = target.substr(0, hash);
@@ -85,7 +78,7 @@ std::set<std::string> headings_of(const fs::path& document) {
     std::set<std::string> names;
     const std::string text =
         "\n" + without_code(testing::text_of(testing::source_directory() / document));
-    for (const std::string& title : found_in(text, heading)) {
+    for (const std::string& title : testing::found_in(text, heading)) {
         std::string name;
         for (const char letter : title) {
             const auto sign = static_cast<unsigned char>(letter);
@@ -113,7 +106,6 @@ TEST(Documents, EveryLinkLeadsSomewhere) {
     EXPECT_GT(checked, 100U);
 }
 
-// Beside the program the documents lie as they do here, and nothing else does.
 // The documents had 134,000 words once, which nobody read.
 TEST(Documents, AreShortEnoughToBeRead) {
     constexpr std::size_t most_words = 65'000;
@@ -129,16 +121,16 @@ TEST(Documents, AreShortEnoughToBeRead) {
     EXPECT_LE(words, most_words);
 }
 
+// Only the installed documents are beside an installed program, so they link to each other alone.
 TEST(Documents, WhatTheInstalledOnesLinkToIsInstalled) {
     for (const fs::path& document : documents()) {
-        ASSERT_TRUE(is_installed(document)) << document;
         for (const Link& link : links_of(document))
             EXPECT_TRUE(is_installed(link.file)) << document << " links to " << link.file;
     }
     const std::string rules = testing::text_of(testing::source_directory() / "cmake/Install.cmake");
     EXPECT_NE(rules.find("install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})"),
               std::string::npos);
-    for (const char* file : {"README.md", "CONTRIBUTING.md", "GLOSSARY.md", "bunzip/README.md"})
+    for (const fs::path& file : single_documents)
         EXPECT_NE(rules.find(file), std::string::npos) << file << " is not installed";
 }
 
@@ -154,7 +146,7 @@ TEST(Documents, WhatManualPagesUnitsAndConfigurationNameIsThere) {
           "daemon/monitoring/stormcellar-alerts.yml"}) {
         const std::string text = testing::text_of(testing::source_directory() / file);
         for (const std::regex* what : {&installed, &named}) {
-            for (const std::string& document : found_in(text, *what)) {
+            for (const std::string& document : testing::found_in(text, *what)) {
                 ++checked;
                 EXPECT_TRUE(is_installed(document)) << file << " names " << document;
                 EXPECT_TRUE(fs::exists(testing::source_directory() / document))
@@ -222,14 +214,15 @@ TEST(Documents, FindItNamesFilesThatAreThere) {
     static const std::regex question(R"(\n(\| [A-Z][^\n|]*\? )\|)");
     const fs::path root = testing::source_directory();
     const std::string page = testing::text_of(root / "docs/find-it.md");
-    const std::vector<std::string> files = found_in(page, row);
+    const std::vector<std::string> files = testing::found_in(page, row);
     EXPECT_GE(files.size(), 30U);
-    EXPECT_EQ(files.size(), found_in(page, question).size()) << "a question without a file";
+    EXPECT_EQ(files.size(), testing::found_in(page, question).size())
+        << "a question without a file";
     for (const std::string& file : files)
         EXPECT_TRUE(fs::is_regular_file(root / file)) << file;
     // So are all others that it names, and folders.
     static const std::regex path(R"(`([a-z_0-9]+/[A-Za-z0-9_./-]*)`)");
-    for (const std::string& named : found_in(page, path))
+    for (const std::string& named : testing::found_in(page, path))
         EXPECT_TRUE(fs::exists(root / named)) << named;
 }
 
@@ -239,7 +232,8 @@ TEST(Documents, SourcesThatTheyNameAreThere) {
     const fs::path root = testing::source_directory();
     std::size_t checked = 0;
     for (const fs::path& document : documents()) {
-        for (const std::string& named : found_in(testing::text_of(root / document), path)) {
+        for (const std::string& named :
+             testing::found_in(testing::text_of(root / document), path)) {
             ++checked;
             EXPECT_TRUE(fs::exists(root / named) || fs::exists(root / "include" / named))
                 << document << " names " << named;

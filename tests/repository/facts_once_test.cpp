@@ -19,6 +19,7 @@
 #include "stormcellar/grid/mosaic.h"
 #include "stormcellar/level2/moment.h"
 #include "stormcellar/render/product.h"
+#include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar {
@@ -68,19 +69,11 @@ SplitSource split_source(const std::string& text) {
 // Every source outside the tests, by its path from the root.
 const std::map<std::string, SplitSource>& split_sources() {
     static const std::map<std::string, SplitSource> all = [] {
-        const std::set<std::string> skipped = {"tests", "build", "out"};
-        const fs::path root = testing::source_directory();
         std::map<std::string, SplitSource> found;
-        for (const auto& room : fs::directory_iterator(root)) {
-            const std::string name = room.path().filename().string();
-            if (!room.is_directory() || name.starts_with('.') || skipped.contains(name)) continue;
-            for (const auto& entry : fs::recursive_directory_iterator(room.path())) {
-                const auto ending = entry.path().extension();
-                if (ending != ".h" && ending != ".cpp") continue;
-                std::ifstream file(entry.path(), std::ios::binary);
-                found[fs::relative(entry.path(), root).string()] =
-                    split_source({std::istreambuf_iterator<char>(file), {}});
-            }
+        for (const fs::path& folder : testing::folders_of_the_product()) {
+            for (const fs::path& path : testing::sources_below(folder))
+                found[fs::relative(path, testing::source_directory())] =
+                    split_source(testing::text_of(path));
         }
         return found;
     }();
@@ -135,6 +128,33 @@ TEST(FactsOnce, NoProjectionIsListedByHand) {
                                      "include/stormcellar/grid/grid_spec.h"}));
 }
 
+// Sources of the page in which two of the names are side by side, as in a list or a record that was
+// typed by hand. One name alone is fine, because facts.ts has no other words for them.
+std::set<std::string> files_of_the_page_that_list(const std::string& names) {
+    const std::regex listed(R"(\b()" + names + R"()\b['"`]?( ?:[^;]{0,60}?)?\s*[,|/]\s*['"`]?()" +
+                            names + R"()\b)");
+    const fs::path root = testing::source_directory() / "viewer" / "src";
+    std::set<std::string> files;
+    for (const fs::path& path : testing::files_below(root)) {
+        if (path.extension() != ".ts" || testing::is_viewer_test(path)) continue;
+        const std::string code = testing::without_comments(testing::text_of(path));
+        if (std::regex_search(code, listed)) files.insert(fs::relative(path, root));
+    }
+    return files;
+}
+
+// tests/repository/viewer_facts_test.cpp writes facts.ts from the tables.
+TEST(FactsOnce, ThePageListsNamesInItsFactsAlone) {
+    EXPECT_EQ(files_of_the_page_that_list("REF|VEL|SW|ZDR|PHI|RHO|CFP"),
+              (std::set<std::string>{"facts.ts", "tables/pal_file.ts"}))
+        << "pal_file.ts writes the words of .pal files";
+    EXPECT_EQ(files_of_the_page_that_list("azimuthal_equidistant|lambert_conformal"
+                                          "|latitude_longitude"),
+              std::set<std::string>{"facts.ts"});
+    EXPECT_EQ(files_of_the_page_that_list("composite|ppi|cappi|echotop|vil"),
+              std::set<std::string>{});
+}
+
 // From an opening bracket to behind the one that closes it.
 std::string in_brackets(const std::string& code, std::size_t at, char open, char close) {
     int depth = 0;
@@ -159,18 +179,24 @@ std::vector<std::string> switches_of(const std::string& code) {
     return bodies;
 }
 
+const std::regex case_of_a_table(
+    R"(\bcase\s+(\w+::)*(Moment|Circle|Blending|Product|View|Projection|Interpolation|CellExtent|Averaging|Overlap|TimeMethod)::)");
+
 bool has_default_over_a_table(const std::string& code) {
-    static const std::regex of_table(
-        R"(\bcase\s+(\w+::)*(Moment|Circle|Blending|Product|View|Projection|Interpolation|CellExtent|Averaging|Overlap|TimeMethod)::)");
     static const std::regex fallback(R"(\bdefault\s*:)");
     return std::ranges::any_of(switches_of(code), [](const std::string& body) {
-        return std::regex_search(body, of_table) && std::regex_search(body, fallback);
+        return std::regex_search(body, case_of_a_table) && std::regex_search(body, fallback);
     });
 }
 
 TEST(FactsOnce, NoDefaultLetsAForgottenCaseCompile) {
-    for (const auto& [path, source] : split_sources())
+    std::size_t switches = 0;
+    for (const auto& [path, source] : split_sources()) {
         EXPECT_FALSE(has_default_over_a_table(source.code)) << path;
+        for (const std::string& body : switches_of(source.code))
+            switches += std::regex_search(body, case_of_a_table) ? 1 : 0;
+    }
+    EXPECT_GE(switches, 8U) << "switches over enumerations of tables";
 }
 
 TEST(FactsOnce, TheCheckSeesWhatItLooksFor) {

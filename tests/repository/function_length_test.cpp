@@ -5,7 +5,6 @@
 // indent is measured too, and can be no longer than its function. In TypeScript a function may also
 // be a constant of arrow form, which ends with "};". Shaders have the layout of C++.
 #include <filesystem>
-#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -56,13 +55,10 @@ std::vector<LongFunction> long_functions(const std::string& text, std::size_t in
 }
 
 TEST(FunctionLength, NoFunctionIsLongerThanSixtyLines) {
-    const std::set<std::string> skipped = {"tests", "build", "out", "docs", "scripts"};
     const fs::path root = testing::source_directory();
     std::size_t sources = 0;
-    for (const auto& room : fs::directory_iterator(root)) {
-        const std::string name = room.path().filename().string();
-        if (!room.is_directory() || name.starts_with('.') || skipped.contains(name)) continue;
-        for (const fs::path& path : testing::files_below(room.path())) {
+    for (const fs::path& folder : testing::folders_of_the_product()) {
+        for (const fs::path& path : testing::files_below(folder)) {
             const auto ending = path.extension();
             if (ending == ".ts" && testing::is_viewer_test(path)) continue;
             if (path.string().starts_with((root / "viewer" / "third_party").string())) continue;

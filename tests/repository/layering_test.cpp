@@ -135,12 +135,8 @@ const std::map<std::string, std::string> homes_of_headers = {
 // Returns the paths that a text includes in quotes, as they are written.
 std::vector<fs::path> quoted_includes(const std::string& text) {
     static const std::regex include(R"re((?:^|\n)\s*#\s*include\s*"([^"]+/[^"]+)")re");
-    std::vector<fs::path> found;
-    for (auto match = std::sregex_iterator(text.begin(), text.end(), include);
-         match != std::sregex_iterator(); ++match) {
-        found.emplace_back((*match)[1].str());
-    }
-    return found;
+    const auto found = testing::found_in(text, include);
+    return {found.begin(), found.end()};
 }
 
 // "grid", "fill/column.h" of grid/fill/column.h; "grid", "gridder.h" of stormcellar/grid/gridder.h.
@@ -168,21 +164,12 @@ Rooms included_rooms(const std::string& text) {
     return rooms;
 }
 
-std::vector<fs::path> sources_of(const fs::path& room) {
-    std::vector<fs::path> sources;
-    for (const auto& entry : fs::recursive_directory_iterator(room)) {
-        const auto ending = entry.path().extension();
-        if (ending == ".h" || ending == ".cpp") sources.push_back(entry.path());
-    }
-    return sources;
-}
-
 // The sources of a room and its public headers.
 std::vector<fs::path> all_sources_of(const std::string& room) {
-    std::vector<fs::path> sources = sources_of(testing::source_directory() / room);
+    std::vector<fs::path> sources = testing::sources_below(testing::source_directory() / room);
     const fs::path headers = testing::source_directory() / "include" / "stormcellar" / room;
     if (fs::exists(headers)) {
-        for (fs::path& header : sources_of(headers))
+        for (fs::path& header : testing::sources_below(headers))
             sources.push_back(std::move(header));
     }
     return sources;
@@ -254,7 +241,7 @@ TEST_P(Layering, PublicHeadersIncludePublicOnes) {
     const fs::path headers =
         testing::source_directory() / "include" / "stormcellar" / GetParam().first;
     if (!fs::exists(headers)) return;
-    for (const fs::path& header : sources_of(headers)) {
+    for (const fs::path& header : testing::sources_below(headers)) {
         for (const fs::path& included : quoted_includes(testing::text_of(header)))
             EXPECT_TRUE(place_of(included).is_public) << header << " includes " << included;
     }
@@ -292,7 +279,7 @@ TEST(LayeringCheck, KnowsEveryRoom) {
     for (const auto& entry : fs::directory_iterator(testing::source_directory())) {
         const std::string name = entry.path().filename();
         if (!entry.is_directory() || name.starts_with(".") || free.contains(name)) continue;
-        if (!sources_of(entry.path()).empty()) {
+        if (!testing::sources_below(entry.path()).empty()) {
             EXPECT_TRUE(allowed.contains(name)) << name << " is no room of the design";
         }
     }

@@ -2,8 +2,6 @@
 // scripts/check-locks).
 #include <filesystem>
 #include <regex>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,29 +17,19 @@ namespace fs = std::filesystem;
 
 const std::string the_header = "include/stormcellar/base/mutex.h";
 
-std::string code_alone(const std::string& text) {
-    std::istringstream lines(text);
-    std::string code;
-    for (std::string line; std::getline(lines, line);)
-        code += line.substr(0, line.find("//")) + '\n';
-    return code;
-}
-
-// The headers and sources of the product, below the root.
-std::vector<std::string> product_sources() {
-    const fs::path root = testing::source_directory();
-    const std::set<std::string> others{"bench", "build", "docs", "tests"};
+// The headers and sources of the rooms, below the root.
+std::vector<std::string> sources_of_rooms() {
     std::vector<std::string> found;
-    for (const auto& room : fs::directory_iterator(root)) {
-        const std::string name = room.path().filename().string();
-        if (!room.is_directory() || name.starts_with('.') || others.contains(name)) continue;
-        for (const auto& entry : fs::recursive_directory_iterator(room)) {
-            const auto ending = entry.path().extension();
-            if (ending == ".h" || ending == ".cpp")
-                found.push_back(fs::relative(entry.path(), root).string());
-        }
+    for (const fs::path& folder : testing::folders_of_the_product()) {
+        if (folder.filename() == "bench" || folder.filename() == "docs") continue;
+        for (const fs::path& path : testing::sources_below(folder))
+            found.push_back(fs::relative(path, testing::source_directory()));
     }
     return found;
+}
+
+std::string code_of(const std::string& path) {
+    return testing::without_comments(testing::text_of(testing::source_directory() / path));
 }
 
 // Locks of the standard library, whose uses the analysis does not see.
@@ -70,11 +58,11 @@ std::vector<std::string> silent_mutexes(const std::string& code) {
 }
 
 TEST(Locks, AreThoseThatClangChecks) {
-    const auto sources = product_sources();
+    const auto sources = sources_of_rooms();
     ASSERT_GE(sources.size(), 1000U);
     for (const std::string& path : sources) {
         if (path == the_header) continue;
-        const std::string code = code_alone(testing::text_of(testing::source_directory() / path));
+        const std::string code = code_of(path);
         for (const std::string& lock : unseen_locks(code))
             ADD_FAILURE() << path << ": " << lock << "; use " << the_header;
     }
@@ -82,9 +70,9 @@ TEST(Locks, AreThoseThatClangChecks) {
 
 TEST(Locks, EveryMutexSaysWhatItGuards) {
     std::size_t guarded = 0;
-    for (const std::string& path : product_sources()) {
+    for (const std::string& path : sources_of_rooms()) {
         if (path == the_header) continue;
-        const std::string code = code_alone(testing::text_of(testing::source_directory() / path));
+        const std::string code = code_of(path);
         for (const std::string& name : silent_mutexes(code))
             ADD_FAILURE() << path << ": nothing says what " << name << " guards";
         guarded += code.find("STORMCELLAR_GUARDED_BY(") != std::string::npos ? 1 : 0;

@@ -20,20 +20,9 @@ namespace fs = std::filesystem;
 
 std::map<std::string, std::string> daemon_sources() {
     std::map<std::string, std::string> sources;
-    for (const auto& entry :
-         fs::recursive_directory_iterator(testing::source_directory() / "daemon")) {
-        const auto ending = entry.path().extension();
-        if (ending == ".h" || ending == ".cpp")
-            sources[entry.path().filename().string()] = testing::text_of(entry.path());
-    }
+    for (const fs::path& path : testing::sources_below(testing::source_directory() / "daemon"))
+        sources[path.filename()] = testing::text_of(path);
     return sources;
-}
-
-std::vector<std::string> matches(const std::string& text, const std::regex& what) {
-    std::vector<std::string> found;
-    for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at)
-        found.push_back((*at)[1]);
-    return found;
 }
 
 // Returns the part of a text that begins with `from` and ends before the next `to`.
@@ -48,7 +37,7 @@ std::vector<std::string> events() {
     const std::string header =
         testing::text_of(testing::source_directory() / "daemon/log/log_event.h");
     static const std::regex name(R"(\n    ([a-z_]+),)");
-    return matches(between(header, "enum class Event {", "};"), name);
+    return testing::found_in(between(header, "enum class Event {", "};"), name);
 }
 
 std::string chapter() {
@@ -63,7 +52,7 @@ std::map<std::string, std::string> rows_by_event() {
     static const std::regex first(R"(^\| `([a-z_]+)` \|)");
     std::map<std::string, std::string> rows;
     std::string event;
-    for (const std::string& line : matches(chapter(), row)) {
+    for (const std::string& line : testing::found_in(chapter(), row)) {
         std::smatch named;
         if (std::regex_search(line, named, first)) event = named[1];
         if (!event.empty()) rows[event] += line + "\n";

@@ -5,7 +5,6 @@
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,33 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> names_in(const std::string& text, const std::regex& what) {
-    std::vector<std::string> found;
-    for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at)
-        found.push_back((*at)[1]);
-    return found;
-}
-
-std::string without_comments(const std::string& text) {
-    std::istringstream lines(text);
-    std::string code;
-    for (std::string line; std::getline(lines, line);)
-        code += line.substr(0, line.find("//")) + '\n';
-    return code;
-}
-
 // The code of the rooms that have a table here, by the paths of the sources.
 const std::map<std::string, std::string>& code_by_path() {
     static const auto all = [] {
         const fs::path root = testing::source_directory();
         std::map<std::string, std::string> code;
         for (const char* room : {"cli", "daemon", "export", "pipeline", "render"}) {
-            for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
-                const auto ending = entry.path().extension();
-                if (ending != ".h" && ending != ".cpp") continue;
-                code[fs::relative(entry.path(), root).string()] =
-                    without_comments(testing::text_of(entry.path()));
-            }
+            for (const fs::path& path : testing::sources_below(root / room))
+                code[fs::relative(path, root)] = testing::without_comments(testing::text_of(path));
         }
         return code;
     }();
@@ -73,7 +53,7 @@ const std::set<std::string> subcommand_registry{"cli/subcommands.cpp"};
 
 TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
     const std::string table = testing::text_of(testing::source_directory() / *option_table.begin());
-    const auto options = names_in(table, std::regex(R"re(option = "(--[a-z-]+)")re"));
+    const auto options = testing::found_in(table, std::regex(R"re(option = "(--[a-z-]+)")re"));
     ASSERT_GE(options.size(), 29U);
     const std::set<std::string> distinct(options.begin(), options.end());
     EXPECT_EQ(distinct.size(), options.size()) << "each is one row";
@@ -86,7 +66,7 @@ TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
 
 TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
     const std::string table = testing::text_of(testing::source_directory() / *option_table.begin());
-    const auto keys = names_in(table, std::regex(R"re(key = "([a-z_]+)")re"));
+    const auto keys = testing::found_in(table, std::regex(R"re(key = "([a-z_]+)")re"));
     ASSERT_GE(keys.size(), 28U);
     // These are words that the metadata and the JSON of a picture have as well.
     const std::set<std::string> also_facts{"product", "moment",      "width",        "height",
@@ -102,7 +82,7 @@ TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
 TEST(OnePlace, ASubcommandIsRegisteredOnce) {
     const std::string registry =
         testing::text_of(testing::source_directory() / *subcommand_registry.begin());
-    const auto names = names_in(registry, std::regex(R"re(Subcommand\{"([a-z]+)")re"));
+    const auto names = testing::found_in(registry, std::regex(R"re(Subcommand\{"([a-z]+)")re"));
     ASSERT_GE(names.size(), 11U);
     EXPECT_TRUE(std::ranges::is_sorted(names)) << "as --help shows them";
     for (const std::string& name : names) {

@@ -1,13 +1,18 @@
-// tests/repository/text_of.h -- files of the tree, and a file as one text.
+// tests/repository/text_of.h -- files of the tree, a file as one text, and what is in a text.
 #pragma once
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/testing/data.h"
 
 namespace stormcellar::testing {
 
@@ -16,6 +21,23 @@ namespace stormcellar::testing {
     std::ifstream file(path, std::ios::binary);
     EXPECT_TRUE(file) << path;
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Returns what the first group of the expression matches.
+[[nodiscard]] inline std::vector<std::string> found_in(const std::string& text,
+                                                       const std::regex& what) {
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at)
+        found.push_back((*at)[1]);
+    return found;
+}
+
+[[nodiscard]] inline std::string without_comments(const std::string& text) {
+    std::istringstream lines(text);
+    std::string code;
+    for (std::string line; std::getline(lines, line);)
+        code += line.substr(0, line.find("//")) + '\n';
+    return code;
 }
 
 // Returns the files below a folder, without those that npm installs.
@@ -27,6 +49,29 @@ namespace stormcellar::testing {
         if (entry->is_regular_file()) files.push_back(entry->path());
     }
     return files;
+}
+
+// Returns the headers and sources in C++ below a folder.
+[[nodiscard]] inline std::vector<std::filesystem::path> sources_below(
+    const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> sources = files_below(folder);
+    std::erase_if(sources, [](const std::filesystem::path& path) {
+        return path.extension() != ".h" && path.extension() != ".cpp";
+    });
+    return sources;
+}
+
+// Returns the folders of the root that hold the product, its benchmarks and its documents: all but
+// the tests, builds and hidden ones.
+[[nodiscard]] inline std::vector<std::filesystem::path> folders_of_the_product() {
+    std::vector<std::filesystem::path> folders;
+    for (const auto& entry : std::filesystem::directory_iterator(source_directory())) {
+        const std::string name = entry.path().filename();
+        const bool is_other =
+            name.starts_with('.') || name.starts_with("build") || name == "tests" || name == "out";
+        if (entry.is_directory() && !is_other) folders.push_back(entry.path());
+    }
+    return folders;
 }
 
 // Returns true for the unit tests of the viewer, which stand beside its sources, and for what they

@@ -45,15 +45,11 @@ const std::map<std::string, std::string>& code_of_tests() {
     static const auto all = [] {
         const fs::path root = testing::source_directory() / "tests";
         std::map<std::string, std::string> code;
-        for (const auto& entry : fs::recursive_directory_iterator(root)) {
-            const std::string ending = entry.path().extension();
-            const std::string name = fs::relative(entry.path(), root);
-            if (ending != ".cpp" && ending != ".h") continue;
+        for (const fs::path& path : testing::sources_below(root)) {
+            const std::string name = fs::relative(path, root);
             if (name.starts_with("bench/") || name.starts_with("viewer/")) continue;
             if (name == "repository/waits_test.cpp") continue;
-            std::istringstream lines(testing::text_of(entry.path()));
-            for (std::string line; std::getline(lines, line);)
-                code[name] += line.substr(0, line.find("//")) + '\n';
+            code[name] = testing::without_comments(testing::text_of(path));
         }
         return code;
     }();
