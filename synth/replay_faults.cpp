@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/floating_point.h"
+#include "base/split.h"
 #include "synth/counter_random.h"
 
 namespace stormcellar::synth {
@@ -70,11 +71,7 @@ std::string_view to_string(Fault fault) {
 Result<FaultRates> parse_fault_rates(std::string_view text) {
     FaultRates rates;
     std::set<std::string_view> seen;
-    for (bool more = true; more;) {
-        const std::size_t comma = std::min(text.find(','), text.size());
-        const std::string_view part = text.substr(0, comma);
-        more = comma < text.size();
-        text.remove_prefix(more ? comma + 1 : comma);
+    for (const std::string_view part : split(text, ',')) {
         const std::size_t equals = part.find('=');
         if (equals == std::string_view::npos) {
             return fail(ErrorCode::bad_argument,

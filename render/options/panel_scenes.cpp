@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "base/split.h"
 #include "stormcellar/render/panels.h"
 
 namespace stormcellar::render {
@@ -11,10 +12,7 @@ namespace stormcellar::render {
 Result<std::vector<level2::Moment>> moments_of_panels(const std::string& list,
                                                       std::string_view name) {
     std::vector<level2::Moment> moments;
-    for (std::size_t begin = 0; begin <= list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string word = list.substr(begin, end - begin);
-        begin = end + 1;
+    for (const std::string_view word : split(list, ',')) {
         const auto moment = level2::moment_from_name(word);
         if (!moment) {
             return fail(ErrorCode::bad_argument, "{} must name moments ({}), not '{}'", name,

@@ -1,5 +1,6 @@
 #include "stormcellar/render/light.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -7,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include "base/split.h"
 #include "render/image/unknown_name.h"
 
 namespace stormcellar::render {
@@ -33,22 +35,15 @@ Status set_light(const std::string& names, Light& light) {
     Light set = light;
     for (const Named& kind : kinds)
         set.*kind.field = false;
-    std::string_view rest = names;
-    while (names != "none") {
-        const std::string_view name = rest.substr(0, rest.find(','));
-        bool known = false;
-        for (const Named& kind : kinds) {
-            if (kind.name != name) continue;
-            set.*kind.field = true;
-            known = true;
-        }
+    for (const std::string_view name : split(names, ',')) {
+        if (names == "none") break;
         if (name == "none") {
             return fail(ErrorCode::bad_argument,
                         "none cannot be combined with other kinds of light, as in '{}'", names);
         }
-        if (!known) return unknown_light(name);
-        if (name.size() == rest.size()) break;
-        rest.remove_prefix(name.size() + 1);
+        const auto* const kind = std::ranges::find(kinds, name, &Named::name);
+        if (kind == kinds.end()) return unknown_light(name);
+        set.*kind->field = true;
     }
     light = set;
     return {};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/name_list.h"
+#include "base/split.h"
 #include "render/image/unknown_name.h"
 
 namespace stormcellar::render {
@@ -102,12 +103,10 @@ const UnitFacts& facts_of(Unit unit) {
 
 Result<Units> units_from_names(std::string_view names) {
     std::vector<const UnitFacts*> units;
-    for (std::size_t from = 0; from <= names.size();) {
-        const std::size_t to = std::min(names.find(',', from), names.size());
-        const auto unit = unit_named(names.substr(from, to - from));
+    for (const std::string_view name : split(names, ',')) {
+        const auto unit = unit_named(name);
         if (!unit) return pass_on(unit);
         units.push_back(*unit);
-        from = to + 1;
     }
     // A unit of several quantities applies to those that the others leave.
     std::stable_partition(units.begin(), units.end(),
