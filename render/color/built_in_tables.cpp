@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,218 +33,156 @@ Rgba8 rgba_of(std::uint32_t rgb) {
             static_cast<std::uint8_t>(rgb & 0xFFU), 255};
 }
 
-// Makes classes without blending. `end` is the upper end of the last class in a color bar.
-ColorTable stepped(std::string_view name, Moment moment, std::string unit,
-                   std::span<const ColorClass> classes, float end) {
-    ColorTable table;
-    table.name = name;
-    table.moment = moment;
-    table.unit = std::move(unit);
-    table.end = end;
-    table.range_folded = usual_range_folded;
-    for (const ColorClass& one : classes) {
-        const Rgba8 color = rgba_of(one.rgb);
-        table.stops.push_back({one.from, color, color});
-    }
-    return table;
-}
+constexpr ColorClass nws_reflectivity_classes[] = {
+    {5, 0x04E9E7},  {10, 0x019FF4}, {15, 0x0300F4}, {20, 0x02FD02}, {25, 0x01C501},
+    {30, 0x008E00}, {35, 0xFDF802}, {40, 0xE5BC00}, {45, 0xFD9500}, {50, 0xFD0000},
+    {55, 0xD40000}, {60, 0xBC0000}, {65, 0xF800FD}, {70, 0x9854C6}, {75, 0xFDFDFD},
+};
 
-ColorTable of_moment(std::string_view name, Moment moment, std::span<const ColorClass> classes,
-                     float end) {
-    ColorTable table = stepped(name, moment, unit_of(moment), classes, end);
-    table.extinction = default_extinction(moment, table.lowest());
-    return table;
-}
+constexpr ColorClass nws_velocity_classes[] = {
+    {least_velocity, 0x02FC02},
+    {-33, 0x01E401},
+    {-25.5, 0x01C501},
+    {-18.5, 0x07AC04},
+    {-13.5, 0x068F03},
+    {-10, 0x047202},
+    {-5, 0x7C977B},
+    {-0.5, 0x808080},
+    {0.5, 0x987777},
+    {5, 0x890000},
+    {10, 0xA20000},
+    {13.5, 0xB90000},
+    {18.5, 0xD80000},
+    {25.5, 0xEF0000},
+    {33, 0xFE0000},
+};
 
-// Makes the table of a product that is not a moment. Nothing draws it as a volume.
-ColorTable of_product(std::string_view name, std::string unit, std::span<const ColorClass> classes,
-                      float end) {
-    ColorTable table = stepped(name, Moment::ref, std::move(unit), classes, end);
-    table.extinction = {{table.lowest(), 0}};
-    return table;
-}
+constexpr ColorClass nws_spectrum_width_classes[] = {{0, 0x767676}, {2, 0x9C9C9C}, {4, 0x00BB00},
+                                                     {6, 0xFF0000}, {8, 0xD07000}, {10, 0xFFFF00}};
 
-ColorTable nws_reflectivity_table() {
-    constexpr ColorClass classes[] = {
-        {5, 0x04E9E7},  {10, 0x019FF4}, {15, 0x0300F4}, {20, 0x02FD02}, {25, 0x01C501},
-        {30, 0x008E00}, {35, 0xFDF802}, {40, 0xE5BC00}, {45, 0xFD9500}, {50, 0xFD0000},
-        {55, 0xD40000}, {60, 0xBC0000}, {65, 0xF800FD}, {70, 0x9854C6}, {75, 0xFDFDFD},
-    };
-    return of_moment("nws-reflectivity", Moment::ref, classes, 80);
-}
+constexpr ColorClass nws_zdr_classes[] = {
+    {least_zdr, 0x404040}, {-2, 0x9C9C9C}, {-0.5, 0xC9C9C9}, {0, 0x8C78B4}, {0.25, 0x000098},
+    {0.5, 0x2398D3},       {1, 0x44FFD2},  {1.5, 0x57DB56},  {2, 0xFFFF60}, {2.5, 0xFF9045},
+    {3, 0xDA0000},         {4, 0xAE0000},  {5, 0xF782BE},    {6, 0xFFFFFF},
+};
 
-ColorTable nws_velocity_table() {
-    constexpr ColorClass classes[] = {
-        {least_velocity, 0x02FC02},
-        {-33, 0x01E401},
-        {-25.5, 0x01C501},
-        {-18.5, 0x07AC04},
-        {-13.5, 0x068F03},
-        {-10, 0x047202},
-        {-5, 0x7C977B},
-        {-0.5, 0x808080},
-        {0.5, 0x987777},
-        {5, 0x890000},
-        {10, 0xA20000},
-        {13.5, 0xB90000},
-        {18.5, 0xD80000},
-        {25.5, 0xEF0000},
-        {33, 0xFE0000},
-    };
-    ColorTable table = of_moment("nws-velocity", Moment::vel, classes, 40);
-    table.bar_begin = -40.0F;
-    return table;
-}
+constexpr ColorClass nws_rho_classes[] = {
+    {0.2F, 0x95949C},  {0.45F, 0x16148C}, {0.65F, 0x0902D9}, {0.75F, 0x8987D6}, {0.8F, 0x5CFF59},
+    {0.85F, 0x8BCF02}, {0.9F, 0xFFFB00},  {0.93F, 0xFFC400}, {0.95F, 0xFF8903}, {0.96F, 0xFF2B00},
+    {0.97F, 0xE30000}, {0.98F, 0xA10000}, {0.99F, 0x970556}, {1, 0xFAACD1},
+};
 
-ColorTable nws_spectrum_width_table() {
-    constexpr ColorClass classes[] = {{0, 0x767676}, {2, 0x9C9C9C}, {4, 0x00BB00},
-                                      {6, 0xFF0000}, {8, 0xD07000}, {10, 0xFFFF00}};
-    return of_moment("nws-spectrum-width", Moment::sw, classes, 12);
-}
+constexpr ColorClass nws_echo_top_classes[] = {
+    {0, 0x4C4C4C},   {1.5, 0x767676},  {3, 0x00E0FF},    {4.5, 0x00B0FF},  {6, 0x0090CC},
+    {7.5, 0x320096}, {9, 0x00FB90},    {10.5, 0x00BB00}, {12, 0x00EF00},   {13.5, 0xFEBF00},
+    {15, 0xFFFF00},  {16.5, 0xAE0000}, {18, 0xFF0000},   {19.5, 0xFFFFFF}, {21, 0xE700FF},
+};
 
-ColorTable nws_zdr_table() {
-    constexpr ColorClass classes[] = {
-        {least_zdr, 0x404040}, {-2, 0x9C9C9C}, {-0.5, 0xC9C9C9}, {0, 0x8C78B4}, {0.25, 0x000098},
-        {0.5, 0x2398D3},       {1, 0x44FFD2},  {1.5, 0x57DB56},  {2, 0xFFFF60}, {2.5, 0xFF9045},
-        {3, 0xDA0000},         {4, 0xAE0000},  {5, 0xF782BE},    {6, 0xFFFFFF},
-    };
-    ColorTable table = of_moment("nws-zdr", Moment::zdr, classes, 8);
-    table.bar_begin = -4.0F;
-    return table;
-}
+constexpr ColorClass nws_vil_classes[] = {
+    {1, 0x9C9C9C},  {5, 0x767676},  {10, 0xFFAAAA}, {15, 0xEE8C8C}, {20, 0xC97070},
+    {25, 0x00FB90}, {30, 0x00BB00}, {35, 0xFFFF70}, {40, 0xD0D060}, {45, 0xFF6060},
+    {50, 0xDA0000}, {55, 0xAE0000}, {60, 0x0000FF}, {65, 0xFFFFFF}, {70, 0xE700FF},
+};
 
-ColorTable nws_rho_table() {
-    constexpr ColorClass classes[] = {
-        {0.2F, 0x95949C},  {0.45F, 0x16148C}, {0.65F, 0x0902D9}, {0.75F, 0x8987D6},
-        {0.8F, 0x5CFF59},  {0.85F, 0x8BCF02}, {0.9F, 0xFFFB00},  {0.93F, 0xFFC400},
-        {0.95F, 0xFF8903}, {0.96F, 0xFF2B00}, {0.97F, 0xE30000}, {0.98F, 0xA10000},
-        {0.99F, 0x970556}, {1, 0xFAACD1},
-    };
-    return of_moment("nws-rho", Moment::rho, classes, 1.05F);
-}
+constexpr ColorClass phi_classes[] = {
+    {0, 0x6A3D9A},   {30, 0x3F51B5},  {60, 0x1E88E5},  {90, 0x00ACC1},
+    {120, 0x00897B}, {150, 0x43A047}, {180, 0x9CCC65}, {210, 0xFFEB3B},
+    {240, 0xFFB300}, {270, 0xFB6A1A}, {300, 0xE53935}, {330, 0xAD1457},
+};
 
-ColorTable nws_echo_top_table() {
-    constexpr ColorClass classes[] = {
-        {0, 0x4C4C4C},   {1.5, 0x767676},  {3, 0x00E0FF},    {4.5, 0x00B0FF},  {6, 0x0090CC},
-        {7.5, 0x320096}, {9, 0x00FB90},    {10.5, 0x00BB00}, {12, 0x00EF00},   {13.5, 0xFEBF00},
-        {15, 0xFFFF00},  {16.5, 0xAE0000}, {18, 0xFF0000},   {19.5, 0xFFFFFF}, {21, 0xE700FF},
-    };
-    return of_product("nws-echo-top", "km", classes, 22.5);
-}
-
-ColorTable nws_vil_table() {
-    constexpr ColorClass classes[] = {
-        {1, 0x9C9C9C},  {5, 0x767676},  {10, 0xFFAAAA}, {15, 0xEE8C8C}, {20, 0xC97070},
-        {25, 0x00FB90}, {30, 0x00BB00}, {35, 0xFFFF70}, {40, 0xD0D060}, {45, 0xFF6060},
-        {50, 0xDA0000}, {55, 0xAE0000}, {60, 0x0000FF}, {65, 0xFFFFFF}, {70, 0xE700FF},
-    };
-    return of_product("nws-vil", "kg/m2", classes, 75);
-}
-
-ColorTable phi_table() {
-    constexpr ColorClass classes[] = {
-        {0, 0x6A3D9A},   {30, 0x3F51B5},  {60, 0x1E88E5},  {90, 0x00ACC1},
-        {120, 0x00897B}, {150, 0x43A047}, {180, 0x9CCC65}, {210, 0xFFEB3B},
-        {240, 0xFFB300}, {270, 0xFB6A1A}, {300, 0xE53935}, {330, 0xAD1457},
-    };
-    return of_moment("phi", Moment::phi, classes, 360);
-}
-
-ColorTable cfp_table() {
-    constexpr ColorClass classes[] = {
-        {0, 0x4A4A4A},  {5, 0x8C8C8C},  {10, 0x5B7FBF}, {15, 0x2F9CD8},
-        {20, 0x2EC4A6}, {25, 0x6FD24B}, {30, 0xD9D93B}, {35, 0xF2A93B},
-        {40, 0xEE6C2D}, {45, 0xD62F2F}, {50, 0xF2C1E0},
-    };
-    return of_moment("cfp", Moment::cfp, classes, 55);
-}
+constexpr ColorClass cfp_classes[] = {
+    {0, 0x4A4A4A},  {5, 0x8C8C8C},  {10, 0x5B7FBF}, {15, 0x2F9CD8}, {20, 0x2EC4A6}, {25, 0x6FD24B},
+    {30, 0xD9D93B}, {35, 0xF2A93B}, {40, 0xEE6C2D}, {45, 0xD62F2F}, {50, 0xF2C1E0},
+};
 
 // From dark blue to light yellow, because every kind of color vision distinguishes light from dark
 // and blue from yellow. The steps are about equal along a path through Lab.
-ColorTable height_table() {
-    constexpr ColorClass classes[] = {
-        {least_height, 0x003482},
-        {0.5, 0x144D94},
-        {1, 0x27649E},
-        {1.5, 0x3379A8},
-        {2, 0x658799},
-        {3, 0x798D8F},
-        {4, 0x899386},
-        {5, 0x98997B},
-        {6, 0xAAA26D},
-        {8, 0xC0AD58},
-        {10, 0xDEC44F},
-        {12, 0xFFE170},
-        {15, 0xFFEEBE},
-        {18, 0xFFF9ED},
-    };
-    ColorTable table = of_product("height", "km", classes, 20);
-    table.bar_begin = 0.0F;
-    return table;
-}
+constexpr ColorClass height_classes[] = {
+    {least_height, 0x003482},
+    {0.5, 0x144D94},
+    {1, 0x27649E},
+    {1.5, 0x3379A8},
+    {2, 0x658799},
+    {3, 0x798D8F},
+    {4, 0x899386},
+    {5, 0x98997B},
+    {6, 0xAAA26D},
+    {8, 0xC0AD58},
+    {10, 0xDEC44F},
+    {12, 0xFFE170},
+    {15, 0xFFEEBE},
+    {18, 0xFFF9ED},
+};
 
-ColorTable vil_density_table() {
-    constexpr ColorClass classes[] = {
-        {0.25, 0x6C7A89}, {0.5, 0x4F7FB5}, {1, 0x2FA4D8}, {1.5, 0x35C3A0},
-        {2, 0x43B649},    {2.5, 0xA5CF3B}, {3, 0xFFDC3C}, {3.5, 0xFF5A36},
-        {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
-    };
-    return of_product("water-density", "g/m3", classes, 7);
-}
+constexpr ColorClass vil_density_classes[] = {
+    {0.25, 0x6C7A89}, {0.5, 0x4F7FB5}, {1, 0x2FA4D8}, {1.5, 0x35C3A0},
+    {2, 0x43B649},    {2.5, 0xA5CF3B}, {3, 0xFFDC3C}, {3.5, 0xFF5A36},
+    {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
+};
 
-ColorTable safe_reflectivity_table() {
-    constexpr ColorClass classes[] = {
-        {5, 0x003482},  {10, 0x114B94}, {15, 0x26619E}, {20, 0x3175A6}, {25, 0x60869C},
-        {30, 0x758C92}, {35, 0x859189}, {40, 0x929780}, {45, 0xA29E74}, {50, 0xB5A763},
-        {55, 0xCFB851}, {60, 0xEDD04C}, {65, 0xFFE487}, {70, 0xFFF0C7}, {75, 0xFEFAF3},
-    };
-    return of_moment("safe-reflectivity", Moment::ref, classes, 80);
-}
+constexpr ColorClass safe_reflectivity_classes[] = {
+    {5, 0x003482},  {10, 0x114B94}, {15, 0x26619E}, {20, 0x3175A6}, {25, 0x60869C},
+    {30, 0x758C92}, {35, 0x859189}, {40, 0x929780}, {45, 0xA29E74}, {50, 0xB5A763},
+    {55, 0xCFB851}, {60, 0xEDD04C}, {65, 0xFFE487}, {70, 0xFFF0C7}, {75, 0xFEFAF3},
+};
 
 // Blue toward the radar, orange away from it, gray at rest; faster is lighter.
-ColorTable safe_velocity_table() {
-    constexpr ColorClass classes[] = {
-        {least_velocity, 0xC4EFFF},
-        {-33, 0x8FD7FE},
-        {-25.5, 0x42B0F1},
-        {-18.5, 0x4892C8},
-        {-10, 0x55799F},
-        {-5, 0x606C7C},
-        {-0.5, 0x636363},
-        {0.5, 0x846659},
-        {5, 0xAB694A},
-        {10, 0xCF793C},
-        {18.5, 0xF69A39},
-        {25.5, 0xFFC972},
-        {33, 0xFFE6B0},
-    };
-    ColorTable table = of_moment("safe-velocity", Moment::vel, classes, 40);
-    table.bar_begin = -40.0F;
-    return table;
-}
+constexpr ColorClass safe_velocity_classes[] = {
+    {least_velocity, 0xC4EFFF},
+    {-33, 0x8FD7FE},
+    {-25.5, 0x42B0F1},
+    {-18.5, 0x4892C8},
+    {-10, 0x55799F},
+    {-5, 0x606C7C},
+    {-0.5, 0x636363},
+    {0.5, 0x846659},
+    {5, 0xAB694A},
+    {10, 0xCF793C},
+    {18.5, 0xF69A39},
+    {25.5, 0xFFC972},
+    {33, 0xFFE6B0},
+};
 
-ColorTable safe_zdr_table() {
-    constexpr ColorClass classes[] = {
-        {least_zdr, 0x013288}, {-2, 0x474B8C}, {-0.5, 0x5D5B8A}, {0, 0x716786}, {0.25, 0x846E7F},
-        {0.5, 0x957478},       {1, 0xAA7D6F},  {1.5, 0xC38862},  {2, 0xDA9D58}, {2.5, 0xF9B947},
-        {3, 0xFFD07D},         {4, 0xFFE1A8},  {5, 0xFFEFCB},    {6, 0xFFFBEA},
-    };
-    ColorTable table = of_moment("safe-zdr", Moment::zdr, classes, 8);
-    table.bar_begin = -4.0F;
-    return table;
-}
+constexpr ColorClass safe_zdr_classes[] = {
+    {least_zdr, 0x013288}, {-2, 0x474B8C}, {-0.5, 0x5D5B8A}, {0, 0x716786}, {0.25, 0x846E7F},
+    {0.5, 0x957478},       {1, 0xAA7D6F},  {1.5, 0xC38862},  {2, 0xDA9D58}, {2.5, 0xF9B947},
+    {3, 0xFFD07D},         {4, 0xFFE1A8},  {5, 0xFFEFCB},    {6, 0xFFFBEA},
+};
 
-ColorTable safe_rho_table() {
-    constexpr ColorClass classes[] = {
-        {0.2F, 0x013288},  {0.45F, 0x494D8C}, {0.65F, 0x605E8A}, {0.75F, 0x766984},
-        {0.8F, 0x8A707D},  {0.85F, 0x9E7875}, {0.9F, 0xB78369},  {0.93F, 0xD2955C},
-        {0.95F, 0xEDAE4E}, {0.96F, 0xFFCE75}, {0.97F, 0xFFE0A5}, {0.98F, 0xFFEFCB},
-        {0.99F, 0xFFFBEB},
-    };
-    return of_moment("safe-rho", Moment::rho, classes, 1.05F);
-}
+constexpr ColorClass safe_rho_classes[] = {
+    {0.2F, 0x013288},  {0.45F, 0x494D8C}, {0.65F, 0x605E8A}, {0.75F, 0x766984}, {0.8F, 0x8A707D},
+    {0.85F, 0x9E7875}, {0.9F, 0xB78369},  {0.93F, 0xD2955C}, {0.95F, 0xEDAE4E}, {0.96F, 0xFFCE75},
+    {0.97F, 0xFFE0A5}, {0.98F, 0xFFEFCB}, {0.99F, 0xFFFBEB},
+};
 
-// The indices in built_in_tables().
+// Classes without blending. Nothing draws the table of a product that is not a moment as a volume.
+struct SteppedTable {
+    std::string_view name;
+    std::optional<Moment> moment;
+    std::string_view unit;  // if there is no moment
+    std::span<const ColorClass> classes;
+    float end;  // upper end of the last class in a color bar
+    std::optional<float> bar_begin = std::nullopt;
+};
+constexpr std::array stepped_tables{
+    SteppedTable{"nws-reflectivity", Moment::ref, {}, nws_reflectivity_classes, 80},
+    SteppedTable{"nws-velocity", Moment::vel, {}, nws_velocity_classes, 40, -40.0F},
+    SteppedTable{"nws-spectrum-width", Moment::sw, {}, nws_spectrum_width_classes, 12},
+    SteppedTable{"nws-zdr", Moment::zdr, {}, nws_zdr_classes, 8, -4.0F},
+    SteppedTable{"nws-rho", Moment::rho, {}, nws_rho_classes, 1.05F},
+    SteppedTable{"nws-echo-top", {}, "km", nws_echo_top_classes, 22.5},
+    SteppedTable{"nws-vil", {}, "kg/m2", nws_vil_classes, 75},
+    SteppedTable{"phi", Moment::phi, {}, phi_classes, 360},
+    SteppedTable{"cfp", Moment::cfp, {}, cfp_classes, 55},
+    SteppedTable{"height", {}, "km", height_classes, 20, 0.0F},
+    SteppedTable{"water-density", {}, "g/m3", vil_density_classes, 7},
+    SteppedTable{"safe-reflectivity", Moment::ref, {}, safe_reflectivity_classes, 80},
+    SteppedTable{"safe-velocity", Moment::vel, {}, safe_velocity_classes, 40, -40.0F},
+    SteppedTable{"safe-zdr", Moment::zdr, {}, safe_zdr_classes, 8, -4.0F},
+    SteppedTable{"safe-rho", Moment::rho, {}, safe_rho_classes, 1.05F},
+};
+
+// The indices in stepped_tables.
 enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, height, vil_density };
 
 // The opacity of reflectivity between these points is exponential in the value.
@@ -306,6 +245,23 @@ constexpr auto moment_looks = std::to_array<MomentLook>({
 });
 static_assert(level2::has_a_row_for_each_moment(moment_looks));
 
+ColorTable table_of_classes(const SteppedTable& stepped) {
+    ColorTable table;
+    table.name = stepped.name;
+    table.moment = stepped.moment.value_or(Moment::ref);
+    table.unit = stepped.moment ? unit_of(*stepped.moment) : std::string(stepped.unit);
+    table.end = stepped.end;
+    table.bar_begin = stepped.bar_begin;
+    table.range_folded = usual_range_folded;
+    for (const ColorClass& one : stepped.classes) {
+        const Rgba8 color = rgba_of(one.rgb);
+        table.stops.push_back({one.from, color, color});
+    }
+    table.extinction = {{table.lowest(), 0}};
+    if (stepped.moment) table.extinction = default_extinction(*stepped.moment, table.lowest());
+    return table;
+}
+
 }  // namespace
 
 const MomentLook& look_of(Moment moment) {
@@ -323,12 +279,9 @@ std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
 
 const std::vector<ColorTable>& built_in_tables() {
     static const std::vector<ColorTable> tables = [] {
-        std::vector<ColorTable> made = {
-            nws_reflectivity_table(), nws_velocity_table(), nws_spectrum_width_table(),
-            nws_zdr_table(),          nws_rho_table(),      nws_echo_top_table(),
-            nws_vil_table(),          phi_table(),          cfp_table(),
-            height_table(),           vil_density_table(),  safe_reflectivity_table(),
-            safe_velocity_table(),    safe_zdr_table(),     safe_rho_table()};
+        std::vector<ColorTable> made;
+        for (const SteppedTable& stepped : stepped_tables)
+            made.push_back(table_of_classes(stepped));
         const std::vector<ColorTable> smooth = make_smooth_tables();
         made.insert(made.end(), smooth.begin(), smooth.end());
         return made;
