@@ -9,7 +9,6 @@
 #include "base/floating_point.h"
 #include "render/animation/animation_format.h"
 #include "render/image/check_size.h"
-#include "render/image/xmp.h"
 
 namespace stormcellar::render {
 namespace {
@@ -205,14 +204,6 @@ std::int64_t frame_duration(const AnimationOptions& options, std::size_t index, 
     const auto dwell = last ? std::llround(options.last_frame_dwell_s * ticks_per_second) : 0;
     return frame_start(options, index + 1, ticks_per_second) -
            frame_start(options, index, ticks_per_second) + dwell;
-}
-
-std::string metadata_text(const AnimationOptions& options) {
-    return text_of(options.metadata);
-}
-
-std::string metadata_title(const AnimationOptions& options) {
-    return title_of(options.metadata);
 }
 
 }  // namespace stormcellar::render

@@ -18,9 +18,6 @@ namespace stormcellar::render {
 
 class FrameEncoder {
   public:
-    FrameEncoder() = default;
-    FrameEncoder(const FrameEncoder&) = delete;
-    FrameEncoder& operator=(const FrameEncoder&) = delete;
     virtual ~FrameEncoder() = default;
 
     // Adds a frame. All frames have one size. An error has a reason but no file name.
@@ -59,9 +56,5 @@ inline constexpr const char* video_module_entry = "stormcellar_make_video_encode
 // Returns how long the frame stays, including the dwell of the last one.
 [[nodiscard]] std::int64_t frame_duration(const AnimationOptions& options, std::size_t index,
                                           bool last, double ticks_per_second);
-
-// Returns all metadata as one text: "Title: KTLX\nSource: ...".
-[[nodiscard]] std::string metadata_text(const AnimationOptions& options);
-[[nodiscard]] std::string metadata_title(const AnimationOptions& options);  // may be empty
 
 }  // namespace stormcellar::render

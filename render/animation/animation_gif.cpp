@@ -13,6 +13,7 @@
 #include "render/animation/animation_format.h"
 #include "render/animation/frame_change.h"
 #include "render/animation/palette.h"
+#include "render/image/xmp.h"
 
 namespace stormcellar::render {
 namespace {
@@ -142,7 +143,7 @@ class GifEncoder final : public FrameEncoder {
         file.put(EGifPutExtensionBlock, 3, "\x01\x00\x00");  // loop without end
         file.put(EGifPutExtensionTrailer);
         if (!options_.metadata.empty()) {
-            file.put(EGifPutComment, metadata_text(options_).c_str());
+            file.put(EGifPutComment, text_of(options_.metadata).c_str());
         }
     }
 

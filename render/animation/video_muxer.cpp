@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <span>
 
+#include "render/image/xmp.h"
+
 namespace stormcellar::render {
 namespace {
 
@@ -66,10 +68,10 @@ class MemoryFile {
 };
 
 void set_metadata(AVFormatContext& format, const AnimationOptions& options) {
-    if (const std::string title = metadata_title(options); !title.empty()) {
+    if (const std::string title = title_of(options.metadata); !title.empty()) {
         av_dict_set(&format.metadata, "title", title.c_str(), 0);
     }
-    if (const std::string text = metadata_text(options); !text.empty()) {
+    if (const std::string text = text_of(options.metadata); !text.empty()) {
         av_dict_set(&format.metadata, "comment", text.c_str(), 0);
     }
 }
@@ -101,7 +103,7 @@ Status write_packets(AVFormatContext& format, const AVCodecContext& encoder,
 // (ISO 14496-12, 8.6 and 8.7), plus room for metadata and the configuration of the decoder.
 std::size_t index_size(const AVCodecContext& encoder, std::size_t packets,
                        const AnimationOptions& options) {
-    return 8192 + 64 * packets + 4 * metadata_text(options).size() +
+    return 8192 + 64 * packets + 4 * text_of(options.metadata).size() +
            static_cast<std::size_t>(encoder.extradata_size);
 }
 

@@ -146,16 +146,7 @@ Status check_head(std::span<const std::byte> bytes) {
 }  // namespace
 
 bool is_area(MapKind kind) {
-    switch (kind) {
-        case MapKind::lake:
-        case MapKind::coast:
-            return true;
-        case MapKind::county:
-        case MapKind::state:
-        case MapKind::country:
-            break;
-    }
-    return false;
+    return kind == MapKind::lake || kind == MapKind::coast;
 }
 
 bool is_tile_edge(const grid::GeoPoint& from, const grid::GeoPoint& to) {
