@@ -18,10 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::vector<std::size_t> order_of(const std::vector<Arrival>& arrivals) {
-    std::vector<std::size_t> pieces;
-    for (const Arrival& arrival : arrivals)
-        pieces.push_back(arrival.piece);
-    return pieces;
+    return parts_of(arrivals, &Arrival::piece);
 }
 
 FaultRates certainly(double FaultRates::*fault) {

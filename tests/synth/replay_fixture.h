@@ -46,6 +46,15 @@ inline std::string day_and_second(std::size_t second) {
     return text;
 }
 
+// Returns one part of each row.
+template <class Row, class Part>
+std::vector<Part> parts_of(const std::vector<Row>& rows, Part Row::*part) {
+    std::vector<Part> parts;
+    for (const Row& row : rows)
+        parts.push_back(row.*part);
+    return parts;
+}
+
 class Replay : public ::testing::Test {
   protected:
     void SetUp() override {

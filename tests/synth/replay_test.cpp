@@ -16,13 +16,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::vector<std::string> names(const std::vector<ReplayItem>& items) {
-    std::vector<std::string> all;
-    for (const ReplayItem& item : items)
-        all.push_back(item.name);
-    return all;
-}
-
 TEST_F(Replay, PlaysByTheTimesInTheHeadersThenByName) {
     put("a", volume_at(3000));
     put("b", wire::gzip(volume_at(1000)));  // the header is inside the gzip
@@ -30,7 +23,7 @@ TEST_F(Replay, PlaysByTheTimesInTheHeadersThenByName) {
     put("z", {});
     put("noise", wire::Bytes(100, std::byte{1}));
     put(".hidden", volume_at(500));
-    EXPECT_THAT(names(items()), ElementsAre("b", "day/c", "a", "noise", "z"));
+    EXPECT_THAT(parts_of(items(), &ReplayItem::name), ElementsAre("b", "day/c", "a", "noise", "z"));
 }
 
 TEST_F(Replay, WhatIsNotThereOrTwiceThereIsNamed) {
