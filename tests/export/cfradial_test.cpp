@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "tests/export/netcdf_file.h"
 #include "tests/export/netcdf_reader.h"
 #include "tests/export/small_volume.h"
-#include "tests/testing/power_cut_file_system.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::netcdf {
 namespace {
@@ -27,7 +25,7 @@ std::string word(const std::string& letters) {
     return letters.c_str();
 }
 
-class Cfradial : public ::testing::Test {
+class Cfradial : public NetcdfFile {
   protected:
     void write(const Volume& volume, const VolumeWriteOptions& options = {}) {
         const Status written = write_volume(real_file_system(), path_, volume, options);
@@ -36,8 +34,6 @@ class Cfradial : public ::testing::Test {
     static Volume one_moment(SweepMoment moment) {
         return small_volume({small_sweep(1, {std::move(moment)})});
     }
-    testing::TemporaryDirectory directory_;
-    const std::filesystem::path path_ = directory_.path() / "out.nc";
 };
 
 TEST_F(Cfradial, EveryGateKeepsItsCodeAndWhyItHasNoValue) {
@@ -257,27 +253,16 @@ TEST_F(Cfradial, SaysWhereItComesFromInPlainCharacters) {
 }
 
 TEST_F(Cfradial, TheSameVolumeGivesTheSameBytes) {
-    const auto bytes = [&] {
-        write(one_moment(small_moment(Moment::ref, {{2, 3}, {4}})));
-        const auto read = read_file(path_);
-        return read ? *read : std::vector<std::byte>{};
-    };
-    const auto first = bytes();
-    EXPECT_FALSE(first.empty());
-    EXPECT_EQ(first, bytes());
+    expect_the_same_bytes([&](FileSystem& file_system) {
+        return write_volume(file_system, path_,
+                            one_moment(small_moment(Moment::ref, {{2, 3}, {4}})));
+    });
 }
 
 TEST_F(Cfradial, AFailedWriteLeavesTheOldFileAlone) {
-    std::ofstream(path_) << "old";
-    testing::PowerCutFileSystem file_system;
-    file_system.set_space(100);
-    const auto volume = one_moment(small_moment(Moment::ref, {{2}}));
-    const auto written = write_volume(file_system, path_, volume);
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::no_space);
-    EXPECT_EQ(read_file(path_)->size(), 3U);
-    const auto entries = std::filesystem::directory_iterator(directory_.path());
-    EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "nothing half-written is left";
+    expect_the_old_file_stays([&](FileSystem& file_system) {
+        return write_volume(file_system, path_, one_moment(small_moment(Moment::ref, {{2}})));
+    });
 }
 
 TEST_F(Cfradial, RefusesWhatMakesNoSense) {

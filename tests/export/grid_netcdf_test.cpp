@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include "stormcellar/grid/method.h"
+#include "tests/export/netcdf_file.h"
 #include "tests/export/netcdf_reader.h"
-#include "tests/testing/power_cut_file_system.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::netcdf {
 namespace {
@@ -45,29 +43,30 @@ Grid small_grid() {
     return made;
 }
 
-class GridNetcdf : public ::testing::Test {
-  protected:
-    testing::TemporaryDirectory directory_;
-    const std::filesystem::path path_ = directory_.path() / "out.nc";
-};
+class GridNetcdf : public NetcdfFile {};
+
+// Calls check(place in the file, index in the grid) for each cell.
+template <class Check>
+void for_each_cell(const Grid& grid, const Check& check) {
+    std::size_t at = 0;
+    for (int iz = 0; iz < grid.spec.nz(); ++iz) {
+        for (int iy = 0; iy < grid.spec.ny; ++iy) {
+            for (int ix = 0; ix < grid.spec.nx; ++ix)
+                check(at++, grid.spec.index(ix, iy, iz));
+        }
+    }
+}
 
 // Compares a field and its states, as they are read, with the grid, cell by cell.
 void expect_cells(Reader& reader, const Grid& grid, const std::string& field_name,
                   const std::string& status_name) {
     const auto field = reader.values(field_name.c_str(), grid.spec.cell_count());
     const auto status = reader.values(status_name.c_str(), grid.spec.cell_count());
-    std::size_t at = 0;
-    for (int iz = 0; iz < 3; ++iz) {
-        for (int iy = 0; iy < 4; ++iy) {
-            for (int ix = 0; ix < 5; ++ix, ++at) {
-                const std::size_t cell = grid.spec.index(ix, iy, iz);
-                ASSERT_EQ(status[at], static_cast<double>(grid.status[cell]));
-                const bool value = grid.status[cell] == CellStatus::value;
-                ASSERT_EQ(field[at],
-                          static_cast<double>(value ? grid.values[cell] : NC_FILL_FLOAT));
-            }
-        }
-    }
+    for_each_cell(grid, [&](std::size_t at, std::size_t cell) {
+        ASSERT_EQ(status[at], static_cast<double>(grid.status[cell]));
+        const bool value = grid.status[cell] == CellStatus::value;
+        ASSERT_EQ(field[at], static_cast<double>(value ? grid.values[cell] : NC_FILL_FLOAT));
+    });
 }
 
 TEST_F(GridNetcdf, EveryCellIsWhereItsCoordinatesSay) {
@@ -99,16 +98,10 @@ TEST_F(GridNetcdf, CountsAndWeightsOfAMosaicAreThereWhenAskedFor) {
     EXPECT_EQ(reader.text("site_weight", "units"), "1");
     const auto counts = reader.values("site_count", grid.spec.cell_count());
     const auto weights = reader.values("site_weight", grid.spec.cell_count());
-    std::size_t at = 0;
-    for (int iz = 0; iz < 3; ++iz) {
-        for (int iy = 0; iy < 4; ++iy) {
-            for (int ix = 0; ix < 5; ++ix, ++at) {
-                const std::size_t cell = grid.spec.index(ix, iy, iz);
-                ASSERT_EQ(counts[at], static_cast<double>(grid.site_counts[cell]));
-                ASSERT_EQ(weights[at], static_cast<double>(grid.site_weights[cell]));
-            }
-        }
-    }
+    for_each_cell(grid, [&](std::size_t at, std::size_t cell) {
+        ASSERT_EQ(counts[at], static_cast<double>(grid.site_counts[cell]));
+        ASSERT_EQ(weights[at], static_cast<double>(grid.site_weights[cell]));
+    });
     grid.site_counts.pop_back();
     EXPECT_EQ(write_grid(real_file_system(), path_, grid).error().code, ErrorCode::bad_argument);
 }
@@ -261,14 +254,8 @@ TEST_F(GridNetcdf, GridsThatDoNotBelongTogetherAreRefused) {
 }
 
 TEST_F(GridNetcdf, TheSameGridGivesTheSameBytes) {
-    const auto bytes = [&] {
-        EXPECT_TRUE(write_grid(real_file_system(), path_, small_grid()));
-        const auto read = read_file(path_);
-        return read ? *read : std::vector<std::byte>{};
-    };
-    const auto first = bytes();
-    EXPECT_FALSE(first.empty());
-    EXPECT_EQ(first, bytes());
+    expect_the_same_bytes(
+        [&](FileSystem& file_system) { return write_grid(file_system, path_, small_grid()); });
 }
 
 TEST_F(GridNetcdf, ThreadsMayWriteAtOnce) {
@@ -285,15 +272,8 @@ TEST_F(GridNetcdf, ThreadsMayWriteAtOnce) {
 }
 
 TEST_F(GridNetcdf, AFailedWriteLeavesTheOldFileAlone) {
-    std::ofstream(path_) << "old";
-    testing::PowerCutFileSystem file_system;
-    file_system.set_space(100);
-    const auto written = write_grid(file_system, path_, small_grid());
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::no_space);
-    EXPECT_EQ(read_file(path_)->size(), 3U);
-    const auto entries = std::filesystem::directory_iterator(directory_.path());
-    EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "nothing half-written is left";
+    expect_the_old_file_stays(
+        [&](FileSystem& file_system) { return write_grid(file_system, path_, small_grid()); });
 }
 
 TEST_F(GridNetcdf, AWrittenFileSurvivesAPowerCut) {

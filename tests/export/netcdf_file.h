@@ -1,0 +1,47 @@
+// tests/export/netcdf_file.h -- a fixture with a netCDF file to write, and what holds for every
+// writer of one.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include "tests/testing/power_cut_file_system.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::netcdf {
+
+class NetcdfFile : public ::testing::Test {
+  protected:
+    using Write = std::function<Status(FileSystem&)>;
+
+    void expect_the_same_bytes(const Write& write) const {
+        const auto bytes = [&] {
+            EXPECT_TRUE(write(real_file_system()));
+            return read_file(path_).value_or(std::vector<std::byte>{});
+        };
+        const auto first = bytes();
+        EXPECT_FALSE(first.empty());
+        EXPECT_EQ(first, bytes());
+    }
+    // On a full disk the old file stays as it is, and nothing half-written is left.
+    void expect_the_old_file_stays(const Write& write) const {
+        std::ofstream(path_) << "old";
+        testing::PowerCutFileSystem file_system;
+        file_system.set_space(100);
+        const Status written = write(file_system);
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().code, ErrorCode::no_space);
+        EXPECT_EQ(read_file(path_)->size(), 3U);
+        const auto entries = std::filesystem::directory_iterator(directory_.path());
+        EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
+    }
+
+    testing::TemporaryDirectory directory_;
+    const std::filesystem::path path_ = directory_.path() / "out.nc";
+};
+
+}  // namespace stormcellar::netcdf
