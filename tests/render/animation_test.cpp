@@ -37,13 +37,6 @@ class Animation : public ::testing::TestWithParam<std::string> {
             all += contents(file);
         return all;
     }
-    static void write(const std::string& output, int frames) {
-        const auto writer = AnimationWriter::create(output, {});
-        ASSERT_TRUE(writer) << writer.error().message;
-        for (const Image& frame : test_frames(frames))
-            ASSERT_TRUE((*writer)->add(frame));
-        ASSERT_TRUE((*writer)->finish());
-    }
     testing::TemporaryDirectory directory_;
 };
 
@@ -59,7 +52,7 @@ TEST_P(Animation, UnfinishedLeavesNothingBehind) {
 }
 
 TEST_P(Animation, AppearsAtFinishAloneAndReplacesTheOldOne) {
-    write(path(), 2);
+    write_animation(path(), test_frames(2));
     const std::string before = all_of(path());
     {
         const auto writer = AnimationWriter::create(path(), {});
@@ -74,11 +67,11 @@ TEST_P(Animation, AppearsAtFinishAloneAndReplacesTheOldOne) {
 }
 
 TEST_P(Animation, FailureAtAnyPointLeavesTheOldOneOrTheNewOneWhole) {
-    write(path(), 2);
+    write_animation(path(), test_frames(2));
     const std::string before = all_of(path());
     testing::TemporaryDirectory other;
     const std::string reference = (other / GetParam()).string();
-    write(reference, 3);
+    write_animation(reference, test_frames(3));
     const std::string after = all_of(reference);
     bool whole_run = false;
     for (std::uint64_t operation = 0; operation < 100 && !whole_run; ++operation) {
@@ -108,9 +101,9 @@ TEST_P(Animation, FailureAtAnyPointLeavesTheOldOneOrTheNewOneWhole) {
 }
 
 TEST_P(Animation, SameFramesGiveTheSameBytes) {
-    write(path(), 4);
+    write_animation(path(), test_frames(4));
     const std::string first = all_of(path());
-    write(path(), 4);
+    write_animation(path(), test_frames(4));
     EXPECT_EQ(all_of(path()), first);
 }
 

@@ -12,12 +12,7 @@ namespace {
 class AnimationVideo : public ::testing::TestWithParam<std::string> {
   protected:
     void write(const std::vector<Image>& frames, const AnimationOptions& options = {}) {
-        const auto writer = AnimationWriter::create(path(), options);
-        ASSERT_TRUE(writer) << writer.error().message;
-        for (const Image& frame : frames)
-            ASSERT_TRUE((*writer)->add(frame));
-        const auto finished = (*writer)->finish();
-        ASSERT_TRUE(finished) << finished.error().message;
+        write_animation(path(), frames, options);
     }
     [[nodiscard]] std::string path() const { return (directory_ / ("a." + GetParam())).string(); }
     testing::TemporaryDirectory directory_;
@@ -83,11 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Containers, AnimationVideo, ::testing::Values("mp4", "w
 TEST(AnimationMp4, IndexStandsBeforeThePictures) {
     const testing::TemporaryDirectory directory;
     const std::string path = (directory / "a.mp4").string();
-    const auto writer = AnimationWriter::create(path, {});
-    ASSERT_TRUE(writer);
-    for (const Image& frame : test_frames(30, 64, 48))
-        ASSERT_TRUE((*writer)->add(frame));
-    ASSERT_TRUE((*writer)->finish());
+    write_animation(path, test_frames(30, 64, 48));
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     ASSERT_NE(bytes.find("moov"), std::string::npos);

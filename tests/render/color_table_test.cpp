@@ -16,13 +16,14 @@ TEST(ColorTable, HasFifteenClassesOfFiveDecibelsFromFive) {
 TEST(ColorTable, GivesTheColorsOfTheWeatherService) {
     EXPECT_FALSE(color_of(nws_reflectivity(), 4.99F));
     EXPECT_FALSE(color_of(nws_reflectivity(), std::nanf("")));
-    EXPECT_EQ(color_of(nws_reflectivity(), 5), (Rgba8{0x04, 0xE9, 0xE7, 255}));
-    EXPECT_EQ(color_of(nws_reflectivity(), 22.5F), (Rgba8{0x02, 0xFD, 0x02, 255}));
-    EXPECT_EQ(color_of(nws_reflectivity(), 34.99F), (Rgba8{0x00, 0x8E, 0x00, 255}));
-    EXPECT_EQ(color_of(nws_reflectivity(), 35), (Rgba8{0xFD, 0xF8, 0x02, 255}));
-    EXPECT_EQ(color_of(nws_reflectivity(), 51), (Rgba8{0xFD, 0x00, 0x00, 255}));
-    EXPECT_EQ(color_of(nws_reflectivity(), 67), (Rgba8{0xF8, 0x00, 0xFD, 255}));
-    EXPECT_EQ(color_of(nws_reflectivity(), 95), (Rgba8{0xFD, 0xFD, 0xFD, 255}));
+    for (const auto& [dbz, color] : {std::pair{5.0F, Rgba8{0x04, 0xE9, 0xE7, 255}},
+                                     {22.5F, {0x02, 0xFD, 0x02, 255}},
+                                     {34.99F, {0x00, 0x8E, 0x00, 255}},
+                                     {35.0F, {0xFD, 0xF8, 0x02, 255}},
+                                     {51.0F, {0xFD, 0x00, 0x00, 255}},
+                                     {67.0F, {0xF8, 0x00, 0xFD, 255}},
+                                     {95.0F, {0xFD, 0xFD, 0xFD, 255}}})
+        EXPECT_EQ(color_of(nws_reflectivity(), dbz), color) << dbz;
 }
 
 // docs/rendering.md, by hand: between two points the opacity is exponential in the value.

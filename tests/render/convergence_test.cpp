@@ -37,23 +37,17 @@ grid::BrickGrid ball(const grid::GridSpec& spec) {
 
 double error_of(const grid::BrickView& bricks, const ViewGeometry& view, const ColorTable& table,
                 const VolumeOptions& options) {
-    const Layer layer = VolumeSlicer(table, bricks.quantization, view, options).draw(bricks, 2);
+    const Layer layer = sliced(bricks, view, options, 2, table);
     const ReferenceMarcher reference(bricks, table, view, options.opacity);
     double sum = 0;
     int count = 0;
     for (int y = 2; y < layer.height; y += 7) {
         for (int x = 2; x < layer.width; x += 7) {
             const auto slow = reference.ray({x + 0.5, y + 0.5}, 8192);
-            for (std::size_t c = 0; c < 4; ++c) {
-                const auto fast = static_cast<double>(
-                    layer
-                        .rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(layer.width) +
-                               static_cast<std::size_t>(x)) *
-                                  4 +
-                              c]);
-                sum += (slow[c] - fast) * (slow[c] - fast);
-                ++count;
-            }
+            const auto fast = pixel_of(layer, x, y);
+            for (std::size_t c = 0; c < 4; ++c)
+                sum += (slow[c] - fast[c]) * (slow[c] - fast[c]);
+            count += 4;
         }
     }
     return std::sqrt(sum / count);
@@ -95,9 +89,7 @@ TEST(Smooth, InterpolationBetweenRaysStaysNearItsTolerance) {
     const auto bricks = bricks_of(storm_grid(spec));
     const ViewGeometry view(spec, {180, 30, 1}, 8, 500, 400);
     const auto draw = [&](double tolerance) {
-        return VolumeSlicer(nws_reflectivity(), bricks.view().quantization, view,
-                            {256, Integration::second_order, 1, tolerance})
-            .draw(bricks.view(), 2);
+        return sliced(bricks.view(), view, {256, Integration::second_order, 1, tolerance});
     };
     const Layer all = draw(0);
     double previous = 0;
@@ -124,9 +116,8 @@ TEST(Smooth, ASingleCellIsNotLost) {
         }));
         const ViewGeometry view(spec, {180, 20, 1}, 3, 400, 300);
         const auto sum_of = [&](double tolerance) {
-            const Layer layer = VolumeSlicer(nws_reflectivity(), bricks.view().quantization, view,
-                                             {128, Integration::second_order, 1, tolerance})
-                                    .draw(bricks.view(), 1);
+            const Layer layer =
+                sliced(bricks.view(), view, {128, Integration::second_order, 1, tolerance}, 1);
             double sum = 0;
             for (const float channel : layer.rgba)
                 sum += static_cast<double>(channel);

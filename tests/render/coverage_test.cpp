@@ -24,12 +24,13 @@ TEST(Coverage, CountsColumnsSeenAtAllAndSeenLow) {
 }
 
 TEST(Coverage, PercentDoesNotRoundToAllOrNothing) {
-    EXPECT_EQ(percent_text(0), "0 %");
-    EXPECT_EQ(percent_text(0.0001), "< 1 %");
-    EXPECT_EQ(percent_text(0.01), "1 %");
-    EXPECT_EQ(percent_text(0.874), "87 %");
-    EXPECT_EQ(percent_text(0.9999), "> 99 %");
-    EXPECT_EQ(percent_text(1), "100 %");
+    for (const auto& [share, text] : {std::pair{0.0, "0 %"},
+                                      {0.0001, "< 1 %"},
+                                      {0.01, "1 %"},
+                                      {0.874, "87 %"},
+                                      {0.9999, "> 99 %"},
+                                      {1.0, "100 %"}})
+        EXPECT_EQ(percent_text(share), text);
 }
 
 }  // namespace

@@ -3,12 +3,30 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <gtest/gtest.h>
 #include <png.h>
 #include <webp/demux.h>
 
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::render {
+
+void write_animation(const std::string& path, const std::vector<Image>& frames,
+                     const AnimationOptions& options) {
+    const auto writer = AnimationWriter::create(path, options);
+    ASSERT_TRUE(writer) << writer.error().message;
+    for (const Image& frame : frames)
+        ASSERT_TRUE((*writer)->add(frame));
+    const auto finished = (*writer)->finish();
+    ASSERT_TRUE(finished) << finished.error().message;
+}
+
+void expect_frames(const DecodedAnimation& animation, const std::vector<Image>& frames) {
+    ASSERT_EQ(animation.error, "");
+    ASSERT_EQ(animation.frames.size(), frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        EXPECT_EQ(animation.frames[i].image.rgba, frames[i].rgba) << i;
+}
 
 DecodedAnimation decode_webp(const std::filesystem::path& path) {
     DecodedAnimation result;

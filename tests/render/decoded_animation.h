@@ -1,4 +1,4 @@
-// tests/render/decoded_animation.h -- animations read back by foreign decoders.
+// tests/render/decoded_animation.h -- animations, written and read back by foreign decoders.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "stormcellar/render/animation.h"
 #include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
@@ -23,6 +24,12 @@ struct DecodedAnimation {
     std::map<std::string, std::string> metadata{};  // by the decoder's names
     int loop_count = -1;                            // 0: forever; -1: the decoder does not say
 };
+
+// Writes a loop. A test fails if it cannot be written.
+void write_animation(const std::string& path, const std::vector<Image>& frames,
+                     const AnimationOptions& options = {});
+// Expects these frames, pixel by pixel.
+void expect_frames(const DecodedAnimation& animation, const std::vector<Image>& frames);
 
 // Decodes with libwebp's WebPAnimDecoder. The XMP packet is metadata "XMP".
 [[nodiscard]] DecodedAnimation decode_webp(const std::filesystem::path& path);

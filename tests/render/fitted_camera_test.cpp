@@ -29,10 +29,9 @@ struct Bounds {
     }
 };
 
-// The pixels of a box of columns from the ground up to 12 km.
-Bounds bounds_of(const grid::GridSpec& spec, const Scene& scene, int x, int y, int radius,
-                 int width, int height) {
-    const ViewGeometry view(spec, scene.camera, scene.vertical_exaggeration, width, height,
+// The pixels of a box of columns from the ground up to 12 km, in a picture of 640 by 480.
+Bounds bounds_of(const grid::GridSpec& spec, const Scene& scene, int x, int y, int radius) {
+    const ViewGeometry view(spec, scene.camera, scene.vertical_exaggeration, 640, 480,
                             scene.curved_earth);
     Bounds bounds;
     for (const int dx : {-radius, radius}) {
@@ -43,6 +42,13 @@ Bounds bounds_of(const grid::GridSpec& spec, const Scene& scene, int x, int y, i
         }
     }
     return bounds;
+}
+
+void expect_inside(const Bounds& bounds) {
+    EXPECT_GT(bounds.left, 0);
+    EXPECT_LT(bounds.right, 640);
+    EXPECT_GT(bounds.top, 0);
+    EXPECT_LT(bounds.bottom, 480);
 }
 
 TEST(FittedCamera, ShowsAStormWhereverItIs) {
@@ -59,11 +65,8 @@ TEST(FittedCamera, ShowsAStormWhereverItIs) {
             EXPECT_TRUE(fitted.has_echo);
             apply(fitted, scene);
             EXPECT_TRUE(validate(scene));
-            const Bounds at = bounds_of(spec, scene, x, y, 15, 640, 480);
-            EXPECT_GT(at.left, 0);
-            EXPECT_LT(at.right, 640);
-            EXPECT_GT(at.top, 0);
-            EXPECT_LT(at.bottom, 480);
+            const Bounds at = bounds_of(spec, scene, x, y, 15);
+            expect_inside(at);
             const double filled = std::max((at.right - at.left) / 640, (at.bottom - at.top) / 480);
             EXPECT_NEAR(filled, 0.84, 0.06) << x << " " << y;
             EXPECT_NEAR(scene.vertical_exaggeration, 2, 0.01) << "a storm is seen from near";
@@ -150,9 +153,8 @@ TEST(FittedCamera, HoldsTheEchoOfAllGrids) {
     Scene scene;
     apply(fit_view(outline, scene, 640, 480), scene);
     for (const int x : {30, 100, 170}) {
-        const Bounds at = bounds_of(spec, scene, x, 100, 10, 640, 480);
-        EXPECT_GT(at.left, 0) << x;
-        EXPECT_LT(at.right, 640) << x;
+        SCOPED_TRACE(x);
+        expect_inside(bounds_of(spec, scene, x, 100, 10));
     }
 }
 
@@ -166,11 +168,8 @@ TEST(FittedCamera, AnOrbitKeepsTheStormInThePicture) {
     apply(fitted, scene);
     for (int turn = 0; turn < 360; turn += 20) {
         scene.camera = turned(fitted, turn);
-        const Bounds at = bounds_of(spec, scene, 60, 80, 20, 640, 480);
-        EXPECT_GT(at.left, 0) << turn;
-        EXPECT_LT(at.right, 640) << turn;
-        EXPECT_GT(at.top, 0) << turn;
-        EXPECT_LT(at.bottom, 480) << turn;
+        SCOPED_TRACE(turn);
+        expect_inside(bounds_of(spec, scene, 60, 80, 20));
     }
 }
 

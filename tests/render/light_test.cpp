@@ -48,8 +48,7 @@ Layer draw(const grid::BrickView& view, const ViewGeometry& geometry, const Ligh
            int threads = 2, double opacity = 1) {
     VolumeOptions options{128, Integration::second_order, opacity};
     options.light = light;
-    return VolumeSlicer(nws_reflectivity(), view.quantization, geometry, options)
-        .draw(view, threads);
+    return sliced(view, geometry, options, threads);
 }
 
 // tests/render/lit_layer_test.cpp tests hues and lightness on real volumes.

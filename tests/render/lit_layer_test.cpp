@@ -19,6 +19,7 @@
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
+#include "tests/render/real_volume.h"
 #include "tests/render/synthetic_storm.h"
 #include "tests/testing/data.h"
 
@@ -113,9 +114,7 @@ TEST(LitLayer, IsInterpolatedWhereThePictureIsStraight) {
     const auto bricks = bricks_of(storm_grid(spec));
     const ViewGeometry view(spec, {180, 50, 1}, 8, 240, 180);
     const auto draw = [&](double tolerance) {
-        return VolumeSlicer(nws_reflectivity(), bricks.view().quantization, view,
-                            options_of("gradient,shadow", 256, tolerance))
-            .draw(bricks.view(), 2);
+        return sliced(bricks.view(), view, options_of("gradient,shadow", 256, tolerance));
     };
     const Layer all = draw(0), some = draw(2.0 / 255);
     double worst = 0;
@@ -129,20 +128,7 @@ TEST(LitLayer, IsInterpolatedWhereThePictureIsStraight) {
 }
 
 grid::Grid real_grid(const std::string& file) {
-    level2::DecodeOptions options;
-    options.fallback_station = file.substr(0, 4);
-    options.selection.moments = {level2::Moment::ref};
-    const auto decoded =
-        level2::decode_file(*testing::data_directory() / "volumes" / file, options);
-    const auto at = level2::antenna_position(decoded->volume);
-    const grid::SitePosition site =
-        at ? grid::SitePosition{"KONE", at->latitude_deg, at->longitude_deg, at->altitude_m}
-           : grid::SitePosition{"KONE", 35.3, -97.3, 384};
-    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
-    spec.spacing_m = 2000;
-    spec.nx = spec.ny = 230;
-    const auto columns = grid::make_column_geometry(site, spec);
-    return *grid::make_grid(decoded->volume, site, **columns, {});
+    return real_reflectivity("volumes/" + file, 2000, 230);
 }
 
 grid::BrickGrid bricks_of_real(const grid::Grid& grid) {
@@ -209,8 +195,7 @@ TEST_P(LitVolume, KeepsItsLightnessAndItsHues) {
                 VolumeOptions options = options_of(names, 128);
                 options.opacity = scene.opacity;
                 options.light.sun_azimuth_deg = scene.light.sun_azimuth_deg;
-                return VolumeSlicer(*table, bricks.view().quantization, view, options)
-                    .draw(bricks.view(), 2);
+                return sliced(bricks.view(), view, options, 2, *table);
             };
             double plain = 0;
             const Lightness lit = lightness_of(draw(kinds), draw("none"), plain);
@@ -245,9 +230,7 @@ TEST_P(LitVolume, IsAsLightWhenOtherEchoGoes) {
         VolumeOptions options = options_of(names, 128);
         options.opacity = scene.opacity;
         options.light.sun_azimuth_deg = scene.light.sun_azimuth_deg;
-        return VolumeSlicer(smooth_color_table(level2::Moment::ref), bricks.view().quantization,
-                            view, options)
-            .draw(bricks.view(), 2);
+        return sliced(bricks.view(), view, options, 2, smooth_color_table(level2::Moment::ref));
     };
     const Layer plain = draw(before, "none"), plain_after = draw(after, "none");
     const Layer lit = draw(before, "gradient,shadow"), lit_after = draw(after, "gradient,shadow");

@@ -20,17 +20,7 @@ using grid::Projection;
 
 grid::GridSpec spec_of(Projection projection, double latitude_deg, double longitude_deg, int side,
                        double spacing_m) {
-    grid::GridSpec spec = small_spec(side, 2);
-    spec.projection = projection;
-    spec.center_latitude_deg = latitude_deg;
-    spec.center_longitude_deg = longitude_deg;
-    spec.spacing_m = spacing_m;
-    if (projection == Projection::latitude_longitude) {
-        spec.spacing_m = 0;
-        spec.spacing_deg = spacing_m / 111e3;
-    }
-    if (projection == Projection::lambert_conformal) spec.parallels_deg = {30, 46};
-    return spec;
+    return projected_spec(projection, latitude_deg, longitude_deg, side, side, spacing_m);
 }
 
 // A map as for the flat products.

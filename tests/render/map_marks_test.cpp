@@ -22,18 +22,9 @@ using grid::Projection;
 
 grid::GridSpec spec_of(Projection projection, double latitude_deg, double longitude_deg, int nx,
                        int ny, double spacing_m) {
-    grid::GridSpec spec = small_spec(nx, 2);
-    spec.ny = ny;
-    spec.projection = projection;
-    spec.center_latitude_deg = latitude_deg;
-    spec.center_longitude_deg = longitude_deg;
-    spec.spacing_m = spacing_m;
+    grid::GridSpec spec =
+        projected_spec(projection, latitude_deg, longitude_deg, nx, ny, spacing_m);
     spec.levels_m = {1000, 15000};
-    if (projection == Projection::latitude_longitude) {
-        spec.spacing_m = 0;
-        spec.spacing_deg = spacing_m / 111e3;
-    }
-    if (projection == Projection::lambert_conformal) spec.parallels_deg = {30, 46};
     return spec;
 }
 

@@ -138,9 +138,7 @@ grid::BrickGrid homogeneous(const grid::GridSpec& spec) {
 
 Layer slice_from(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
                  double opacity = 1, int threads = 2) {
-    return VolumeSlicer(nws_reflectivity(), view.quantization, geometry,
-                        {slices, Integration::second_order, opacity})
-        .draw(view, threads);
+    return sliced(view, geometry, {slices, Integration::second_order, opacity}, threads);
 }
 
 // Looking straight down, the path of a ray through a slab is 1 / cos(its angle) times the

@@ -12,6 +12,7 @@
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
+#include "tests/render/real_volume.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::render {
@@ -24,24 +25,12 @@ class RealProducts : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        auto decoded =
-            level2::decode_file(*testing::data_directory() / "volumes/KTLX19990503_235621.gz");
-        ASSERT_TRUE(decoded);
-        volume_ = std::move(decoded->volume);
-        const auto antenna = level2::antenna_position(volume_);
-        ASSERT_TRUE(antenna);
-        site_ = {volume_.station, antenna->latitude_deg, antenna->longitude_deg,
-                 antenna->altitude_m};
-        spec_ = grid::default_spec(site_.latitude_deg, site_.longitude_deg);
-        const auto geometry = grid::make_column_geometry(site_, spec_);
-        ASSERT_TRUE(geometry);
-        const auto grid = grid::make_grid(volume_, site_, **geometry, {});
-        ASSERT_TRUE(grid);
-        bricks_ = grid::BrickGrid::from(*grid, grid::default_quantization(Moment::ref));
+        real_ = real_volume("volumes/KTLX19990503_235621.gz");
+        spec_ = grid::default_spec(real_.site.latitude_deg, real_.site.longitude_deg);
+        bricks_ = grid::BrickGrid::from(real_.on(spec_), grid::default_quantization(Moment::ref));
     }
 
-    level2::Volume volume_;
-    grid::SitePosition site_;
+    RealVolume real_;
     grid::GridSpec spec_;
     std::optional<grid::BrickGrid> bricks_;
 };
@@ -49,12 +38,12 @@ class RealProducts : public ::testing::Test {
 // Takes gates of echo at the height of a level and near the center of a column, placed by the beam
 // formula and not by the gridder: a CAPPI at their height must show them.
 TEST_F(RealProducts, ACappiShowsTheGatesAtItsHeight) {
-    const grid::BeamGeometry beam(site_.latitude_deg, site_.altitude_m);
+    const grid::BeamGeometry beam(real_.site.latitude_deg, real_.site.altitude_m);
     std::vector<std::optional<FlatField>> cappis(spec_.levels_m.size());
     double squares = 0;
     int compared = 0;
     int valued = 0;
-    for (const level2::Sweep& sweep : volume_.sweeps) {
+    for (const level2::Sweep& sweep : real_.volume->sweeps) {
         const level2::SweepMoment* moment = sweep.find(Moment::ref);
         if (moment == nullptr) continue;
         for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {

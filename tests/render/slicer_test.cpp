@@ -16,9 +16,7 @@ using grid::CellStatus;
 
 Layer slice(const grid::BrickView& view, const ViewGeometry& geometry, int slices, double opacity,
             int threads, Integration integration = Integration::second_order) {
-    return VolumeSlicer(nws_reflectivity(), view.quantization, geometry,
-                        {slices, integration, opacity})
-        .draw(view, threads);
+    return sliced(view, geometry, {slices, integration, opacity}, threads);
 }
 
 // Closed form: a slab of one value and height H, seen at tilt t, has the opacity 1 - exp(-k H e /

@@ -241,14 +241,28 @@ TEST_P(StillGdal, AKmzLiesWhereItsCellsAre) {
 INSTANTIATE_TEST_SUITE_P(Projections, StillGdal, ::testing::ValuesIn(grid::projection_facts),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
+// A map of the synthetic storm.
+struct StormMap {
+    grid::Grid grid;
+    grid::BrickGrid bricks = bricks_of(grid);
+    FrameFacts facts = facts_of(grid);
+    Scene scene{};
+
+    explicit StormMap(const grid::GridSpec& spec) : grid(storm_grid(spec)) {
+        scene.product = Product::composite;
+    }
+    [[nodiscard]] Result<std::vector<std::byte>> encoded(const char* name, int threads = 1) const {
+        StillOptions options;
+        options.threads = threads;
+        return still_format_of(name)->encode_map({bricks.view(), facts, scene}, options);
+    }
+};
+
 TEST(StillMaps, ProductsThatAreNoMapsAreRefused) {
-    const grid::Grid grid = storm_grid(small_spec(16, 4));
-    const grid::BrickGrid bricks = bricks_of(grid);
-    const FrameFacts facts = facts_of(grid);
-    Scene scene;
-    scene.product = Product::volume;
+    StormMap map(small_spec(16, 4));
+    map.scene.product = Product::volume;
     for (const char* name : {"a.tif", "a.kmz"}) {
-        const auto made = still_format_of(name)->encode_map({bricks.view(), facts, scene}, {});
+        const auto made = map.encoded(name);
         ASSERT_FALSE(made);
         EXPECT_EQ(made.error().code, ErrorCode::bad_argument);
         EXPECT_THAT(made.error().message, HasSubstr("volume is no map"));
@@ -258,34 +272,20 @@ TEST(StillMaps, ProductsThatAreNoMapsAreRefused) {
 TEST(StillMaps, AGridThatHoldsAPoleIsNoKmz) {
     grid::GridSpec spec = small_spec(64, 4, 5000);
     spec.center_latitude_deg = 89.5;
-    const grid::Grid grid = storm_grid(spec);
-    const grid::BrickGrid bricks = bricks_of(grid);
-    const FrameFacts facts = facts_of(grid);
-    Scene scene;
-    scene.product = Product::composite;
-    const auto made = still_format_of("a.kmz")->encode_map({bricks.view(), facts, scene}, {});
+    const StormMap map(spec);
+    const auto made = map.encoded("a.kmz");
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().code, ErrorCode::unsupported);
-    EXPECT_TRUE(still_format_of("a.tif")->encode_map({bricks.view(), facts, scene}, {}));
+    EXPECT_TRUE(map.encoded("a.tif"));
 }
 
 TEST(StillMaps, TheSameMapGivesTheSameBytesForAnyNumberOfThreads) {
-    const grid::Grid grid = storm_grid(small_spec(300, 4));
-    const grid::BrickGrid bricks = bricks_of(grid);
-    const FrameFacts facts = facts_of(grid);
-    Scene scene;
-    scene.product = Product::composite;
+    const StormMap map(small_spec(300, 4));
     for (const char* name : {"a.tif", "a.kmz"}) {
-        const auto encoded = [&](int threads) {
-            StillOptions options;
-            options.threads = threads;
-            return still_format_of(name)
-                ->encode_map({bricks.view(), facts, scene}, options)
-                .value_or(std::vector<std::byte>{});
-        };
-        const auto first = encoded(1);
-        EXPECT_GT(first.size(), 1000U);
-        EXPECT_TRUE(first == encoded(3)) << name;
+        const auto first = map.encoded(name);
+        ASSERT_TRUE(first);
+        EXPECT_GT(first->size(), 1000U);
+        EXPECT_TRUE(*first == map.encoded(name, 3).value()) << name;
     }
 }
 

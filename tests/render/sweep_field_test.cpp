@@ -14,6 +14,7 @@
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/render/panels.h"
 #include "stormcellar/render/render.h"
+#include "tests/render/real_volume.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::render {
@@ -26,24 +27,16 @@ class SweepField : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        auto decoded =
-            level2::decode_file(*testing::data_directory() / "volumes/KLBB20160601_150025_V06");
-        ASSERT_TRUE(decoded);
-        const auto volume = std::make_shared<level2::Volume>(std::move(decoded->volume));
-        volume_ = volume;
-        const auto antenna = level2::antenna_position(*volume);
-        ASSERT_TRUE(antenna);
-        site_ = {volume->station, antenna->latitude_deg, antenna->longitude_deg,
-                 antenna->altitude_m};
-        auto sweep = grid::SweepLookup::find(volume, site_, Moment::ref,
-                                             grid::beam_width_of(site_.icao) / 2, {});
+        real_ = real_volume("volumes/KLBB20160601_150025_V06");
+        auto sweep = grid::SweepLookup::find(real_.volume, real_.site, Moment::ref,
+                                             grid::beam_width_of(real_.site.icao) / 2, {});
         ASSERT_TRUE(sweep);
         sweep_ = std::make_unique<grid::SweepLookup>(std::move(*sweep));
     }
 
     [[nodiscard]] grid::GridSpec plane(double latitude_deg, double longitude_deg) const {
         grid::GridSpec spec = grid::default_spec(latitude_deg, longitude_deg);
-        spec.levels_m = {site_.altitude_m};
+        spec.levels_m = {real_.site.altitude_m};
         return spec;
     }
     [[nodiscard]] Scene scene() const {
@@ -61,7 +54,7 @@ class SweepField : public ::testing::Test {
         const auto geo =
             grid::GridProjection(spec).to_geo({p.x_m / spec.cell_width_m() + 0.5 * (spec.nx - 1),
                                                p.y_m / spec.cell_height_m() + 0.5 * (spec.ny - 1)});
-        return grid::SiteFrame(site_.latitude_deg, site_.longitude_deg).to_polar(geo);
+        return grid::SiteFrame(real_.site.latitude_deg, real_.site.longitude_deg).to_polar(geo);
     }
     // True if the gate at the place, or at one 0.5 m beside it, has this state and value.
     [[nodiscard]] bool is_there(grid::PolarPoint place, CellStatus status, float value) const {
@@ -77,14 +70,13 @@ class SweepField : public ::testing::Test {
         return false;
     }
 
-    grid::SitePosition site_;
-    std::shared_ptr<const level2::Volume> volume_;
+    RealVolume real_;
     std::unique_ptr<grid::SweepLookup> sweep_;
 };
 
 TEST_F(SweepField, EachPixelShowsItsGate) {
     // About the radar, about places 300 km off, and on planes of other projections.
-    std::vector<grid::GridSpec> planes = {plane(site_.latitude_deg, site_.longitude_deg),
+    std::vector<grid::GridSpec> planes = {plane(real_.site.latitude_deg, real_.site.longitude_deg),
                                           plane(35, -99), plane(31.5, -103.5), plane(34, -101),
                                           plane(34, -101)};
     planes[3].projection = grid::Projection::lambert_conformal;
@@ -119,7 +111,7 @@ TEST_F(SweepField, EachPixelShowsItsGate) {
 TEST_F(SweepField, ColumnsShowTheGateAtTheirCenter) {
     const grid::GridSpec spec = plane(33, -101);
     const FlatField field = sweep_in_columns(*sweep_, spec, 2);
-    const grid::SiteFrame frame(site_.latitude_deg, site_.longitude_deg);
+    const grid::SiteFrame frame(real_.site.latitude_deg, real_.site.longitude_deg);
     for (int iy = 3; iy < spec.ny; iy += 17) {
         for (int ix = 3; ix < spec.nx; ix += 17) {
             const std::size_t at = field.index(ix, iy);
@@ -131,11 +123,11 @@ TEST_F(SweepField, ColumnsShowTheGateAtTheirCenter) {
 
 // The picture has the color of the gate that the slow way finds, or a state's shade.
 TEST_F(SweepField, ThePictureHasTheColorsOfTheGates) {
-    const grid::GridSpec spec = plane(site_.latitude_deg, site_.longitude_deg);
+    const grid::GridSpec spec = plane(real_.site.latitude_deg, real_.site.longitude_deg);
     grid::BrickView view;
     view.spec = &spec;
     view.sweep = sweep_.get();
-    FrameFacts facts{site_.icao, Moment::ref, sweep_->facts().start, {site_}};
+    FrameFacts facts{real_.site.icao, Moment::ref, sweep_->facts().start, {real_.site}};
     const auto picture = render_frame(view, facts, scene(), 2);
     ASSERT_TRUE(picture);
     const ViewGeometry geometry = picture_geometry(spec, scene(), 300, 200);
@@ -169,20 +161,20 @@ TEST_F(SweepField, TheFooterTellsTheSweepAndTheView) {
         zoomed.camera.zoom = zoom;
         return sweep_text(*sweep_, spec, picture_geometry(spec, zoomed, 300, 200));
     };
-    grid::GridSpec whole = plane(site_.latitude_deg, site_.longitude_deg);
+    grid::GridSpec whole = plane(real_.site.latitude_deg, real_.site.longitude_deg);
     whole.nx = whole.ny = 920;
     EXPECT_EQ(text_of(whole, 1), "Cut 1: 720 radials, gates of 0.25 km up to 460 km");
     EXPECT_THAT(text_of(whole, 2), ::testing::EndsWith("view cut: the sweep reaches 460 km"));
-    EXPECT_THAT(text_of(plane(site_.latitude_deg, site_.longitude_deg), 1),
+    EXPECT_THAT(text_of(plane(real_.site.latitude_deg, real_.site.longitude_deg), 1),
                 ::testing::EndsWith("view cut: the sweep reaches 460 km"));
     EXPECT_THAT(text_of(plane(35, -99), 1), ::testing::HasSubstr("view cut"));
 
-    auto volume = std::make_shared<level2::Volume>(*volume_);
+    auto volume = std::make_shared<level2::Volume>(*real_.volume);
     for (level2::SweepMoment& kind : volume->sweeps[0].moments)
         std::fill(kind.gate_counts.begin() + 240, kind.gate_counts.end(), 0);
     grid::SweepWish first;
     first.number = 0;
-    const auto begun = grid::SweepLookup::find(volume, site_, Moment::ref, 0.475, first);
+    const auto begun = grid::SweepLookup::find(volume, real_.site, Moment::ref, 0.475, first);
     ASSERT_TRUE(begun);
     EXPECT_EQ(sweep_text(*begun, whole, picture_geometry(whole, scene(), 300, 200)),
               "Cut 1: 240 radials, 33 % of the circle, gates of 0.25 km up to 460 km");
@@ -190,11 +182,11 @@ TEST_F(SweepField, TheFooterTellsTheSweepAndTheView) {
 
 // Panels say the angle of the sweep, as single pictures do, whatever the scene asked for.
 TEST_F(SweepField, PanelsSayTheAngleOfTheirSweep) {
-    const grid::GridSpec spec = plane(site_.latitude_deg, site_.longitude_deg);
+    const grid::GridSpec spec = plane(real_.site.latitude_deg, real_.site.longitude_deg);
     grid::BrickView view;
     view.spec = &spec;
     view.sweep = sweep_.get();
-    const FrameFacts facts{site_.icao, Moment::ref, sweep_->facts().start, {site_}};
+    const FrameFacts facts{real_.site.icao, Moment::ref, sweep_->facts().start, {real_.site}};
     Scene asked = scene();
     asked.width = 800;
     asked.height = 600;
@@ -210,10 +202,10 @@ TEST_F(SweepField, PanelsSayTheAngleOfTheirSweep) {
 }
 
 TEST_F(SweepField, ASweepIsNoGridAndAGridIsNoSweep) {
-    const grid::GridSpec spec = plane(site_.latitude_deg, site_.longitude_deg);
+    const grid::GridSpec spec = plane(real_.site.latitude_deg, real_.site.longitude_deg);
     grid::BrickView view;
     view.spec = &spec;
-    FrameFacts facts{site_.icao, Moment::ref, {}, {site_}};
+    FrameFacts facts{real_.site.icao, Moment::ref, {}, {real_.site}};
     EXPECT_EQ(check_frame(view, facts, scene()).error().code, ErrorCode::bad_argument);
     view.sweep = sweep_.get();
     EXPECT_TRUE(check_frame(view, facts, scene()));

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "render/image/layer.h"
+#include "render/volume/slicer.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/grid.h"
 #include "stormcellar/render/render.h"
@@ -32,6 +33,22 @@ inline grid::GridSpec small_degrees_spec(int n, int levels) {
     spec.projection = grid::Projection::latitude_longitude;
     spec.spacing_m = 0;
     spec.spacing_deg = 0.01;
+    return spec;
+}
+
+// The columns of a grid in any projection, with spacings near `spacing_m`.
+inline grid::GridSpec projected_spec(grid::Projection projection, double latitude_deg,
+                                     double longitude_deg, int nx, int ny, double spacing_m) {
+    grid::GridSpec spec = small_spec(nx, 2, spacing_m);
+    spec.ny = ny;
+    spec.projection = projection;
+    spec.center_latitude_deg = latitude_deg;
+    spec.center_longitude_deg = longitude_deg;
+    if (spec.in_degrees()) {
+        spec.spacing_m = 0;
+        spec.spacing_deg = spacing_m / 111e3;
+    }
+    if (projection == grid::Projection::lambert_conformal) spec.parallels_deg = {30, 46};
     return spec;
 }
 
@@ -107,6 +124,13 @@ inline grid::Grid storm_grid(const grid::GridSpec& spec) {
 inline FrameFacts facts_of(const grid::Grid& grid) {
     return {"KTLX", level2::Moment::ref, parse_compact("19990503_235621").value(), grid.sites,
             false};
+}
+
+// Draws a volume by the slicer alone.
+inline Layer sliced(const grid::BrickView& bricks, const ViewGeometry& view,
+                    const VolumeOptions& options, int threads = 2,
+                    const ColorTable& table = nws_reflectivity()) {
+    return VolumeSlicer(table, bricks.quantization, view, options).draw(bricks, threads);
 }
 
 // Red, green, blue and opacity, as the layer has them.

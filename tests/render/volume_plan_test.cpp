@@ -15,6 +15,7 @@
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
+#include "tests/render/real_volume.h"
 #include "tests/render/synthetic_storm.h"
 #include "tests/testing/data.h"
 #include "tests/testing/forced_choice.h"
@@ -73,21 +74,9 @@ grid::BrickGrid bricks_for(const PlannedScene& planned) {
     if (planned.file == nullptr) {
         return bricks_of(storm_grid(small_spec(150, 24, planned.spacing_m, 700)));
     }
-    level2::DecodeOptions options;
-    options.fallback_station =
-        std::string(planned.file).substr(std::string(planned.file).find('/') + 1, 4);
-    options.selection.moments = {level2::Moment::ref};
-    const auto decoded = level2::decode_file(*testing::data_directory() / planned.file, options);
-    const auto at = level2::antenna_position(decoded->volume);
-    const grid::SitePosition site =
-        at ? grid::SitePosition{"KONE", at->latitude_deg, at->longitude_deg, at->altitude_m}
-           : grid::SitePosition{"KONE", 42, -76, 500};
-    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
-    spec.spacing_m = planned.spacing_m;
-    spec.nx = spec.ny = static_cast<int>(460e3 / planned.spacing_m);
-    const auto columns = grid::make_column_geometry(site, spec);
-    const auto grid = grid::make_grid(decoded->volume, site, **columns, {});
-    return grid::BrickGrid::from(*grid, grid::default_quantization(level2::Moment::ref));
+    const grid::Grid grid = real_reflectivity(planned.file, planned.spacing_m,
+                                              static_cast<int>(460e3 / planned.spacing_m));
+    return grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
 }
 
 struct Prepared {
