@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "render/volume/reference_marcher.h"
 #include "render/volume/slicer.h"
+#include "tests/render/against_reference.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {
@@ -38,19 +38,7 @@ grid::BrickGrid ball(const grid::GridSpec& spec) {
 double error_of(const grid::BrickView& bricks, const ViewGeometry& view, const ColorTable& table,
                 const VolumeOptions& options) {
     const Layer layer = sliced(bricks, view, options, 2, table);
-    const ReferenceMarcher reference(bricks, table, view, options.opacity);
-    double sum = 0;
-    int count = 0;
-    for (int y = 2; y < layer.height; y += 7) {
-        for (int x = 2; x < layer.width; x += 7) {
-            const auto slow = reference.ray({x + 0.5, y + 0.5}, 8192);
-            const auto fast = pixel_of(layer, x, y);
-            for (std::size_t c = 0; c < 4; ++c)
-                sum += (slow[c] - fast[c]) * (slow[c] - fast[c]);
-            count += 4;
-        }
-    }
-    return std::sqrt(sum / count);
+    return against_reference({bricks, table, view, options.opacity}, layer, 8192, 2, 7).rms;
 }
 
 // The order, from the errors of 8, 16 and 32 slices.

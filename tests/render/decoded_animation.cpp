@@ -11,16 +11,6 @@
 
 namespace stormcellar::render {
 
-void write_animation(const std::string& path, const std::vector<Image>& frames,
-                     const AnimationOptions& options) {
-    const auto writer = AnimationWriter::create(path, options);
-    ASSERT_TRUE(writer) << writer.error().message;
-    for (const Image& frame : frames)
-        ASSERT_TRUE((*writer)->add(frame));
-    const auto finished = (*writer)->finish();
-    ASSERT_TRUE(finished) << finished.error().message;
-}
-
 void expect_frames(const DecodedAnimation& animation, const std::vector<Image>& frames) {
     ASSERT_EQ(animation.error, "");
     ASSERT_EQ(animation.frames.size(), frames.size());

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "stormcellar/render/animation.h"
 #include "stormcellar/render/image.h"
 
@@ -25,9 +27,17 @@ struct DecodedAnimation {
     int loop_count = -1;                            // 0: forever; -1: the decoder does not say
 };
 
-// Writes a loop. A test fails if it cannot be written.
-void write_animation(const std::string& path, const std::vector<Image>& frames,
-                     const AnimationOptions& options = {});
+// Writes a loop. A test fails if it cannot be written. This is inline, because tests of stills have
+// no writer of loops.
+inline void write_animation(const std::string& path, const std::vector<Image>& frames,
+                            const AnimationOptions& options = {}) {
+    const auto writer = AnimationWriter::create(path, options);
+    ASSERT_TRUE(writer) << writer.error().message;
+    for (const Image& frame : frames)
+        ASSERT_TRUE((*writer)->add(frame));
+    const auto finished = (*writer)->finish();
+    ASSERT_TRUE(finished) << finished.error().message;
+}
 // Expects these frames, pixel by pixel.
 void expect_frames(const DecodedAnimation& animation, const std::vector<Image>& frames);
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "render/volume/reference_marcher.h"
 #include "render/volume/slicer.h"
 #include "stormcellar/render/view_geometry.h"
+#include "tests/render/against_reference.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {
@@ -172,23 +172,6 @@ TEST(Perspective, ACameraInsideSeesUpToTheWalls) {
     EXPECT_NEAR(pixel_of(layer, 45, 35)[3], 1 - std::exp(-k * path_m), 1e-4);
 }
 
-double worst_difference(const grid::BrickView& bricks, const ViewGeometry& view,
-                        const Layer& layer) {
-    const ReferenceMarcher reference(bricks, nws_reflectivity(), view, 1);
-    double sum = 0;
-    int count = 0;
-    for (int y = 3; y < layer.height; y += 9) {
-        for (int x = 3; x < layer.width; x += 9) {
-            const auto slow = reference.ray({x + 0.5, y + 0.5}, 4096);
-            const auto fast = pixel_of(layer, x, y);
-            for (std::size_t c = 0; c < 4; ++c)
-                sum += (slow[c] - fast[c]) * (slow[c] - fast[c]);
-            count += 4;
-        }
-    }
-    return std::sqrt(sum / count);
-}
-
 TEST(Perspective, EveryCameraAgreesWithTheReference) {
     const grid::GridSpec spec = small_spec(120, 20, 4000, 800);
     const auto bricks = bricks_of(storm_grid(spec));
@@ -196,7 +179,10 @@ TEST(Perspective, EveryCameraAgreesWithTheReference) {
         for (const Camera& camera : cameras()) {
             const ViewGeometry view(spec, camera, 8, 200, 150, curved);
             const Layer layer = slice_from(bricks.view(), view, 1024);
-            EXPECT_LT(worst_difference(bricks.view(), view, layer), 0.004)
+            EXPECT_LT(
+                against_reference({bricks.view(), nws_reflectivity(), view, 1}, layer, 4096, 3, 9)
+                    .rms,
+                0.004)
                 << camera.azimuth_deg << " " << camera.tilt_deg << " " << curved;
         }
     }

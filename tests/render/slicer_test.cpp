@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include "render/volume/reference_marcher.h"
+#include "tests/render/against_reference.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {
@@ -89,32 +89,6 @@ TEST(Slicer, ASingleCellLandsWhereGeometryPutsIt) {
     expect_cells_where_geometry_puts_them(small_degrees_spec(40, 12));
 }
 
-struct Difference {
-    double rms = 0, worst = 0;
-};
-
-// Compares the slicer with the reference at every few pixels.
-Difference against_reference(const grid::BrickView& view, const ViewGeometry& geometry,
-                             const Layer& layer, int steps, double opacity) {
-    const ReferenceMarcher reference(view, nws_reflectivity(), geometry, opacity);
-    Difference difference;
-    int count = 0;
-    for (int y = 3; y < layer.height; y += 11) {
-        for (int x = 3; x < layer.width; x += 11) {
-            const auto slow = reference.ray({x + 0.5, y + 0.5}, steps);
-            const auto fast = pixel_of(layer, x, y);
-            for (std::size_t c = 0; c < 4; ++c) {
-                const double off = std::abs(slow[c] - fast[c]);
-                difference.rms += off * off;
-                difference.worst = std::max(difference.worst, off);
-                ++count;
-            }
-        }
-    }
-    difference.rms = std::sqrt(difference.rms / count);
-    return difference;
-}
-
 TEST(Slicer, AgreesWithTheReferenceMarcherOnAStorm) {
     grid::GridSpec spec = small_spec(120, 20, 4000, 800);
     for (const bool even_levels : {true, false}) {
@@ -128,7 +102,8 @@ TEST(Slicer, AgreesWithTheReferenceMarcherOnAStorm) {
             for (const Camera& camera : {Camera{180, 55, 1}, Camera{130, 80, 1.5}}) {
                 const ViewGeometry geometry(spec, camera, 8, 200, 150);
                 const Layer layer = slice(bricks.view(), geometry, 1024, 1, 2);
-                const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 1);
+                const auto difference = against_reference(
+                    {bricks.view(), nws_reflectivity(), geometry, 1}, layer, 4096, 3, 11);
                 EXPECT_LT(difference.rms, 0.002);
                 EXPECT_LT(difference.worst, 0.03);
             }
@@ -143,7 +118,8 @@ TEST(Slicer, MoreSlicesComeNearerToTheReference) {
     double previous = 1;
     for (const int slices : {32, 128, 512}) {
         const Layer layer = slice(bricks.view(), geometry, slices, 1, 2);
-        const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 1);
+        const auto difference =
+            against_reference({bricks.view(), nws_reflectivity(), geometry, 1}, layer, 4096, 3, 11);
         EXPECT_LT(difference.rms, previous / 2) << slices;
         previous = difference.rms;
     }
@@ -166,7 +142,8 @@ TEST(Slicer, SkippingEmptyBricksChangesNothing) {
                                  Camera{222, 71, 0.8}, Camera{10, 33, 6}}) {
         const ViewGeometry geometry(spec, camera, 4, 160, 120);
         const Layer layer = slice(bricks.view(), geometry, 2048, 0.5, 2);
-        const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 0.5);
+        const auto difference = against_reference(
+            {bricks.view(), nws_reflectivity(), geometry, 0.5}, layer, 4096, 3, 11);
         EXPECT_LT(difference.rms, 0.004) << camera.azimuth_deg;
         EXPECT_LT(difference.worst, 0.06) << camera.azimuth_deg;
     }
