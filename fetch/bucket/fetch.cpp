@@ -7,7 +7,8 @@
 namespace stormcellar::fetch {
 
 Result<FetchReport> fetch(const FetchRequest& request) {
-    static const Result<void*> entry = load_module(fetch_module_file, fetch_module_entry, "fetch/bucket");
+    static const Result<void*> entry =
+        load_module(fetch_module_file, fetch_module_entry, "fetch/bucket");
     if (!entry) {
         return fail(entry.error().code, "the module that fetches cannot be loaded: {}",
                     entry.error().message);
