@@ -51,7 +51,7 @@ const test = base.extend({
 function misplaced() {
   const out = [];
   if (document.documentElement.scrollWidth > innerWidth) out.push('the page scrolls sideways');
-  for (const section of document.querySelectorAll('section')) {
+  for (const section of document.querySelectorAll('section:not([hidden])')) {
     const right = section.getBoundingClientRect().right - parseFloat(getComputedStyle(section).paddingRight);
     for (const element of section.querySelectorAll('td, th, time, a, i, p, summary'))
       if (element.getBoundingClientRect().right > right + 1) out.push(element.outerHTML);
@@ -69,6 +69,7 @@ for (const width of [360, 796, 1920]) {
         page.on('pageerror', (error) => trouble.push(error.message));
         page.on('response', (response) => response.status() >= 400 && trouble.push(response.url()));
         await page.goto(`${live.address}/`);
+        await expect(page.locator('tr', { hasText: 'KFTG' })).toContainText('REF');
         expect(await page.evaluate(misplaced)).toEqual([]);
         expect(trouble).toEqual([]);
         const pictures = process.env.STORMCELLAR_PICTURES;
@@ -77,6 +78,84 @@ for (const width of [360, 796, 1920]) {
     });
   }
 }
+
+test('the examples name a station of the server', async ({ page, live }) => {
+  await page.goto(`${live.address}/`);
+  await expect(page.locator('.lead')).toContainText('1 station; the newest volume');
+  const example = page.locator('details', { hasText: 'rclone' }).locator('code');
+  await expect(example).toContainText(/\/s3":[^/]+\/\d{4}\/\d\d\/\d\d\/KFTG\//);
+});
+
+test.describe('without scripts', () => {
+  test.use({ javaScriptEnabled: false });
+  test('the page links to the lists and has examples', async ({ page, live }) => {
+    await page.goto(`${live.address}/`);
+    await expect(page.getByRole('link', { name: 'for stations' })).toHaveAttribute('href', '/api/v1/stations');
+    await page.getByText('GR2Analyst').click();
+    await expect(page.getByText(`${live.address}/nexrd2`)).toBeVisible();
+  });
+});
+
+// Shows the page as if the API gave these answers.
+async function open(page, live, { stations, domains = { domains: [] } }) {
+  for (const [name, json] of Object.entries({ stations, domains })) await page.route(`**/api/v1/${name}`, (route) => route.fulfill({ json }));
+  await page.goto(`${live.address}/`);
+}
+const ago = (age_s) => ({ time: '2026-05-01T11:58:00Z', age_s });
+const station = (name, facts) => ({ station: name, newest_volume: null, newest_grid: null, moments: [], silent_s: null, ...facts });
+const listOf = (...stations) => ({ time: '2026-05-01T12:00:00.5Z', stations });
+
+test('a row says how old and how silent its station is', async ({ page, live }) => {
+  const domain = (name, part_of = null) => ({ domain: name, part_of, moments: [{ moment: 'REF', newest: '2026-05-01T11:56:00Z', age_s: 240 }] });
+  await open(page, live, {
+    stations: listOf(
+      station('KABR', { name: 'Aberdeen', state: 'SD', newest_volume: ago(10800), silent_s: 10800 }),
+      station('KTLX', { newest_volume: ago(120), newest_grid: ago(120), moments: ['REF', 'VEL'] }),
+    ),
+    domains: { domains: [domain('KTLX'), domain('northeast'), domain('northeast.KTLX', 'northeast'), { ...domain('empty'), moments: [] }] },
+  });
+  await expect(page.locator('.lead')).toHaveText('2 stations, 1 of them silent; the newest volume began 2 min ago.');
+  await expect(page.locator('.asof')).toContainText('As of 2026-05-01 12:00:00 UTC.');
+  const cells = (name) => page.locator('tr', { hasText: name }).locator('th, td');
+  await expect(cells('KABR')).toHaveText(['KABR Aberdeen, SD', 'silent for 3 h 0 min', '3 h 0 min 2026-05-01 11:58:00', 'none', '', /^\s*volumes\s+about\s*$/]);
+  await expect(cells('KTLX')).toHaveText(['KTLX', 'live', /2 min/, /2 min/, 'REF VEL', /volumes\s+grids\s+about/]);
+  await expect(page.locator('#domains tbody tr')).toHaveText(/northeast\s+4 min 2026-05-01 11:56:00\s+REF\s+grids/);
+  await expect(page.locator('code', { hasText: 'siphon' })).toContainText("stations('KTLX').time(datetime(2026, 5, 1, 11, 58))");
+});
+
+test('ages are read', async ({ page, live }) => {
+  const day = 86400;
+  const ages = { 0: '0 s', 89: '89 s', 90: '1 min', 5399: '89 min', 19259: '5 h 20 min', [2 * day]: '2 days', [1096 * day]: '3 years' };
+  const stations = Object.keys(ages).map((age, i) => station(`KAA${i}`, { newest_volume: ago(Number(age)) }));
+  await open(page, live, { stations: listOf(...stations) });
+  await expect(page.locator('td.volume b')).toHaveText(Object.values(ages));
+});
+
+test('a time in the future is not ago, and its station is not live', async ({ page, live }) => {
+  await open(page, live, {
+    stations: listOf(station('KAAA', { newest_grid: ago(-180 * 86400) }), station('KBBB', { newest_volume: ago(-120) }), station('KCCC', { newest_volume: undefined })),
+  });
+  await expect(page.locator('.lead')).toHaveText('3 stations; the newest volume has a time in the future.');
+  await expect(page.locator('td.state')).toHaveText(['archive', 'live', 'archive']);
+  await expect(page.locator('td.volume')).toHaveText(['not known', /^in the future/, 'not known']);
+});
+
+test('names cannot break the page', async ({ page, live }) => {
+  const evil = `"><script>document.title = 'broken'</script>$&`;
+  await open(page, live, { stations: listOf(station(evil, { name: evil, moments: [evil], newest_volume: ago(1) })) });
+  await expect(page.locator('th b')).toHaveText(evil);
+  await expect(page.getByRole('link', { name: 'about' })).toHaveAttribute('href', `/api/v1/stations?station=${encodeURIComponent(evil)}`);
+  expect(await page.title()).toMatch(/^Weather radar: 127/);
+});
+
+test('the page says that there is nothing yet, and that the server fails', async ({ page, live }) => {
+  await open(page, live, { stations: listOf() });
+  await expect(page.locator('.lead')).toHaveText('Nothing has come yet.');
+  await expect(page.locator('section:visible')).toHaveText([/There are none yet/, /Connect a program/]);
+  await page.route('**/api/v1/stations', (route) => route.fulfill({ status: 503 }));
+  await page.reload();
+  await expect(page.locator('.lead')).toHaveText('The lists could not be read (stations: 503).');
+});
 
 test('an EventSource hears of a volume', async ({ page, live }) => {
   await page.goto(`${live.address}/`);

@@ -64,7 +64,7 @@ void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAn
 // radars, and a list of all stations reads the database of each.
 constexpr std::size_t most_databases = 256;
 
-// Follows the daemon's work for events, metrics and the index.
+// Follows the daemon's work for events, metrics and silent stations.
 struct Watched {
     std::shared_ptr<EventHub> hub = EventHub::make();
     std::shared_ptr<const EventFeed> feed;
@@ -151,10 +151,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     // The page draws the data of the API.
     if (setup.web.serves(WebPart::grids) && !viewer_files().empty())
         doors->add("/view", std::make_shared<ViewerDoor>());
-    doors->add("/", std::make_shared<IndexDoor>(IndexOptions{.grids = sources.grids,
-                                                             .feed = watched.feed,
-                                                             .doors = doors->prefixes(),
-                                                             .bucket = setup.web.bucket}));
+    doors->add("/", std::make_shared<IndexDoor>(doors->prefixes(), setup.web.bucket));
     measures.watch_grids(sources.grids);
     measures.watch_events(watched.hub, watched.feed);
     measures.count_doors(*doors);

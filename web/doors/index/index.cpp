@@ -1,88 +1,86 @@
 #include "web/doors/index/index.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 
-#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/version.h"
 #include "web/data/grids/text_answer.h"
+#include "web/doors/index/index_files.h"
 
 namespace stormcellar::web {
 namespace {
 
-std::string place_of(const std::string& icao) {
-    const auto station = find_station(icao);
-    if (!station) return {};
-    std::string place(station->name);
-    if (!station->state.empty()) place += ", " + std::string(station->state);
-    return place;
-}
-
-// Returns the moments of a domain, and its newest grid of any moment.
-IndexDomain domain_facts(const Grids& grids, const std::string& name) {
-    IndexDomain domain{name, {}, std::nullopt};
-    for (const level2::Moment moment : grids.moments(name)) {
-        const auto newest = grids.newest(name, moment);
-        if (!newest) continue;
-        domain.moments.emplace_back(level2::moment_name(moment));
-        domain.newest = std::max(domain.newest.value_or(*newest), *newest);
+// Returns true if the condition holds, as "/api/v1 !/zarr".
+bool holds(std::string_view condition, const std::vector<std::string>& doors) {
+    while (!condition.empty()) {
+        std::string_view door = condition.substr(0, condition.find(' '));
+        condition.remove_prefix(std::min(door.size() + 1, condition.size()));
+        const bool is_wanted = !door.starts_with('!');
+        if (!is_wanted) door.remove_prefix(1);
+        if ((std::ranges::find(doors, door) != doors.end()) != is_wanted) return false;
     }
-    return domain;
+    return true;
 }
 
-Answer style_answer(const Request& request) {
-    return text_answer_to(request, "text/css; charset=utf-8", std::string(index_style()));
+// Returns the page without the parts whose condition does not hold, and without conditions.
+std::string parts_for(const std::vector<std::string>& doors, std::string_view page) {
+    constexpr std::string_view begin = "<!--", end = "-->", word_if = "if ";
+    std::string text;
+    std::vector<bool> is_shown{true};
+    while (true) {
+        const std::size_t at = page.find(begin);
+        if (is_shown.back()) text += page.substr(0, at);
+        if (at == std::string_view::npos) return text;
+        page.remove_prefix(at + begin.size());
+        const std::string_view words = page.substr(0, page.find(end));
+        page.remove_prefix(words.size() + end.size());
+        if (words.starts_with(word_if)) {
+            is_shown.push_back(is_shown.back() && holds(words.substr(word_if.size()), doors));
+        } else {
+            is_shown.pop_back();
+        }
+    }
+}
+
+// Returns the page with a value for each name in double braces.
+std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values) {
+    std::string text;
+    while (true) {
+        const std::size_t at = page.find("{{");
+        text += page.substr(0, at);
+        if (at == std::string_view::npos) return text;
+        page.remove_prefix(at + 2);
+        const std::string_view name = page.substr(0, page.find("}}"));
+        page.remove_prefix(name.size() + 2);
+        text += xml_escaped(values.at(name));
+    }
 }
 
 }  // namespace
 
-IndexFacts IndexDoor::facts(const Request& request) const {
-    IndexFacts facts;
-    facts.now = now_utc();
-    facts.base = request.base;
-    facts.doors = options_.doors;
-    facts.bucket = options_.bucket;
-    std::map<std::string, IndexStation> stations;
-    if (options_.feed) {
-        for (const StationNews::Page& page : options_.feed->stations()) {
-            IndexStation& station = stations[page.station];
-            station.newest_volume = page.newest_volume;
-            station.heard = page.heard;
-            station.is_silent = page.is_silent;
-        }
-    }
-    if (options_.grids) {
-        for (const std::string& name : options_.grids->domains()) {
-            if (cache::is_part(name)) continue;
-            IndexDomain domain = domain_facts(*options_.grids, name);
-            if (domain.moments.empty()) continue;
-            if (!is_icao(name)) {
-                facts.domains.push_back(std::move(domain));
-                continue;
-            }
-            stations[name].newest_grid = domain.newest;
-            stations[name].moments = std::move(domain.moments);
-        }
-    }
-    for (auto& [icao, station] : stations) {
-        facts.is_cut = facts.stations.size() == options_.most_stations;
-        if (facts.is_cut) break;
-        station.icao = icao;
-        station.place = place_of(icao);
-        facts.stations.push_back(std::move(station));
-    }
-    return facts;
-}
+IndexDoor::IndexDoor(const std::vector<std::string>& doors, std::string bucket)
+    : page_(parts_for(doors, index_page())), bucket_(std::move(bucket)) {}
 
 std::optional<Answer> IndexDoor::answer_at_once(const Request& request) {
-    if (request.path == "/index.css") return style_answer(request);
+    if (request.path == "/index.css")
+        return text_answer_to(request, "text/css; charset=utf-8", std::string(index_style()));
+    if (request.path == "/index.mjs")
+        return text_answer_to(request, "text/javascript; charset=utf-8",
+                              std::string(index_script()));
     if (request.path != "/") return sentence(404, "There is nothing at this address.");
-    return std::nullopt;
+    const std::string& base = request.base;
+    const std::string host = base.substr(base.find("://") + 3);
+    const std::string path = host.substr(std::min(host.find('/'), host.size()));
+    return text_answer_to(request, "text/html; charset=utf-8",
+                          filled(page_, {{"base", base},
+                                         {"path", path},
+                                         {"host", host},
+                                         {"bucket", bucket_},
+                                         {"version", std::string(software_version)}}));
 }
 
 Answer IndexDoor::answer(const Request& request) {
-    if (auto quick = answer_at_once(request)) return *std::move(quick);
-    return text_answer_to(request, "text/html; charset=utf-8", index_html(facts(request)));
+    return *answer_at_once(request);
 }
 
 }  // namespace stormcellar::web

@@ -1,38 +1,36 @@
-// web/doors/index/index.h -- the index page at "/", its style at "/index.css", and the answer to an
-// address that no other door serves.
+// web/doors/index/index.h -- the index page at "/", its style at "/index.css", its script at
+// "/index.mjs", and the answer to an address that no other door serves.
+//
+// The page (index.html) links to the doors and shows how programs connect, with addresses to copy.
+// Its script asks /api/v1 for stations and mosaics. Style and script are separate files, since the
+// Content-Security-Policy allows neither within the page. In index.html
+//
+//   <!--if /api/v1 !/zarr--> ... <!--end-->   is left out unless the server has the first door and
+//                                             lacks the second
+//   {{base}} {{path}} {{host}}                are the server's address, and its parts
+//   {{bucket}} {{version}}                    are those of the bucket of "/s3", and of the program
 //
 // Threads   As Door.
 // Errors    404 for every other path.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "web/data/events/event_feed.h"
-#include "web/data/grids/grids.h"
-#include "web/doors/index/page.h"
 #include "web/http/door.h"
 
 namespace stormcellar::web {
 
-struct IndexOptions {
-    std::shared_ptr<Grids> grids;           // null: no cache
-    std::shared_ptr<const EventFeed> feed;  // knows the stations; may be null
-    std::vector<std::string> doors;         // Doors::prefixes()
-    std::string bucket;
-    std::size_t most_stations = 1000;
-};
-
 class IndexDoor final : public Door {
   public:
-    explicit IndexDoor(IndexOptions options) : options_(std::move(options)) {}
+    // `doors` are Doors::prefixes().
+    IndexDoor(const std::vector<std::string>& doors, std::string bucket);
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
   private:
-    [[nodiscard]] IndexFacts facts(const Request& request) const;
-    const IndexOptions options_;
+    const std::string page_;  // with the parts of these doors
+    const std::string bucket_;
 };
 
 }  // namespace stormcellar::web
