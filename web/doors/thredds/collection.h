@@ -32,6 +32,11 @@ struct ThreddsVariable {
     std::string vocabulary_name;  // in the vocabulary DIF
 };
 
+// The files of a station and, if the data set needs one, of a variable.
+struct ThreddsSeries {
+    std::string_view station, variable;
+};
+
 // A file. Its path is relative to the data set's, as in KTLX/20220317/KTLX20220317_000842_V06.
 struct ThreddsFile {
     std::string name, path;
@@ -59,11 +64,9 @@ class ThreddsCollection {
 
     // Returns the nearest file, if it is close enough in time.
     [[nodiscard]] virtual Result<std::optional<ThreddsFile>> nearest(
-        std::string_view station, std::string_view variable, UtcTime time,
-        std::chrono::milliseconds within) = 0;
+        ThreddsSeries series, UtcTime time, std::chrono::milliseconds within) = 0;
     // Returns files in ascending order of time.
-    [[nodiscard]] virtual Result<std::vector<ThreddsFile>> list(std::string_view station,
-                                                                std::string_view variable,
+    [[nodiscard]] virtual Result<std::vector<ThreddsFile>> list(ThreddsSeries series,
                                                                 const RawRange& range) = 0;
     // Answers with the file that these segments of a path name.
     [[nodiscard]] virtual Answer file(const Request& request,

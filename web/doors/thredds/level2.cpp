@@ -32,11 +32,9 @@ class Level2Collection final : public ThreddsCollection {
     }
     std::vector<ThreddsVariable> variables() const override;
     Result<std::optional<UtcTime>> oldest() override;
-    Result<std::optional<ThreddsFile>> nearest(std::string_view station, std::string_view variable,
-                                               UtcTime time,
+    Result<std::optional<ThreddsFile>> nearest(ThreddsSeries series, UtcTime time,
                                                std::chrono::milliseconds within) override;
-    Result<std::vector<ThreddsFile>> list(std::string_view station, std::string_view variable,
-                                          const RawRange& range) override;
+    Result<std::vector<ThreddsFile>> list(ThreddsSeries series, const RawRange& range) override;
     Answer file(const Request& request, std::span<const std::string_view> path) override;
     std::optional<Answer> file_at_once(const Request& request,
                                        std::span<const std::string_view> path) override;
@@ -112,22 +110,19 @@ Result<std::optional<UtcTime>> Level2Collection::oldest() {
     return oldest;
 }
 
-Result<std::optional<ThreddsFile>> Level2Collection::nearest(std::string_view station,
-                                                             std::string_view /*variable*/,
-                                                             UtcTime time,
+Result<std::optional<ThreddsFile>> Level2Collection::nearest(ThreddsSeries series, UtcTime time,
                                                              std::chrono::milliseconds within) {
-    if (!has_station(station)) return std::optional<ThreddsFile>{};
-    const auto volume = files_->nearest(station, time, within);
+    if (!has_station(series.station)) return std::optional<ThreddsFile>{};
+    const auto volume = files_->nearest(series.station, time, within);
     if (!volume) return pass_on(volume);
     return *volume ? std::optional{file_of(**volume)} : std::nullopt;
 }
 
-Result<std::vector<ThreddsFile>> Level2Collection::list(std::string_view station,
-                                                        std::string_view /*variable*/,
+Result<std::vector<ThreddsFile>> Level2Collection::list(ThreddsSeries series,
                                                         const RawRange& range) {
     std::vector<ThreddsFile> files;
-    if (!has_station(station)) return files;
-    const auto volumes = files_->list(station, range);
+    if (!has_station(series.station)) return files;
+    const auto volumes = files_->list(series.station, range);
     if (!volumes) return pass_on(volumes);
     files.reserve(volumes->size());
     for (const RawVolume& volume : *volumes)

@@ -2,7 +2,6 @@
 // configurations give them, Level3_FTG_N0Q_20150615_1201.nids. The server does not read their
 // contents.
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "base/steady_time.h"
 #include "stormcellar/base/mutex.h"
 #include "web/doors/thredds/collection.h"
+#include "web/doors/thredds/nearest_time.h"
 
 namespace stormcellar::web {
 namespace {
@@ -67,24 +67,26 @@ class Level3Collection final : public ThreddsCollection {
     std::string summary() const override { return "Products of NEXRAD Level III."; }
     std::vector<ThreddsVariable> variables() const override;
     Result<std::optional<UtcTime>> oldest() override;
-    Result<std::optional<ThreddsFile>> nearest(std::string_view station, std::string_view variable,
-                                               UtcTime time,
+    Result<std::optional<ThreddsFile>> nearest(ThreddsSeries series, UtcTime time,
                                                std::chrono::milliseconds within) override;
-    Result<std::vector<ThreddsFile>> list(std::string_view station, std::string_view variable,
-                                          const RawRange& range) override;
+    Result<std::vector<ThreddsFile>> list(ThreddsSeries series, const RawRange& range) override;
     Answer file(const Request& request, std::span<const std::string_view> path) override;
 
   protected:
     Result<std::vector<std::string>> station_ids() override;
 
   private:
-    using Times = std::map<UtcTime, std::string>;  // names
+    // Names of files by their times. A query may ask for 10,000 times, so a look must not copy
+    // them.
+    struct Times : std::map<UtcTime, std::string> {
+        Times() = default;
+        Times(const Times&) = delete;
+        Times& operator=(const Times&) = delete;
+    };
     using Index = std::map<std::pair<std::string, std::string>, Times>;
     [[nodiscard]] Result<std::shared_ptr<const Index>> index();
-    // Returns the times with their names. They keep the shared index alive instead of copying it,
-    // because a query may ask for 10,000 times.
-    [[nodiscard]] Result<std::shared_ptr<const Times>> times_of(std::string_view station,
-                                                                std::string_view variable);
+    // Returns the times with their names, which keep the shared index alive.
+    [[nodiscard]] Result<std::shared_ptr<const Times>> times_of(ThreddsSeries series);
 
     Mutex mutex_;
     std::shared_ptr<const Index> index_ STORMCELLAR_GUARDED_BY(mutex_);
@@ -138,12 +140,12 @@ Result<std::vector<std::string>> Level3Collection::station_ids() {
 }
 
 Result<std::shared_ptr<const Level3Collection::Times>> Level3Collection::times_of(
-    std::string_view station, std::string_view variable) {
+    ThreddsSeries series) {
     const auto known = index();
     if (!known) return pass_on(known);
     const std::vector<std::string>& named = configured().stations;
-    const auto found = (*known)->find({std::string{station}, std::string{variable}});
-    const bool is_named = named.empty() || std::ranges::count(named, station) > 0;
+    const auto found = (*known)->find({std::string{series.station}, std::string{series.variable}});
+    const bool is_named = named.empty() || std::ranges::count(named, series.station) > 0;
     if (found == (*known)->end() || !is_named) return std::make_shared<const Times>();
     return std::shared_ptr<const Times>(*known, &found->second);
 }
@@ -157,45 +159,34 @@ Result<std::optional<UtcTime>> Level3Collection::oldest() {
     return oldest;
 }
 
-ThreddsFile product_file(std::string_view station, std::string_view variable, UtcTime start,
-                         const std::string& name) {
+ThreddsFile product_file(ThreddsSeries series, const std::pair<const UtcTime, std::string>& file) {
+    const auto& [start, name] = file;
     constexpr std::size_t digits = 8;
     return {name,
-            fmt::format("{}/{}/{}/{}", variable, station, format_compact(start).substr(0, digits),
-                        name),
+            fmt::format("{}/{}/{}/{}", series.variable, series.station,
+                        format_compact(start).substr(0, digits), name),
             start};
 }
 
-Result<std::optional<ThreddsFile>> Level3Collection::nearest(std::string_view station,
-                                                             std::string_view variable,
-                                                             UtcTime time,
+Result<std::optional<ThreddsFile>> Level3Collection::nearest(ThreddsSeries series, UtcTime time,
                                                              std::chrono::milliseconds within) {
-    const auto times = times_of(station, variable);
+    const auto times = times_of(series);
     if (!times) return pass_on(times);
-    // The nearest file is directly before or after the time; if both are as near, take the earlier
-    // one.
-    const auto behind = (*times)->lower_bound(time);
-    auto nearest = behind;
-    if (behind != (*times)->begin()) {
-        const auto before = std::prev(behind);
-        if (behind == (*times)->end() || time - before->first <= behind->first - time)
-            nearest = before;
-    }
+    const auto nearest = nearest_time(**times, time);
     if (nearest == (*times)->end() || std::chrono::abs(nearest->first - time) > within)
         return std::nullopt;
-    return product_file(station, variable, nearest->first, nearest->second);
+    return product_file(series, *nearest);
 }
 
-Result<std::vector<ThreddsFile>> Level3Collection::list(std::string_view station,
-                                                        std::string_view variable,
+Result<std::vector<ThreddsFile>> Level3Collection::list(ThreddsSeries series,
                                                         const RawRange& range) {
-    const auto times = times_of(station, variable);
+    const auto times = times_of(series);
     if (!times) return pass_on(times);
     std::vector<ThreddsFile> files;
     auto at = range.from ? (*times)->lower_bound(*range.from) : (*times)->begin();
     for (; at != (*times)->end() && files.size() < range.most; ++at) {
         if (range.to && at->first > *range.to) break;
-        files.push_back(product_file(station, variable, at->first, at->second));
+        files.push_back(product_file(series, *at));
     }
     return files;
 }
@@ -206,7 +197,7 @@ Answer Level3Collection::file(const Request& request, std::span<const std::strin
     if (!product || product->variable != path[0] || product->station != path[1]) {
         return sentence(404, "There is no such file.");
     }
-    const auto times = times_of(product->station, product->variable);
+    const auto times = times_of({product->station, product->variable});
     if (!times) return sentence(status_of(times.error()), "The files cannot be listed now.");
     const auto known = (*times)->find(product->start);
     if (known == (*times)->end() || known->second != path[3]) {

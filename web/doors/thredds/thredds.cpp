@@ -186,7 +186,7 @@ Result<std::vector<ThreddsFile>> ThreddsDoor::files_of(ThreddsCollection& collec
     for (const std::string& station : *stations) {
         for (const std::string& variable : variables) {
             for (const UtcTime time : query.times) {
-                auto file = collection.nearest(station, variable, time, nearest_within);
+                auto file = collection.nearest({station, variable}, time, nearest_within);
                 if (!file) return pass_on(file);
                 const bool is_new = *file && (files.empty() || files.back().path != (*file)->path);
                 if (is_new) files.push_back(*std::move(*file));
@@ -196,7 +196,7 @@ Result<std::vector<ThreddsFile>> ThreddsDoor::files_of(ThreddsCollection& collec
             range.from = query.from;
             range.to = query.to;
             range.most = options_.most_results - files.size() + 1;
-            auto listed = collection.list(station, variable, range);
+            auto listed = collection.list({station, variable}, range);
             if (!listed) return pass_on(listed);
             std::ranges::move(*listed, std::back_inserter(files));
             if (files.size() > options_.most_results) return too_many();
