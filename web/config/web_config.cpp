@@ -285,10 +285,6 @@ void read_limits(TomlTable table, WebLimits& limits) {
 
 }  // namespace
 
-bool BindAddress::is_loopback() const {
-    return host.starts_with("127.") || host == "::1";
-}
-
 std::string BindAddress::text() const {
     return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port)
                                                : fmt::format("[{}]:{}", host, port);

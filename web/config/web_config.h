@@ -27,7 +27,6 @@ struct BindAddress {
     std::string host;  // "127.0.0.1", or "::1" without brackets
     int port = 0;
 
-    [[nodiscard]] bool is_loopback() const;
     [[nodiscard]] std::string text() const;  // "127.0.0.1:8090", "[::1]:8090"
     bool operator==(const BindAddress&) const = default;
 };

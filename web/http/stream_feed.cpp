@@ -17,14 +17,16 @@ void StreamFeed::begin(const std::shared_ptr<StreamFeed>& self) {
     });
 }
 
-// Resumes the connection if it is suspended. Resuming wakes the server's thread, so it is done only
-// then.
-void StreamFeed::more() {
-    const MutexLock lock(mutex_);
-    was_told_ = true;
+void StreamFeed::resume_if_suspended() {
     if (!is_suspended_ || has_left_) return;
     is_suspended_ = false;
     MHD_resume_connection(connection_);
+}
+
+void StreamFeed::more() {
+    const MutexLock lock(mutex_);
+    was_told_ = true;
+    resume_if_suspended();
 }
 
 ssize_t StreamFeed::read(char* buffer, std::size_t most) {
@@ -61,9 +63,7 @@ void StreamFeed::leave() {
 void StreamFeed::end() {
     const MutexLock lock(mutex_);
     has_ended_ = true;
-    if (!is_suspended_ || has_left_) return;
-    is_suspended_ = false;
-    MHD_resume_connection(connection_);
+    resume_if_suspended();
 }
 
 }  // namespace stormcellar::web

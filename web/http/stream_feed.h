@@ -33,6 +33,8 @@ class StreamFeed {
 
   private:
     void more();
+    // Resuming wakes the server's thread.
+    void resume_if_suspended() STORMCELLAR_REQUIRES(mutex_);
 
     const std::shared_ptr<Stream> stream_;
     MHD_Connection* const connection_;

@@ -19,8 +19,6 @@ class Measures {
   public:
     // Adds the measures of the process and the server.
     Measures();
-    Measures(const Measures&) = delete;
-    Measures& operator=(const Measures&) = delete;
 
     [[nodiscard]] const std::shared_ptr<Counters>& counters() const { return counters_; }
     void count_doors(const Doors& doors);

@@ -8,15 +8,8 @@
 namespace stormcellar::web {
 
 std::string_view coding_name(Coding coding) {
-    switch (coding) {
-        case Coding::gzip:
-            return "gzip";
-        case Coding::zstd:
-            return "zstd";
-        case Coding::identity:
-            break;
-    }
-    return "";
+    if (coding == Coding::identity) return "";
+    return coding == Coding::gzip ? "gzip" : "zstd";
 }
 
 Coding coding_for(const Request& request) {
@@ -27,15 +20,8 @@ Coding coding_for(const Request& request) {
 namespace {
 
 Result<std::string> compressed_by(std::string_view bytes, Coding coding, int of_gzip, int of_zstd) {
-    switch (coding) {
-        case Coding::gzip:
-            return gzipped(bytes, of_gzip);
-        case Coding::zstd:
-            return zstd_packed(bytes, of_zstd);
-        case Coding::identity:
-            break;
-    }
-    return std::string(bytes);
+    if (coding == Coding::identity) return std::string(bytes);
+    return coding == Coding::gzip ? gzipped(bytes, of_gzip) : zstd_packed(bytes, of_zstd);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 // One halved grid of the United States takes tens of megabytes.
 constexpr std::size_t most_halved_kept = 4;
 constexpr std::size_t most_shown_text = 80;
+constexpr std::int64_t most_listed = 10'000, usually_listed = 100;
 
 std::string shown(std::string_view text) {
     return std::string(text.substr(0, most_shown_text));
@@ -129,6 +130,35 @@ Result<std::optional<level2::Moment>> moment_parameter(const ApiCall& call) {
                     level2::moment_names(", ", " or "), shown(*text));
     }
     return moment;
+}
+
+Result<RegionBox> box_parameters(const ApiCall& call) {
+    RegionBox box;
+    struct Side {
+        std::string_view name;
+        double* to;
+        double most;
+    };
+    for (const Side& side : {Side{"west", &box.west_deg, 540}, Side{"south", &box.south_deg, 90},
+                             Side{"east", &box.east_deg, 540}, Side{"north", &box.north_deg, 90}}) {
+        const auto number = number_parameter(call, side.name, -side.most, side.most);
+        if (!number) return pass_on(number);
+        if (!*number) {
+            return fail(ErrorCode::bad_argument, "{}: the parameter is missing", side.name);
+        }
+        *side.to = **number;
+    }
+    return box;
+}
+
+Result<ListedRange> range_parameters(const ApiCall& call) {
+    const auto from = time_parameter(call, "from");
+    if (!from) return pass_on(from);
+    const auto to = time_parameter(call, "to");
+    if (!to) return pass_on(to);
+    const auto limit = whole_parameter(call, "limit", 1, most_listed, usually_listed);
+    if (!limit) return pass_on(limit);
+    return ListedRange{*from, *to, static_cast<std::size_t>(*limit)};
 }
 
 Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view name) {

@@ -110,6 +110,15 @@ using Answered = tl::expected<T, Answer>;
 [[nodiscard]] Result<std::optional<UtcTime>> time_parameter(const ApiCall& call,
                                                             std::string_view name);
 [[nodiscard]] Result<std::optional<level2::Moment>> moment_parameter(const ApiCall& call);
+// Reads west, south, east and north, which are all required. If the box crosses the antimeridian,
+// west is greater than east, or one of them is beyond 180 degrees.
+[[nodiscard]] Result<RegionBox> box_parameters(const ApiCall& call);
+// Reads from, to and limit, which is 1 to 10,000, by default 100: the newest so many.
+struct ListedRange {
+    std::optional<UtcTime> from, to;
+    std::size_t limit = 0;
+};
+[[nodiscard]] Result<ListedRange> range_parameters(const ApiCall& call);
 // Reads "35.3,-97.3": latitude and longitude in degrees. The parameter is required.
 [[nodiscard]] Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view name);
 // Reads "3-17"; both ends are inclusive.

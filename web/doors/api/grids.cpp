@@ -8,9 +8,6 @@
 namespace stormcellar::web {
 namespace {
 
-constexpr std::int64_t most_grids_listed = 10000;
-constexpr std::int64_t usual_grids_listed = 100;
-
 void describe_cells(const OpenGrid& grid, ApiJson& json) {
     const grid::BrickView view = grid.file.view();
     const grid::GridSpec& spec = *view.spec;
@@ -129,23 +126,22 @@ struct GridListing {
     bool more = false;
 };
 GridListing list_grids(const Grids& grids, const std::vector<std::string>& domains,
-                       std::optional<level2::Moment> moment, std::optional<UtcTime> from,
-                       std::optional<UtcTime> to, std::size_t limit) {
+                       std::optional<level2::Moment> moment, const ListedRange& range) {
     GridListing listing;
     for (const std::string& domain : domains) {
         for (const level2::Moment one : grids.moments(domain)) {
             if (moment && one != *moment) continue;
-            const auto times = grids.times(domain, one, from, to);
-            const std::size_t skipped = times.size() > limit ? times.size() - limit : 0;
+            const auto times = grids.times(domain, one, range.from, range.to);
+            const std::size_t skipped = times.size() - std::min(times.size(), range.limit);
             listing.more |= skipped > 0;
             for (std::size_t i = skipped; i < times.size(); ++i)
                 listing.grids.push_back({times[i], domain, one});
         }
     }
     std::ranges::sort(listing.grids);
-    if (listing.grids.size() > limit) {
+    if (listing.grids.size() > range.limit) {
         listing.grids.erase(listing.grids.begin(),
-                            listing.grids.end() - static_cast<std::ptrdiff_t>(limit));
+                            listing.grids.end() - static_cast<std::ptrdiff_t>(range.limit));
         listing.more = true;
     }
     return listing;
@@ -184,18 +180,13 @@ Answer api_domains(const ApiCall& call) {
 Answer api_grids(const ApiCall& call) {
     const auto moment = moment_parameter(call);
     if (!moment) return json_error(moment.error());
-    const auto from = time_parameter(call, "from");
-    if (!from) return json_error(from.error());
-    const auto to = time_parameter(call, "to");
-    if (!to) return json_error(to.error());
-    const auto limit = whole_parameter(call, "limit", 1, most_grids_listed, usual_grids_listed);
-    if (!limit) return json_error(limit.error());
+    const auto range = range_parameters(call);
+    if (!range) return json_error(range.error());
     GridListing listing;
     if (call.state.sources().grids) {
         const auto domain = call.request.parameter("domain");
         const auto domains = domain ? std::vector{std::string(*domain)} : call.grids().domains();
-        listing = list_grids(call.grids(), domains, *moment, *from, *to,
-                             static_cast<std::size_t>(*limit));
+        listing = list_grids(call.grids(), domains, *moment, *range);
     }
     ApiJson list = ApiJson::array();
     for (const ListedGrid& grid : listing.grids) {

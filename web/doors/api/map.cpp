@@ -67,23 +67,9 @@ Status read_kinds(std::string_view text, MapRequest& wanted) {
 
 Result<MapRequest> read_map_request(const ApiCall& call) {
     MapRequest wanted;
-    struct Side {
-        std::string_view name;
-        double* to;
-        double most;
-    };
-    RegionBox& box = wanted.box;
-    for (const Side& side :
-         {Side{"west", &box.west_deg, 540}, Side{"east", &box.east_deg, 540},
-          Side{"south", &box.south_deg, 90}, Side{"north", &box.north_deg, 90}}) {
-        const auto number = number_parameter(call, side.name, -side.most, side.most);
-        if (!number) return pass_on(number);
-        if (!*number) {
-            return fail(ErrorCode::bad_argument, "{}: the parameter is missing", side.name);
-        }
-        *side.to = **number;
-    }
-    box = turned(box);
+    const auto sides = box_parameters(call);
+    if (!sides) return pass_on(sides);
+    const RegionBox box = wanted.box = turned(*sides);
     const double wide = box.east_deg - box.west_deg;
     if (!(wide > 0) || wide > 360 || box.south_deg >= box.north_deg) {
         return fail(ErrorCode::bad_argument,

@@ -286,17 +286,6 @@ ApiJson openapi_document(std::string_view base) {
     return document;
 }
 
-std::string api_table_markdown() {
-    std::string table = "| path | parameters | what |\n|---|---|---|\n";
-    for (const ApiOperation& operation : api_operations()) {
-        std::string names;
-        for (const ApiParameter& parameter : operation.parameters)
-            names += fmt::format("{}`{}`", names.empty() ? "" : ", ", parameter.name);
-        table += fmt::format("| `{}` | {} | {} |\n", operation.path, names, operation.what);
-    }
-    return table;
-}
-
 Answer api_index(const ApiCall& call) {
     ApiJson list = ApiJson::array();
     for (const ApiOperation& operation : api_operations()) {

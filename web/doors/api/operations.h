@@ -39,8 +39,6 @@ struct ApiOperation {
 [[nodiscard]] std::string_view api_path_parameter(std::string_view name);
 // Returns the OpenAPI 3.1 document.
 [[nodiscard]] ApiJson openapi_document(std::string_view base);
-// Returns the table of paths in Markdown.
-[[nodiscard]] std::string api_table_markdown();
 
 // The operations.
 Answer api_index(const ApiCall& call);

@@ -16,27 +16,6 @@ std::string region_text(const RegionBox& box) {
                        side(box.north_deg));
 }
 
-Result<RegionBox> region_parameters_of(const ApiCall& call) {
-    RegionBox box;
-    struct Side {
-        std::string_view name;
-        double* to;
-        double most;
-    };
-    // If a box crosses the antimeridian, its west is greater than its east, or one of them is
-    // beyond 180.
-    for (const Side& side : {Side{"west", &box.west_deg, 540}, Side{"south", &box.south_deg, 90},
-                             Side{"east", &box.east_deg, 540}, Side{"north", &box.north_deg, 90}}) {
-        const auto number = number_parameter(call, side.name, -side.most, side.most);
-        if (!number) return pass_on(number);
-        if (!*number) {
-            return fail(ErrorCode::bad_argument, "{}: the parameter is missing", side.name);
-        }
-        *side.to = **number;
-    }
-    return region_box_of(region_text(box));
-}
-
 ApiJson region_moment_json(const ApiCall& call, const RegionPlan& plan, const std::string& path) {
     ApiJson times = ApiJson::array();
     const auto instants = region_times(call.grids(), plan);
@@ -78,7 +57,9 @@ Answered<AskedRegion> asked_region(const ApiCall& call) {
 }
 
 Answer api_regions(const ApiCall& call) {
-    const auto box = region_parameters_of(call);
+    const auto sides = box_parameters(call);
+    if (!sides) return json_error(sides.error());
+    const auto box = region_box_of(region_text(*sides));
     if (!box) return json_error(box.error());
     if (!call.state.sources().grids) return json_error(404, "this server serves no grids");
     std::set<level2::Moment> known;

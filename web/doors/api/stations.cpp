@@ -14,9 +14,6 @@
 namespace stormcellar::web {
 namespace {
 
-constexpr std::int64_t most_volumes_listed = 10000;
-constexpr std::int64_t usual_volumes_listed = 100;
-
 ApiJson age_json(UtcTime time, UtcTime now) {
     return std::floor(seconds_between(time, now));
 }
@@ -133,19 +130,15 @@ Answer api_stations(const ApiCall& call) {
 }
 
 Answer api_volumes(const ApiCall& call) {
-    const auto from = time_parameter(call, "from");
-    if (!from) return json_error(from.error());
-    const auto to = time_parameter(call, "to");
-    if (!to) return json_error(to.error());
-    const auto limit = whole_parameter(call, "limit", 1, most_volumes_listed, usual_volumes_listed);
-    if (!limit) return json_error(limit.error());
+    const auto range = range_parameters(call);
+    if (!range) return json_error(range.error());
     const auto icao = icao_of(call.path_value("station"));
     if (!icao) return json_error(404, "there is no such station");
     const auto catalog = call.state.catalog();
     if (!catalog) return json_error(catalog.error());
-    const auto count = static_cast<std::size_t>(*limit);
+    const std::size_t count = range->limit;
     // Ask for one more than wanted, to see whether there are more.
-    const auto entries = (*catalog)->list(*icao, {*from, *to, false, count + 1});
+    const auto entries = (*catalog)->list(*icao, {range->from, range->to, false, count + 1});
     if (!entries) return json_error(entries.error());
     const std::size_t skipped = entries->size() > count ? entries->size() - count : 0;
     ApiJson list = ApiJson::array();

@@ -15,9 +15,7 @@ Answer polled_text(const Request& request, std::string text) {
 }  // namespace
 
 std::optional<Answer> PollingDoor::answer_at_once(const Request& request) {
-    const auto segments = segments_of(request.path);
-    if (segments.size() != 3 || request.path.ends_with('/')) return std::nullopt;
-    return volume_answer_at_once(request, *files_, segments[1], segments[2]);
+    return named_volume_at_once(request, *files_);
 }
 
 Answer PollingDoor::answer(const Request& request) {

@@ -58,6 +58,12 @@ std::optional<Answer> volume_answer_at_once(const Request& request, RawFiles& fi
     return answer_with(request, entity_of(*opened, name));
 }
 
+std::optional<Answer> named_volume_at_once(const Request& request, RawFiles& files) {
+    const auto segments = segments_of(request.path);
+    if (segments.size() != 3 || request.path.ends_with('/')) return std::nullopt;
+    return volume_answer_at_once(request, files, segments[1], segments[2]);
+}
+
 Result<UtcTime> time_of_parameter(std::string_view text, UtcTime now) {
     if (text == "present") return now;
     // An unencoded '+' in a query has become a space.

@@ -26,6 +26,9 @@ namespace stormcellar::web {
                                                           std::string_view station,
                                                           std::string_view name);
 
+// Does the same for a path /DOOR/STATION/NAME; none for other paths.
+[[nodiscard]] std::optional<Answer> named_volume_at_once(const Request& request, RawFiles& files);
+
 // Reads a time of a query: the forms of parse_utc(), an offset of zero, or "present".
 [[nodiscard]] Result<UtcTime> time_of_parameter(std::string_view text, UtcTime now);
 

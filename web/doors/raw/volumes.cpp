@@ -55,9 +55,7 @@ ordered_json json_of_volume(const RawVolume& volume, const std::string& base) {
 }  // namespace
 
 std::optional<Answer> VolumesDoor::answer_at_once(const Request& request) {
-    const auto segments = segments_of(request.path);
-    if (segments.size() != 3 || request.path.ends_with('/')) return std::nullopt;
-    return volume_answer_at_once(request, *files_, segments[1], segments[2]);
+    return named_volume_at_once(request, *files_);
 }
 
 Answer VolumesDoor::answer(const Request& request) {

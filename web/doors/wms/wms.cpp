@@ -79,18 +79,11 @@ void add_fields(Answer& answer, const Fields& fields) {
         answer.with(name, value);
 }
 
-std::string_view word_of(grid::CellStatus status) {
-    switch (status) {
-        case grid::CellStatus::not_seen:
-            return "not seen";
-        case grid::CellStatus::no_echo:
-            return "no echo";
-        case grid::CellStatus::range_folded:
-            return "range folded";
-        case grid::CellStatus::value:
-            return "value";
-    }
-    return "";
+// Returns "range folded" of range_folded.
+std::string word_of(grid::CellStatus status) {
+    std::string word(grid::cell_status_name(status));
+    std::ranges::replace(word, '_', ' ');
+    return word;
 }
 
 // The value of one layer at the requested place.
