@@ -24,18 +24,43 @@ std::unique_ptr<FramesDoor> door_to(const PicturedStorm& storm, std::filesystem:
                                         FramePicturesOptions{}));
 }
 
-class Frames : public PictureTest {
+class Frames : public DoorTest<FramesDoor, PictureTest> {
   protected:
     void SetUp() override {
         PictureTest::SetUp();
         if (IsSkipped()) return;
         door_ = door_to(*storm_, storm_->catalog());
     }
-    Answer get(const std::string& target, Fields headers = {}) {
-        return asked(*door_, target, std::move(headers));
-    }
-    std::unique_ptr<FramesDoor> door_;
 };
+
+// Returns options of a small picture of velocities.
+render::SceneOptions velocity_options(const std::string& product) {
+    render::SceneOptions options;
+    options.product = product;
+    options.moment = "VEL";
+    options.time_zone = "UTC";
+    options.scene.width = 400;
+    options.scene.height = 300;
+    return options;
+}
+
+// Draws a picture of KTLX with the library.
+std::vector<std::byte> drawn(const grid::BrickView& view, const cache::GridDescription& description,
+                             const render::SceneOptions& options) {
+    auto scene = render::scene_of(options);
+    EXPECT_TRUE(scene);
+    const std::string domain = "KTLX";
+    const render::StillSource still{domain, view, description, options, false};
+    EXPECT_TRUE(render::fit_to_grid(still, *scene));
+    auto bytes = render::encode_still(still, *scene,
+                                      {.format = render::still_formats().front(),
+                                       .tiff = render::TiffContent::values,
+                                       .error = {},
+                                       .threads = 1,
+                                       .drawn = {}});
+    EXPECT_TRUE(bytes);
+    return std::move(*bytes);
+}
 
 constexpr const char* small_map = "/frames/KTLX.png?product=composite&width=480&height=360";
 
@@ -47,31 +72,14 @@ TEST_F(Frames, AreWhatTheLibraryDraws) {
     ASSERT_EQ(answer.status, 200u) << body_of(answer);
     EXPECT_EQ(header_of(answer, "Content-Type"), "image/png");
     EXPECT_EQ(header_of(answer, "Cache-Control"), "max-age=300");
-    render::SceneOptions options;
-    options.product = "cappi";
-    options.moment = "VEL";
+    render::SceneOptions options = velocity_options("cappi");
     options.theme = "light";
-    options.time_zone = "UTC";
     options.scene.cappi_height_m = 2000;
-    options.scene.width = 400;
-    options.scene.height = 300;
-    auto scene = render::scene_of(options);
-    ASSERT_TRUE(scene);
     const auto grid = storm_->grid(level2::Moment::vel);
-    const std::string domain = "KTLX";
-    const grid::BrickView view = grid->file.view();
-    const render::StillSource source{domain, view, grid->file.description(), options, false};
-    ASSERT_TRUE(render::fit_to_grid(source, *scene));
-    const auto bytes = render::encode_still(source, *scene,
-                                            {.format = render::still_formats().front(),
-                                             .tiff = render::TiffContent::values,
-                                             .error = {},
-                                             .threads = 1,
-                                             .drawn = {}});
-    ASSERT_TRUE(bytes);
+    const auto bytes = drawn(grid->file.view(), grid->file.description(), options);
     const std::string body = body_of(answer);
-    ASSERT_EQ(body.size(), bytes->size());
-    EXPECT_EQ(std::memcmp(body.data(), bytes->data(), body.size()), 0);
+    ASSERT_EQ(body.size(), bytes.size());
+    EXPECT_EQ(std::memcmp(body.data(), bytes.data(), body.size()), 0);
 }
 
 TEST_F(Frames, VolumesAndSectionsAreDrawn) {
@@ -152,19 +160,7 @@ std::vector<std::byte> drawn_sweep(const PicturedStorm& storm, const render::Sce
     grid::BrickView view;
     view.spec = &description.spec;
     view.sweep = &*sweep;
-    auto scene = render::scene_of(options);
-    EXPECT_TRUE(scene);
-    const std::string domain = "KTLX";
-    const render::StillSource still{domain, view, description, options, false};
-    EXPECT_TRUE(render::fit_to_grid(still, *scene));
-    auto bytes = render::encode_still(still, *scene,
-                                      {.format = render::still_formats().front(),
-                                       .tiff = render::TiffContent::values,
-                                       .error = {},
-                                       .threads = 1,
-                                       .drawn = {}});
-    EXPECT_TRUE(bytes);
-    return std::move(*bytes);
+    return drawn(view, description, options);
 }
 
 TEST_F(Frames, OfSweepsAreWhatTheLibraryDraws) {
@@ -172,13 +168,8 @@ TEST_F(Frames, OfSweepsAreWhatTheLibraryDraws) {
         get("/frames/KTLX.png?product=ppi&moment=VEL&elevation=1.5&width=400"
             "&height=300");
     ASSERT_EQ(answer.status, 200u) << body_of(answer);
-    render::SceneOptions options;
-    options.product = "ppi";
-    options.moment = "VEL";
-    options.time_zone = "UTC";
+    render::SceneOptions options = velocity_options("ppi");
     options.scene.elevation_deg = 1.5;
-    options.scene.width = 400;
-    options.scene.height = 300;
     const auto bytes = drawn_sweep(*storm_, options, level2::Moment::vel, 1.5);
     const std::string body = body_of(answer);
     ASSERT_EQ(body.size(), bytes.size());

@@ -11,7 +11,9 @@
 #include "stormcellar/render/image.h"
 #include "stormcellar/render/scene.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/web/door_test.h"
 #include "web/data/grids/grids.h"
+#include "web/data/pictures/map_pictures.h"
 
 namespace stormcellar::web {
 
@@ -45,6 +47,19 @@ class PictureTest : public ::testing::Test {
   protected:
     void SetUp() override;
     std::shared_ptr<const PicturedStorm> storm_;
+};
+
+// A test that asks a door to maps of the storm.
+template <class AnyDoor>
+class MapDoorTest : public DoorTest<AnyDoor, PictureTest> {
+  protected:
+    void SetUp() override {
+        PictureTest::SetUp();
+        if (::testing::Test::IsSkipped()) return;
+        this->door_ = std::make_unique<AnyDoor>(
+            std::make_shared<MapPictures>(MapPicturesOptions{.grids = storm_->grids()}));
+    }
+    using PictureTest::storm_;
 };
 
 // The color that the column maximum of the grid has at a place, by the grid's own cells one by one.

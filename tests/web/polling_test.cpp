@@ -8,17 +8,7 @@
 namespace stormcellar::web {
 namespace {
 
-class Polling : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        STORMCELLAR_NEED_DATA();
-        door_ = std::make_unique<PollingDoor>(served_volumes().files());
-    }
-    Answer get(std::string_view target, Fields headers = {}) {
-        return asked(*door_, target, std::move(headers));
-    }
-    std::unique_ptr<PollingDoor> door_;
-};
+using Polling = VolumesDoorTest<PollingDoor>;
 
 TEST_F(Polling, TheConfigurationNamesTheListsAndTheSites) {
     for (const char* path : {"/nexrd2/config.cfg", "/nexrd2/grlevel2.cfg"}) {

@@ -48,6 +48,13 @@ class Reload : public ::testing::Test {
         const std::string url = service_->addresses().at(0);
         port_ = std::stoi(url.substr(url.rfind(':', url.size() - 2) + 1));
     }
+    // Has an answer under way that is larger than the client's buffer.
+    static void begin_long_answer(RawClient& client) {
+        client.send(
+            "GET /api/v1/map?west=-170&south=-60&east=170&north=75&detail=0 HTTP/1.1\r\nHost: "
+            "localhost\r\n\r\n");
+        ASSERT_EQ(status_in(client.read_until("\r\n\r\n")), 200);
+    }
     [[nodiscard]] int status() const { return status_in(RawClient::get(port_, "/api/v1")); }
 
     testing::TemporaryDirectory directory_;
@@ -62,10 +69,7 @@ TEST_F(Reload, NoOtherProgramCanTakeThePort) {
     start();
     // An answer that is under way holds the old server up.
     RawClient half(port_, 2048);
-    half.send(
-        "GET /api/v1/map?west=-170&south=-60&east=170&north=75&detail=0 HTTP/1.1\r\nHost: "
-        "localhost\r\n\r\n");
-    ASSERT_EQ(status_in(half.read_until("\r\n\r\n")), 200);
+    begin_long_answer(half);
     std::atomic<bool> is_over = false;
     std::atomic<int> taken = 0;
     std::thread rival([&] {
@@ -85,10 +89,7 @@ TEST_F(Reload, NoOtherProgramCanTakeThePort) {
 TEST_F(Reload, NobodyWaitsForTheOldServersEnd) {
     start();
     RawClient half(port_, 2048);
-    half.send(
-        "GET /api/v1/map?west=-170&south=-60&east=170&north=75&detail=0 HTTP/1.1\r\nHost: "
-        "localhost\r\n\r\n");
-    ASSERT_EQ(status_in(half.read_until("\r\n\r\n")), 200);
+    begin_long_answer(half);
     WebSetup fresh = setup_;
     fresh.web.cors = true;
     auto reloaded = std::async(std::launch::async, [&] { return service_->reload(fresh); });

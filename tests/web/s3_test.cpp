@@ -18,14 +18,11 @@ constexpr const char* bucket = "/s3/unidata-nexrad-level2";
 const std::string new_key = "2017/01/01/KTLX/KTLX20170101_030027_V06";
 const std::string middle_key = "2005/01/01/KABR/KABR20050101_000745.gz";
 
-class S3 : public ::testing::Test {
+class S3 : public DoorTest<S3Door> {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
         door_ = std::make_unique<S3Door>(served_volumes().files(), "unidata-nexrad-level2");
-    }
-    Answer get(const std::string& target, Fields headers = {}) {
-        return asked(*door_, target, std::move(headers));
     }
     // Asks for a list with this query, and returns the texts in its elements of this path.
     std::vector<std::string> texts(const std::string& query, const char* path) {
@@ -49,7 +46,6 @@ class S3 : public ::testing::Test {
     std::vector<std::string> prefixes(const std::string& query) {
         return texts(query, "CommonPrefixes/Prefix");
     }
-    std::unique_ptr<S3Door> door_;
 };
 
 using Texts = std::vector<std::string>;

@@ -30,6 +30,13 @@ class WebServer : public ::testing::Test {
     void add(std::string path, std::function<Answer(const Request&)> make) {
         doors_->add(std::move(path), std::make_shared<FunctionDoor>(std::move(make)));
     }
+    void add_body(std::string path, decltype(Answer::body) body) {
+        add(std::move(path), [body = std::move(body)](const Request&) {
+            Answer answer;
+            answer.body = body;
+            return answer;
+        });
+    }
     void start() {
         add("/", [](const Request& request) {
             return text_answer(200, "text/plain", "at " + request.path);

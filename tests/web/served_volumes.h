@@ -19,7 +19,7 @@
 #include "stormcellar/catalog/catalog.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
-#include "tests/web/asked.h"
+#include "tests/web/door_test.h"
 #include "web/data/raw/raw_files.h"
 
 namespace stormcellar::web {
@@ -87,5 +87,15 @@ inline ServedVolumes& served_volumes() {
     static ServedVolumes served;
     return served;
 }
+
+// A test that asks a door to them.
+template <class AnyDoor>
+class VolumesDoorTest : public DoorTest<AnyDoor> {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        this->door_ = std::make_unique<AnyDoor>(served_volumes().files());
+    }
+};
 
 }  // namespace stormcellar::web

@@ -15,6 +15,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// More than the buffers of the two sockets hold.
+constexpr std::size_t large_bytes = 64 << 20;
+Text large_text() {
+    return text_of(std::string(large_bytes, 'x'));
+}
+
 TEST_F(WebServer, ConnectionsBeyondTheLimitAreClosedAndTheServerGoesOn) {
     options_.limits.most_connections = 16;
     options_.limits.most_connections_of_address = 1000;
@@ -60,12 +66,7 @@ TEST_F(WebServer, HalfARequestIsCutOffInTime) {
 
 TEST_F(WebServer, AClientThatTakesNothingIsCutOff) {
     options_.limits.rate_time = 1s;
-    const Text large = text_of(std::string(64 << 20, 'x'));
-    add("/large", [&](const Request&) {
-        Answer answer;
-        answer.body = Pieces{large};
-        return answer;
-    });
+    add_body("/large", Pieces{large_text()});
     start();
     RawClient client(port_, 4096);
     client.send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -134,14 +135,9 @@ TEST_F(WebServer, AnAnswerHasATotalTime) {
     options_.limits.answer_time = 3s;
     options_.limits.rate_time = 60s;
     options_.limits.least_bytes_per_s = 10'000'000;
-    const Text large = text_of(std::string(64 << 20, 'x'));
-    add("/large", [&](const Request&) {
-        Answer answer;
-        answer.body = Pieces{large};
-        return answer;
-    });
+    add_body("/large", Pieces{large_text()});
     start();
-    EXPECT_EQ(body_in(get("/large")).size(), large->size());
+    EXPECT_EQ(body_in(get("/large")).size(), large_bytes);
     RawClient client(port_, 4096);
     client.send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
     ASSERT_TRUE(testing::eventually([&] { return server_->facts().connections == 1; }));
@@ -156,12 +152,7 @@ TEST_F(WebServer, AnAnswerHasATotalTime) {
 TEST_F(WebServer, TheSlowestBodiesGiveWay) {
     options_.limits.most_connections = 8;
     options_.limits.most_connections_of_address = 8;
-    const Text large = text_of(std::string(64 << 20, 'x'));
-    add("/large", [&](const Request&) {
-        Answer answer;
-        answer.body = Pieces{large};
-        return answer;
-    });
+    add_body("/large", Pieces{large_text()});
     start();
     std::vector<std::unique_ptr<RawClient>> slow;
     for (int i = 0; i < 8; ++i) {

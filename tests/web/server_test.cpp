@@ -218,11 +218,7 @@ TEST_F(WebServer, StreamsSendWhatComesAndEnd) {
 
 TEST_F(WebServer, AStreamWhoseClientIsGoneIsLeft) {
     const auto stream = std::make_shared<TestStream>();
-    add("/events", [&](const Request&) {
-        Answer answer;
-        answer.body = stream;
-        return answer;
-    });
+    add_body("/events", stream);
     start();
     {
         RawClient client(port_);
@@ -266,11 +262,7 @@ TEST_F(WebServer, AFileThatIsCutWhileItIsSentEndsTheConnectionEarly) {
 
 TEST_F(WebServer, StopsSoonWhateverIsOpen) {
     const auto stream = std::make_shared<TestStream>();
-    add("/events", [&](const Request&) {
-        Answer answer;
-        answer.body = stream;
-        return answer;
-    });
+    add_body("/events", stream);
     start();
     RawClient idle(port_), half(port_), streaming(port_);
     half.send("GET / HT");

@@ -33,22 +33,14 @@ std::size_t count_in(const std::string& text, std::string_view part) {
     return count;
 }
 
-class Thredds : public ::testing::Test {
+class Thredds : public VolumesDoorTest<ThreddsDoor> {
   protected:
-    void SetUp() override {
-        STORMCELLAR_NEED_DATA();
-        door_ = std::make_unique<ThreddsDoor>(served_volumes().files());
-    }
-    Answer get(std::string_view target, Fields headers = {}) {
-        return asked(*door_, target, std::move(headers));
-    }
     std::string query(std::string_view text) { return body_of(get(level2 + std::string{text})); }
     void configure(ThreddsConfig config, std::size_t most_results = 10'000) {
         door_ = std::make_unique<ThreddsDoor>(
             served_volumes().files(),
             ThreddsOptions{.config = std::move(config), .most_results = most_results});
     }
-    std::unique_ptr<ThreddsDoor> door_;
 };
 
 TEST_F(Thredds, TheTopCatalogNamesTheDataSets) {

@@ -13,24 +13,14 @@
 namespace stormcellar::web {
 namespace {
 
-class Tiles : public PictureTest {
+class Tiles : public MapDoorTest<TilesDoor> {
   protected:
-    void SetUp() override {
-        PictureTest::SetUp();
-        if (IsSkipped()) return;
-        door_ = std::make_unique<TilesDoor>(
-            std::make_shared<MapPictures>(MapPicturesOptions{.grids = storm_->grids()}));
-    }
-    Answer get(const std::string& target, Fields headers = {}) {
-        return asked(*door_, target, std::move(headers));
-    }
     render::Image tile(const std::string& place, const std::string& layer = "composite.REF") {
         const Answer answer = get("/tiles/KTLX/" + layer + "/latest/" + place);
         EXPECT_EQ(answer.status, 200u) << body_of(answer);
         EXPECT_EQ(header_of(answer, "Content-Type"), "image/png");
         return decoded_png(body_of(answer));
     }
-    std::unique_ptr<TilesDoor> door_;
 };
 
 // Where the center of a pixel of the world's picture is, by the textbook.

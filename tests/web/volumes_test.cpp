@@ -17,21 +17,13 @@ using nlohmann::json;
 constexpr const char* new_name = "KTLX20170101_030027_V06";
 constexpr const char* new_path = "/volumes/KTLX/KTLX20170101_030027_V06";
 
-class Volumes : public ::testing::Test {
+class Volumes : public VolumesDoorTest<VolumesDoor> {
   protected:
-    void SetUp() override {
-        STORMCELLAR_NEED_DATA();
-        door_ = std::make_unique<VolumesDoor>(served_volumes().files());
-    }
-    Answer get(std::string_view target, Fields headers = {}) {
-        return asked(*door_, target, std::move(headers));
-    }
     json list(std::string_view target) { return json::parse(body_of(get(target))); }
     static std::string bytes_of_file(const std::string& name) {
         const auto bytes = read_file(*testing::data_directory() / "volumes" / name).value();
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
-    std::unique_ptr<VolumesDoor> door_;
 };
 
 TEST_F(Volumes, StationsAreListedWithTheirPlaces) {

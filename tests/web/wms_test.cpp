@@ -26,14 +26,8 @@ using ::testing::Not;
 
 constexpr double meters_of_degree = render::mercator_edge_m / 180;
 
-class Wms : public PictureTest {
+class Wms : public MapDoorTest<WmsDoor> {
   protected:
-    void SetUp() override {
-        PictureTest::SetUp();
-        if (IsSkipped()) return;
-        door_ = std::make_unique<WmsDoor>(
-            std::make_shared<MapPictures>(MapPicturesOptions{.grids = storm_->grids()}));
-    }
     Answer get(const std::string& query, Fields headers = {}) {
         return asked(*door_, "/wms?" + query, std::move(headers));
     }
@@ -44,7 +38,6 @@ class Wms : public PictureTest {
         EXPECT_EQ(answer.status, 200u) << body_of(answer);
         return decoded_png(body_of(answer));
     }
-    std::unique_ptr<WmsDoor> door_;
 };
 
 constexpr const char* some_map =
