@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "export/moment_text.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/grid.h"
 #include "stormcellar/grid/method.h"
@@ -156,10 +155,11 @@ CfAttributes reference_to_map(const grid::GridSpec& spec) {
 }
 
 CfAttributes field_attributes(level2::Moment moment, std::string_view method) {
-    const MomentText names = text_of(moment);
-    CfAttributes attributes = {{"long_name", names.long_name}};
-    if (names.cf_name != nullptr) attributes.emplace_back("standard_name", names.cf_name);
-    attributes.emplace_back("units", std::string(level2::moment_units(moment)));
+    const level2::MomentFacts& facts = level2::facts_of(moment);
+    CfAttributes attributes = {{"long_name", std::string(facts.netcdf.long_name)}};
+    if (!facts.netcdf.cf.empty())
+        attributes.emplace_back("standard_name", std::string(facts.netcdf.cf));
+    attributes.emplace_back("units", std::string(facts.units));
     const bool is_area = grid::cell_extent_of(method) == grid::CellExtent::area;
     attributes.emplace_back("cell_methods", is_area ? "area: mean" : "area: point");
     return attributes;

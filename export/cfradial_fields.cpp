@@ -5,7 +5,6 @@
 #include <netcdf.h>
 
 #include "export/cfradial_parts.h"
-#include "export/moment_text.h"
 
 namespace stormcellar::netcdf {
 namespace {
@@ -79,10 +78,10 @@ int define_codes(const CfradialParts& parts, const CfradialField& field) {
     const int codes =
         define_on_gates(parts, field, field.name, kind.word_size_bits == 8 ? NC_SHORT : NC_INT);
     file.fill_value(codes, fill_code);
-    const MomentText text = text_of(kind.moment);
-    file.text(codes, "long_name", text.long_name);
-    if (text.cfradial_name != nullptr) file.text(codes, "standard_name", text.cfradial_name);
-    file.text(codes, "units", level2::moment_units(kind.moment));
+    const level2::MomentFacts& facts = level2::facts_of(kind.moment);
+    file.text(codes, "long_name", facts.netcdf.long_name);
+    if (!facts.netcdf.cfradial.empty()) file.text(codes, "standard_name", facts.netcdf.cfradial);
+    file.text(codes, "units", facts.units);
     // A scale of 0 means that the code is the value.
     const double scale = kind.scale == 0 ? 1.0 : static_cast<double>(kind.scale);
     const double offset = kind.scale == 0 ? 0.0 : static_cast<double>(kind.offset);
@@ -92,7 +91,7 @@ int define_codes(const CfradialParts& parts, const CfradialField& field) {
     file.number(codes, "level2_scale", static_cast<double>(kind.scale));
     file.number(codes, "level2_offset", static_cast<double>(kind.offset));
     file.number(codes, "level2_word_size", kind.word_size_bits);
-    if (level2::facts_of(kind.moment).circle == level2::Circle::full_turn) {
+    if (facts.circle == level2::Circle::full_turn) {
         file.text(codes, "field_folds", "true");
         file.number(codes, "fold_limit_lower", 0.0);
         file.number(codes, "fold_limit_upper", 360.0);

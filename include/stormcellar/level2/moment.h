@@ -1,10 +1,9 @@
 // stormcellar/level2/moment.h -- the moments that a radar measures, and the facts about each.
 //
-// This is the only list of moments. Other rooms add facts of their own in one layer each, which has
-// a row or a case for every moment, so that a forgotten one does not compile:
-//   grid    grid/cells/moment_rules.cpp       how values are stored, mixed and compared
+// This is the only list of moments. Two rooms add facts of their own in a table that has a row for
+// every moment, so that a forgotten one does not compile:
+//   grid    grid/cells/moment_rules.cpp      how values are stored, mixed and compared
 //   render  render/color/built_in_tables.cpp title, colors, opacity
-//   export  export/moment_text.cpp            names in netCDF files
 // CONTRIBUTING.md says how to add a moment.
 //
 // Threads   Constants and pure functions.
@@ -29,10 +28,18 @@ enum class Circle : std::uint8_t {
     full_turn,  // from 0 to 360 degrees
 };
 
+// Names of a moment in netCDF files; empty if the moment has none.
+struct NetcdfNames {
+    std::string_view long_name = {};
+    std::string_view cf = {};        // standard name in CF's own table
+    std::string_view cfradial = {};  // standard name proposed by CfRadial 1.4, section 6.1
+};
+
 struct MomentFacts {
     Moment moment = Moment::ref;
     std::string_view name = {};   // in messages (filled with blanks to three), paths and options
     std::string_view units = {};  // as CF writes them; "1" for a number without a unit
+    NetcdfNames netcdf = {};
     Circle circle = Circle::none;
     // True if pulses follow each other so fast that the unambiguous range is short by nature.
     bool is_doppler = false;
@@ -42,13 +49,35 @@ struct MomentFacts {
 };
 
 inline constexpr auto moment_facts = std::to_array<MomentFacts>({
-    {Moment::ref, "REF", "dBZ"},
-    {Moment::vel, "VEL", "m/s", Circle::nyquist, true},
-    {Moment::sw, "SW", "m/s", Circle::none, true},
-    {Moment::zdr, "ZDR", "dB"},
-    {Moment::phi, "PHI", "degree", Circle::full_turn},
-    {Moment::rho, "RHO", "1"},
-    {Moment::cfp, "CFP", "dB", Circle::none, false, 8},
+    {Moment::ref,
+     "REF",
+     "dBZ",
+     {"reflectivity", "equivalent_reflectivity_factor", "equivalent_reflectivity_factor"}},
+    {Moment::vel,
+     "VEL",
+     "m/s",
+     {"radial velocity, away from the radar, as measured (aliased)",
+      "radial_velocity_of_scatterers_away_from_instrument",
+      "radial_velocity_of_scatterers_away_from_instrument"},
+     Circle::nyquist,
+     true},
+    {Moment::sw,
+     "SW",
+     "m/s",
+     {"spectrum width of radial velocity", "", "doppler_spectrum_width"},
+     Circle::none,
+     true},
+    {Moment::zdr,
+     "ZDR",
+     "dB",
+     {"differential reflectivity", "", "log_differential_reflectivity_hv"}},
+    {Moment::phi,
+     "PHI",
+     "degree",
+     {"differential phase, as measured (wrapped)", "", "differential_phase_hv"},
+     Circle::full_turn},
+    {Moment::rho, "RHO", "1", {"correlation coefficient", "", "cross_correlation_ratio_hv"}},
+    {Moment::cfp, "CFP", "dB", {"clutter filter power removed"}, Circle::none, false, 8},
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 
