@@ -98,6 +98,11 @@ Status validate_cone(const GridSpec& spec) {
 
 }  // namespace
 
+struct GridProjection::Constants {
+    Cone cone;
+    double cone_y_m = 0;  // distance of the center from the cone's own origin
+};
+
 GridProjection::GridProjection(const GridSpec& spec)
     : kind_(spec.projection),
       center_(spec.center_latitude_deg, spec.center_longitude_deg),
@@ -107,8 +112,9 @@ GridProjection::GridProjection(const GridSpec& spec)
       center_x_(spec.center_x()),
       center_y_(spec.center_y()) {
     if (kind_ != Projection::lambert_conformal) return;
-    cone_ = std::make_shared<const Cone>(cone_of(spec));
-    cone_y_m_ = cone_northing_m(*cone_, center_latitude_deg_);
+    const Cone cone = cone_of(spec);
+    constants_ = std::make_shared<const Constants>(
+        Constants{cone, cone_northing_m(cone, center_latitude_deg_)});
 }
 
 double GridProjection::row_latitude_deg(double y) const noexcept {
@@ -138,8 +144,8 @@ GeoPoint GridProjection::to_geo(ColumnPoint column) const noexcept {
                      GeographicLib::Math::AngNormalize(column_longitude_deg(column.x))};
             break;
         case Projection::lambert_conformal:
-            cone_->Reverse(center_longitude_deg_, x_m, y_m + cone_y_m_, point.latitude_deg,
-                           point.longitude_deg);
+            constants_->cone.Reverse(center_longitude_deg_, x_m, y_m + constants_->cone_y_m,
+                                     point.latitude_deg, point.longitude_deg);
             break;
     }
     return point;
@@ -161,8 +167,9 @@ ColumnPoint GridProjection::to_column(GeoPoint point) const noexcept {
             break;
         }
         case Projection::lambert_conformal:
-            cone_->Forward(center_longitude_deg_, point.latitude_deg, point.longitude_deg, x, y);
-            y -= cone_y_m_;
+            constants_->cone.Forward(center_longitude_deg_, point.latitude_deg, point.longitude_deg,
+                                     x, y);
+            y -= constants_->cone_y_m;
             break;
     }
     return {center_x_ + x / spacing_, center_y_ + y / spacing_};

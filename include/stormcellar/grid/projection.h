@@ -22,10 +22,6 @@
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/grid/site_frame.h"
 
-namespace GeographicLib {
-class LambertConformalConic;
-}  // namespace GeographicLib
-
 namespace stormcellar::grid {
 
 // A place in columns of a grid.
@@ -57,8 +53,8 @@ class GridProjection {
     double center_latitude_deg_, center_longitude_deg_;
     double spacing_;              // in meters or degrees
     double center_x_, center_y_;  // the center, in columns
-    std::shared_ptr<const GeographicLib::LambertConformalConic> cone_;
-    double cone_y_m_ = 0;  // distance of the center from the cone's own origin
+    struct Constants;             // numbers that only one kind needs, computed once
+    std::shared_ptr<const Constants> constants_;
 };
 
 // Returns the latitude and the longitude of a column's center. For more than a few columns, make a
