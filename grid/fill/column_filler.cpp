@@ -116,8 +116,7 @@ SampleReach reach_of(const SweepStack& stack, const Method& method) {
         reach.azimuth_deg = std::max(
             reach.azimuth_deg, 2 * std::max(sweep.azimuths().spacing_deg(), stack.beam_width_deg));
     }
-    if (method.interpolation == Interpolation::beam_weighted)
-        reach.sweeps = sweeps_by_pattern(stack);
+    if (facts_of(method.interpolation).is_by_pattern) reach.sweeps = sweeps_by_pattern(stack);
     return reach;
 }
 

@@ -218,8 +218,7 @@ std::vector<WeightedGate> OracleSweep::point(double azimuth_deg, double range_m,
     if (at < 0) return {WeightedGate{}};
     const auto place = static_cast<std::size_t>(at);
     std::vector<WeightedGate> gates;
-    const Interpolation interpolation = setting_.method.interpolation;
-    if (interpolation == Interpolation::nearest || interpolation == Interpolation::linear) {
+    if (facts_of(setting_.method.interpolation).takes_one_gate) {
         add_along(radials_[place], range_m, 1, false, gates, doubtful);
     } else {
         add_radials(azimuth_deg, place, range_m, gates, doubtful);

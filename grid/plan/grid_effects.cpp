@@ -1,9 +1,7 @@
 #include "grid/plan/grid_effects.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
-#include <utility>
 
 #include "base/degree.h"
 #include "grid/cells/moment_rules.h"
@@ -12,71 +10,54 @@ namespace stormcellar::grid {
 namespace {
 
 using accuracy::Effect;
+using accuracy::make_effect;
 using accuracy::Step;
 
-// The times for 460 x 460 x 32 cells over a convective volume, relative to nearest gates
-// (docs/accuracy.md).
-constexpr std::array<std::pair<std::string_view, double>, 11> efforts{{
-    {"ellipsoid", 0.1},
-    {"exact_geodesic", 28},
-    {"earth_curvature", 0},
-    {"refraction", 0.15},
-    {"antenna_jitter", 0.1},
-    {"column_interpolation", 0.02},
-    {"horizontal_interpolation", 4.5},
-    {"beam_width", 2.7},
-    {"cell_size", 29},
-    {"velocity_folding", 0.05},
-    {"phase_folding", 0.05},
-}};
-
-Effect effect(std::string name, std::string rung, std::string what) {
-    const auto* const known = std::find_if(efforts.begin(), efforts.end(),
-                                           [&](const auto& each) { return each.first == name; });
-    const double effort = known != efforts.end() ? known->second : 0;
-    return accuracy::make_effect(std::move(name), std::move(rung), std::move(what), effort);
-}
+// The last argument of each effect is its time for 460 x 460 x 32 cells over a convective volume,
+// relative to nearest gates (docs/accuracy.md).
 
 Step frame_step() {
-    return {
-        std::string{step::frame},
-        "sphere",
-        {effect("ellipsoid", "WGS84 table", "The earth is an ellipsoid, not a sphere of 6371 km."),
-         effect("exact_geodesic", "WGS84 geodesic",
-                "Each column has its own geodesic, not one from polynomials.")}};
+    return {std::string{step::frame},
+            "sphere",
+            {make_effect("ellipsoid", "WGS84 table",
+                         "The earth is an ellipsoid, not a sphere of 6371 km.", 0.1),
+             make_effect("exact_geodesic", "WGS84 geodesic",
+                         "Each column has its own geodesic, not one from polynomials.", 28)}};
 }
 
 Step beam_step() {
     return {std::string{step::beam},
             "flat earth",
-            {effect("earth_curvature", "4/3 earth",
-                    "The earth falls away below the beam, which air bends down a little."),
-             effect("refraction", "ray traced",
-                    "Air bends the beam more or less than over a 4/3 earth, and delays it.")}};
+            {make_effect("earth_curvature", "4/3 earth",
+                         "The earth falls away below the beam, which air bends down a little."),
+             make_effect("refraction", "ray traced",
+                         "Air bends the beam more or less than over a 4/3 earth, and delays it.",
+                         0.15)}};
 }
 
 Step elevation_step() {
     return {std::string{step::elevation},
             "one a sweep",
-            {effect("antenna_jitter", "each radial's",
-                    "Each radial was measured at an elevation of its own.")}};
+            {make_effect("antenna_jitter", "each radial's",
+                         "Each radial was measured at an elevation of its own.", 0.1)}};
 }
 
 Step interpolation_step() {
     return {std::string{step::interpolation},
             "nearest",
-            {effect("column_interpolation", "linear up the column",
-                    "Between two sweeps a value lies between theirs."),
-             effect("horizontal_interpolation", "eight-point",
-                    "Between radials and gates a value lies between theirs."),
-             effect("beam_width", "beam-weighted",
-                    "A gate counts as the antenna's pattern does off its axis.")}};
+            {make_effect("column_interpolation", "linear up the column",
+                         "Between two sweeps a value lies between theirs.", 0.02),
+             make_effect("horizontal_interpolation", "eight-point",
+                         "Between radials and gates a value lies between theirs.", 4.5),
+             make_effect("beam_width", "beam-weighted",
+                         "A gate counts as the antenna's pattern does off its axis.", 2.7)}};
 }
 
 Step cell_step() {
     return {std::string{step::cell},
             "point",
-            {effect("cell_size", "area", "A cell is the mean of all gates inside, not a point.")}};
+            {make_effect("cell_size", "area",
+                         "A cell is the mean of all gates inside, not a point.", 29)}};
 }
 
 constexpr const char* in_z = "in Z";
@@ -87,10 +68,12 @@ Step averaging_step(Averaging averaging) {
 }
 
 Step circle_step(level2::Moment moment) {
-    Effect wrap = effect("phase_folding", "on the circle", "A phase of 360 degrees is 0.");
+    Effect wrap =
+        make_effect("phase_folding", "on the circle", "A phase of 360 degrees is 0.", 0.05);
     if (level2::facts_of(moment).circle == level2::Circle::nyquist) {
-        wrap = effect("velocity_folding", "on the Nyquist circle",
-                      "Velocities beyond the Nyquist velocity come back on the other side.");
+        wrap = make_effect("velocity_folding", "on the Nyquist circle",
+                           "Velocities beyond the Nyquist velocity come back on the other side.",
+                           0.05);
     }
     return {std::string{step::circle}, "as numbers", {wrap}};
 }

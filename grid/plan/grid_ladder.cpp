@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "accuracy/timing.h"
 #include "base/degree.h"
@@ -156,15 +157,16 @@ std::vector<NamedChain> named_chains(level2::Moment moment, Averaging averaging)
     std::vector<NamedChain> chains;
     SceneChoice choice;
     choice.method.averaging = averaging;
-    const auto add = [&](const char* name, Interpolation interpolation, CellExtent cell) {
+    const auto add = [&](std::string name, Interpolation interpolation, CellExtent cell) {
         choice.method.interpolation = interpolation;
         choice.method.cell = cell;
-        chains.push_back({name, choice});
+        chains.push_back({std::move(name), choice});
     };
-    add("nearest", Interpolation::nearest, CellExtent::point);
-    add("linear (default)", Interpolation::linear, CellExtent::point);
-    add("eight-point", Interpolation::eight_point, CellExtent::point);
-    add("beam-weighted", Interpolation::beam_weighted, CellExtent::point);
+    for (const InterpolationFacts& facts : interpolation_facts) {
+        const bool is_default = Method{}.interpolation == facts.interpolation;
+        add(std::string(facts.name) + (is_default ? " (default)" : ""), facts.interpolation,
+            CellExtent::point);
+    }
     add("area", Interpolation::beam_weighted, CellExtent::area);
     if (moment == level2::Moment::ref) {
         const bool in_z = averaging == Averaging::in_z;

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "grid/plan/grid_effects.h"
@@ -34,7 +35,7 @@ struct LadderOptions {
 
 // A whole chain with a name of its own.
 struct NamedChain {
-    const char* name;
+    std::string name;
     SceneChoice choice;
 };
 // Returns nearest, linear, ..., area, (for REF) area with the other averaging, and the exact chain.

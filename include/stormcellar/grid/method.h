@@ -48,12 +48,13 @@ struct InterpolationFacts {
     Interpolation interpolation = Interpolation::nearest;
     std::string_view name = {};
     bool takes_one_gate = false;  // of each sweep, so that whole columns are filled at once
+    bool is_by_pattern = false;   // more sweeps than the two around a level may count
 };
 inline constexpr auto interpolation_facts = std::to_array<InterpolationFacts>({
     {Interpolation::nearest, "nearest", true},
     {Interpolation::linear, "linear", true},
     {Interpolation::eight_point, "eight-point"},
-    {Interpolation::beam_weighted, "beam-weighted"},
+    {Interpolation::beam_weighted, "beam-weighted", false, true},
 });
 [[nodiscard]] constexpr const InterpolationFacts& facts_of(Interpolation interpolation) {
     return interpolation_facts[static_cast<std::size_t>(interpolation)];
