@@ -21,20 +21,25 @@ constexpr std::string_view standard_profile = "standard";
 
 // The settings that the name of a method stands for.
 using Settings = std::vector<EffectOverride>;
+
+// Returns the settings of each method: an interpolation turns its own effect on and the next one
+// off.
 const std::map<std::string, Settings>& methods() {
-    static const std::map<std::string, Settings> known = {
-        {"nearest", {{"column_interpolation", Setting::off}, {"cell_size", Setting::off}}},
-        {"linear",
-         {{"column_interpolation", Setting::on},
-          {"horizontal_interpolation", Setting::off},
-          {"cell_size", Setting::off}}},
-        {"eight-point",
-         {{"horizontal_interpolation", Setting::on},
-          {"beam_width", Setting::off},
-          {"cell_size", Setting::off}}},
-        {"beam-weighted", {{"beam_width", Setting::on}, {"cell_size", Setting::off}}},
-        {"area", {{"beam_width", Setting::on}, {"cell_size", Setting::on}}},
-    };
+    static const std::map<std::string, Settings> known = [] {
+        const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);
+        const std::size_t step = accuracy::find_step(chain, grid::step::interpolation).value();
+        const std::vector<accuracy::Effect>& effects = chain.steps[step].effects;
+        std::map<std::string, Settings> made;
+        for (const grid::InterpolationFacts& facts : grid::interpolation_facts) {
+            const auto rung = static_cast<std::size_t>(facts.interpolation);
+            Settings& settings = made[std::string(facts.name)];
+            if (rung > 0) settings.push_back({effects[rung - 1].name, Setting::on});
+            if (rung < effects.size()) settings.push_back({effects[rung].name, Setting::off});
+            settings.push_back({"cell_size", Setting::off});
+        }
+        made["area"] = {{effects.back().name, Setting::on}, {"cell_size", Setting::on}};
+        return made;
+    }();
     return known;
 }
 
