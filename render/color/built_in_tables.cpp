@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/name_list.h"
-#include "render/color/smooth_tables.h"
 #include "render/image/unknown_name.h"
 
 namespace stormcellar::render {
@@ -182,69 +180,6 @@ constexpr std::array stepped_tables{
     SteppedTable{"safe-rho", Moment::rho, {}, safe_rho_classes, 1.05F},
 };
 
-// The indices in stepped_tables.
-enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, height, vil_density };
-
-// The opacity of reflectivity between these points is exponential in the value.
-constexpr ExtinctionPoint reflectivity_points[] = {
-    {5, 0.0015}, {10, 0.003}, {15, 0.005}, {20, 0.012}, {25, 0.025}, {30, 0.042}, {35, 0.055},
-    {40, 0.09},  {45, 0.25},  {50, 1.1},   {55, 2.5},   {60, 4},     {75, 6},
-};
-
-std::vector<ExtinctionPoint> reflectivity_extinction(float lowest) {
-    const std::span<const ExtinctionPoint> known = reflectivity_points;
-    std::vector<ExtinctionPoint> points;
-    const int first = static_cast<int>(std::floor(std::clamp(lowest, -32.0F, 79.0F)));
-    std::size_t after = 1;
-    for (int dbz = first; dbz <= 80; ++dbz) {
-        const auto value = static_cast<float>(dbz);
-        while (after + 1 < known.size() && known[after].value < value)
-            ++after;
-        const ExtinctionPoint &from = known[after - 1], &to = known[after];
-        const double share = std::clamp(
-            static_cast<double>((value - from.value) / (to.value - from.value)), 0.0, 1.0);
-        points.push_back({value, from.per_km * std::pow(to.per_km / from.per_km, share)});
-    }
-    return points;
-}
-
-std::vector<ExtinctionPoint> velocity_extinction(float /*lowest*/) {
-    return {{least_velocity, 0.5},
-            {-50, 0.5},
-            {-30, 0.2},
-            {-10, 0.03},
-            {0, 0.006},
-            {10, 0.03},
-            {30, 0.2},
-            {50, 0.5}};
-}
-std::vector<ExtinctionPoint> spectrum_width_extinction(float /*lowest*/) {
-    return {{0, 0.004}, {4, 0.03}, {8, 0.12}, {12, 0.4}};
-}
-std::vector<ExtinctionPoint> zdr_extinction(float /*lowest*/) {
-    return {{least_zdr, 0.02}, {0.5, 0.02}, {2, 0.06}, {4, 0.25}};
-}
-std::vector<ExtinctionPoint> phi_extinction(float /*lowest*/) {
-    return {{0, 0.015}};
-}
-std::vector<ExtinctionPoint> rho_extinction(float /*lowest*/) {
-    return {{0, 0.06}, {0.85F, 0.06}, {0.97F, 0.02}};
-}
-std::vector<ExtinctionPoint> cfp_extinction(float /*lowest*/) {
-    return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
-}
-
-constexpr auto moment_looks = std::to_array<MomentLook>({
-    {Moment::ref, "Reflectivity", ref, false, reflectivity_extinction},
-    {Moment::vel, "Radial velocity", vel, false, velocity_extinction},
-    {Moment::sw, "Spectrum width", sw, true, spectrum_width_extinction},
-    {Moment::zdr, "Differential reflectivity", zdr, false, zdr_extinction},
-    {Moment::phi, "Differential phase", phi, true, phi_extinction},
-    {Moment::rho, "Correlation coefficient", rho, false, rho_extinction},
-    {Moment::cfp, "Clutter filter power removed", cfp, true, cfp_extinction},
-});
-static_assert(level2::has_a_row_for_each_moment(moment_looks));
-
 ColorTable table_of_classes(const SteppedTable& stepped) {
     ColorTable table;
     table.name = stepped.name;
@@ -262,20 +197,12 @@ ColorTable table_of_classes(const SteppedTable& stepped) {
     return table;
 }
 
+// Returns a table that exists: tests look up each name that this file and the moments' rows have.
+const ColorTable& table_named(std::string_view name) {
+    return *std::ranges::find(built_in_tables(), name, &ColorTable::name);
+}
+
 }  // namespace
-
-const MomentLook& look_of(Moment moment) {
-    return moment_looks[static_cast<std::size_t>(moment)];
-}
-
-std::string unit_of(Moment moment) {
-    const std::string_view units = level2::moment_units(moment);
-    return units == "1" ? std::string{} : std::string(units);
-}
-
-std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
-    return look_of(moment).extinction(lowest);
-}
 
 const std::vector<ColorTable>& built_in_tables() {
     static const std::vector<ColorTable> tables = [] {
@@ -300,37 +227,34 @@ Result<ColorTable> find_color_table(std::string_view name) {
 }
 
 const ColorTable& nws_reflectivity() {
-    return built_in_tables()[ref];
+    return table_named("nws-reflectivity");
 }
 const ColorTable& echo_top_colors() {
-    return built_in_tables()[echo_top];
+    return table_named("nws-echo-top");
 }
 const ColorTable& vil_colors() {
-    return built_in_tables()[vil];
+    return table_named("nws-vil");
 }
 const ColorTable& height_colors() {
-    return built_in_tables()[height];
+    return table_named("height");
+}
+const ColorTable& vil_density_colors() {
+    return table_named("water-density");
+}
+const ColorTable& clear_air_colors() {
+    return table_named("smooth-clear-air");
 }
 
+const ColorTable& default_color_table(Moment moment) {
+    return table_named(look_of(moment).classes);
+}
 const ColorTable& smooth_color_table(Moment moment) {
-    const auto& tables = built_in_tables();
-    return tables[tables.size() - 1 - level2::all_moments.size() +
-                  static_cast<std::size_t>(moment)];
+    return table_named(look_of(moment).smooth);
 }
 const ColorTable* table_of_family(std::string_view family, Moment moment) {
     if (family == color_families[0]) return &smooth_color_table(moment);
     if (family == color_families[1]) return &default_color_table(moment);
     return nullptr;
-}
-const ColorTable& clear_air_colors() {
-    return built_in_tables().back();
-}
-const ColorTable& vil_density_colors() {
-    return built_in_tables()[vil_density];
-}
-
-const ColorTable& default_color_table(Moment moment) {
-    return built_in_tables()[look_of(moment).table];
 }
 
 }  // namespace stormcellar::render

@@ -15,7 +15,7 @@
 //                               1997), where red begins
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
-//   smooth-...          one table without classes for each moment (render/color/smooth_tables.h)
+//   smooth-...          one table without classes for each moment (render/color/moment_look.h)
 // Range folded is usual_range_folded in all tables. Extinction is that of the moment:
 // default_extinction().
 //
@@ -30,11 +30,12 @@
 // Threads   Tables are made once and never change, so any thread may use them.
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "render/color/moment_look.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/color_table.h"
 
@@ -49,8 +50,8 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 [[nodiscard]] const std::vector<ColorTable>& built_in_tables();
 // Returns a table by its name. Errors: not_found; the message lists all tables.
 [[nodiscard]] Result<ColorTable> find_color_table(std::string_view name);
+// Return the table with classes of a moment, and the one without.
 [[nodiscard]] const ColorTable& default_color_table(level2::Moment moment);
-// Returns the table of render/color/smooth_tables.h.
 [[nodiscard]] const ColorTable& smooth_color_table(level2::Moment moment);
 [[nodiscard]] const ColorTable& clear_air_colors();
 [[nodiscard]] const ColorTable& echo_top_colors();
@@ -62,33 +63,5 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 inline constexpr std::array<std::string_view, 2> color_families{"smooth", "nws"};
 // Returns a moment's own table of a family; null for any other name.
 [[nodiscard]] const ColorTable* table_of_family(std::string_view family, level2::Moment moment);
-
-// The texts and the default colors of a picture for a moment. They extend
-// stormcellar/level2/moment.h.
-struct MomentLook {
-    level2::Moment moment = level2::Moment::ref;
-    std::string_view title = {};     // "Correlation coefficient"
-    std::size_t table = 0;           // in built_in_tables()
-    bool is_never_negative = false;  // values below a table that begins at 0 do not exist
-    // default_extinction()
-    std::vector<ExtinctionPoint> (*extinction)(float lowest) = nullptr;
-};
-[[nodiscard]] const MomentLook& look_of(level2::Moment moment);
-
-// Returns the unit of a moment's values as tables name it: "dBZ", "m/s", "dB", "degree"; empty for
-// RHO.
-[[nodiscard]] std::string unit_of(level2::Moment moment);
-
-// Returns how opaque a moment's values are in a volume, per km of the drawn scene.
-//   REF      A thin veil up to 40 dBZ, through which cores of 50 dBZ and more, which are solid,
-//   show:
-//            0.0015 up to 5 dBZ, 0.012 at 20, 0.055 at 35, 0.25 at 45, 1.1 at 50, 4 at 60, 6 at 75,
-//            given at every decibel from `lowest` to 80 dBZ.
-//   VEL      By speed: slow echo is a haze, so that jets and couplets stand out.
-//   SW, CFP  Rises with the value.
-//   ZDR      Hail and debris are faint, large drops dense.
-//   PHI      One faint haze, because no phase is "more" than another.
-//   RHO      Faint; what is not rain is denser.
-[[nodiscard]] std::vector<ExtinctionPoint> default_extinction(level2::Moment moment, float lowest);
 
 }  // namespace stormcellar::render

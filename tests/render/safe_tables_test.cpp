@@ -7,7 +7,7 @@
 
 #include "render/color/built_in_tables.h"
 #include "render/color/color_difference.h"
-#include "render/color/smooth_tables.h"
+#include "render/color/moment_look.h"
 
 namespace stormcellar::render {
 namespace {

@@ -2,8 +2,8 @@
 //
 // This is the only list of moments. Two rooms add facts of their own in a table that has a row for
 // every moment, so that a forgotten one does not compile:
-//   grid    grid/cells/moment_rules.cpp      how values are stored, mixed and compared
-//   render  render/color/built_in_tables.cpp title, colors, opacity
+//   grid    grid/cells/moment_rules.cpp   how values are stored, mixed and compared
+//   render  render/color/moment_look.cpp  title, colors, opacity
 // CONTRIBUTING.md says how to add a moment.
 //
 // Threads   Constants and pure functions.

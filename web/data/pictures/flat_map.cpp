@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "render/color/moment_look.h"
 #include "render/options/scene_options.h"
 #include "render/still/map_raster.h"
 #include "stormcellar/render/product.h"
@@ -25,20 +26,15 @@ enum class Mixing { largest, farthest_from_zero, mean, first };
 Mixing mixing_of(const render::Scene& scene) {
     const render::ProductFacts& facts = render::facts_of(scene.product);
     if (!facts.unit.empty()) return Mixing::largest;
-    switch (scene.moment) {
-        case level2::Moment::vel:
+    switch (level2::facts_of(scene.moment).circle) {
+        case level2::Circle::nyquist:
             return Mixing::farthest_from_zero;
-        case level2::Moment::phi:
+        case level2::Circle::full_turn:
             return Mixing::first;
-        case level2::Moment::zdr:
-        case level2::Moment::rho:
-        case level2::Moment::cfp:
-            return Mixing::mean;
-        case level2::Moment::ref:
-        case level2::Moment::sw:
+        case level2::Circle::none:
             break;
     }
-    return Mixing::largest;
+    return render::look_of(scene.moment).shows_largest ? Mixing::largest : Mixing::mean;
 }
 
 // Up to four cells that are merged into one.

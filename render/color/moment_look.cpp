@@ -1,4 +1,4 @@
-#include "render/color/smooth_tables.h"
+#include "render/color/moment_look.h"
 
 #include <algorithm>
 #include <array>
@@ -151,7 +151,82 @@ ColorTable blended_table(const SmoothTable& smooth) {
     return table;
 }
 
+// The opacity of reflectivity between these points is exponential in the value.
+constexpr ExtinctionPoint reflectivity_points[] = {
+    {5, 0.0015}, {10, 0.003}, {15, 0.005}, {20, 0.012}, {25, 0.025}, {30, 0.042}, {35, 0.055},
+    {40, 0.09},  {45, 0.25},  {50, 1.1},   {55, 2.5},   {60, 4},     {75, 6},
+};
+
+std::vector<ExtinctionPoint> reflectivity_extinction(float lowest) {
+    const std::span<const ExtinctionPoint> known = reflectivity_points;
+    std::vector<ExtinctionPoint> points;
+    const int first = static_cast<int>(std::floor(std::clamp(lowest, -32.0F, 79.0F)));
+    std::size_t after = 1;
+    for (int dbz = first; dbz <= 80; ++dbz) {
+        const auto value = static_cast<float>(dbz);
+        while (after + 1 < known.size() && known[after].value < value)
+            ++after;
+        const ExtinctionPoint &from = known[after - 1], &to = known[after];
+        const double share = std::clamp(
+            static_cast<double>((value - from.value) / (to.value - from.value)), 0.0, 1.0);
+        points.push_back({value, from.per_km * std::pow(to.per_km / from.per_km, share)});
+    }
+    return points;
+}
+
+std::vector<ExtinctionPoint> velocity_extinction(float /*lowest*/) {
+    return {{lowest_velocity, 0.5},
+            {-50, 0.5},
+            {-30, 0.2},
+            {-10, 0.03},
+            {0, 0.006},
+            {10, 0.03},
+            {30, 0.2},
+            {50, 0.5}};
+}
+std::vector<ExtinctionPoint> spectrum_width_extinction(float /*lowest*/) {
+    return {{0, 0.004}, {4, 0.03}, {8, 0.12}, {12, 0.4}};
+}
+std::vector<ExtinctionPoint> zdr_extinction(float /*lowest*/) {
+    return {{lowest_zdr, 0.02}, {0.5, 0.02}, {2, 0.06}, {4, 0.25}};
+}
+std::vector<ExtinctionPoint> phi_extinction(float /*lowest*/) {
+    return {{0, 0.015}};
+}
+std::vector<ExtinctionPoint> rho_extinction(float /*lowest*/) {
+    return {{0, 0.06}, {0.85F, 0.06}, {0.97F, 0.02}};
+}
+std::vector<ExtinctionPoint> cfp_extinction(float /*lowest*/) {
+    return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
+}
+
+constexpr auto moment_looks = std::to_array<MomentLook>({
+    {Moment::ref, "Reflectivity", "nws-reflectivity", "smooth-reflectivity",
+     reflectivity_extinction, false, true},
+    {Moment::vel, "Radial velocity", "nws-velocity", "smooth-velocity", velocity_extinction},
+    {Moment::sw, "Spectrum width", "nws-spectrum-width", "smooth-spectrum-width",
+     spectrum_width_extinction, true, true},
+    {Moment::zdr, "Differential reflectivity", "nws-zdr", "smooth-zdr", zdr_extinction},
+    {Moment::phi, "Differential phase", "phi", "smooth-phi", phi_extinction, true},
+    {Moment::rho, "Correlation coefficient", "nws-rho", "smooth-rho", rho_extinction},
+    {Moment::cfp, "Clutter filter power removed", "cfp", "smooth-cfp", cfp_extinction, true},
+});
+static_assert(level2::has_a_row_for_each_moment(moment_looks));
+
 }  // namespace
+
+const MomentLook& look_of(Moment moment) {
+    return moment_looks[static_cast<std::size_t>(moment)];
+}
+
+std::string unit_of(Moment moment) {
+    const std::string_view units = level2::moment_units(moment);
+    return units == "1" ? std::string{} : std::string(units);
+}
+
+std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
+    return look_of(moment).extinction(lowest);
+}
 
 std::vector<ColorTable> make_smooth_tables() {
     std::vector<ColorTable> tables;

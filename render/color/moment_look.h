@@ -1,0 +1,66 @@
+// render/color/moment_look.h -- how pictures show each moment: its title, its default tables, its
+// opacity, and the built-in tables without classes.
+//
+//   smooth-reflectivity, smooth-velocity, smooth-spectrum-width, smooth-zdr, smooth-rho,
+//   smooth-phi, smooth-cfp
+//   smooth-clear-air    reflectivity from -30 dBZ, for insects, birds and dust
+// Colors change evenly from anchor to anchor in OKLab. The hues of smooth-reflectivity are familiar
+// to forecasters. They change within 1 dB of 20, 35, 50 and 65 dBZ, so that these bounds can be
+// read off; inside a hue only lightness and strength change. On maps weak echo is translucent.
+// Velocity is teal toward the radar and red away from it, lighter with speed. The other tables,
+// except the circle of phases, become lighter with the value.
+//
+// For every kind of color vision two values that are far enough apart differ by least_smooth_step
+// or more (CIEDE2000): 15 dBZ, 10 m/s up to 40 m/s, 4 m/s of spectrum width, 2 dB of ZDR, 0.1 of
+// RHO above 0.7, 60 degrees, 15 dB (tests/render/safe_tables_test.cpp). The stepped safe tables
+// keep this distance between their classes, which are narrower.
+//
+// Threads   Pure.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/level2/moment.h"
+#include "stormcellar/render/color_table.h"
+
+namespace stormcellar::render {
+
+inline constexpr double least_smooth_step = 6;
+
+// The texts and the default colors of a picture for a moment. They extend
+// stormcellar/level2/moment.h.
+struct MomentLook {
+    level2::Moment moment = level2::Moment::ref;
+    std::string_view title = {};  // "Correlation coefficient"
+    // The default tables with and without classes, which are among built_in_tables().
+    std::string_view classes = {};
+    std::string_view smooth = {};
+    std::vector<ExtinctionPoint> (*extinction)(float lowest) = nullptr;  // default_extinction()
+    bool is_never_negative = false;  // values below a table that begins at 0 do not exist
+    // True if a coarse map shows the largest of several values, false if it shows their mean. A
+    // moment that wraps has a rule of its own (web/data/pictures/flat_map.cpp).
+    bool shows_largest = false;
+};
+[[nodiscard]] const MomentLook& look_of(level2::Moment moment);
+
+// Returns the unit of a moment's values as tables name it: "dBZ", "m/s", "dB", "degree"; empty for
+// RHO.
+[[nodiscard]] std::string unit_of(level2::Moment moment);
+
+// Returns how opaque a moment's values are in a volume, per km of the drawn scene.
+//   REF      A thin veil up to 40 dBZ, through which solid cores of 50 dBZ and more show:
+//            0.0015 up to 5 dBZ, 0.012 at 20, 0.055 at 35, 0.25 at 45, 1.1 at 50, 4 at 60, 6 at 75,
+//            given at every decibel from `lowest` to 80 dBZ.
+//   VEL      By speed: slow echo is a haze, so that jets and couplets stand out.
+//   SW, CFP  Rises with the value.
+//   ZDR      Hail and debris are faint, large drops dense.
+//   PHI      One faint haze, because no phase is "more" than another.
+//   RHO      Faint; what is not rain is denser.
+[[nodiscard]] std::vector<ExtinctionPoint> default_extinction(level2::Moment moment, float lowest);
+
+// Makes the tables without classes.
+[[nodiscard]] std::vector<ColorTable> make_smooth_tables();
+
+}  // namespace stormcellar::render
