@@ -11,23 +11,13 @@ using accuracy::ValueUnit;
 using level2::Moment;
 
 constexpr auto moment_rules = std::to_array<MomentRules>({
-    {Moment::ref, {1, -32, 0.5F}, ValueUnit::db, "dB", true},
-    {Moment::vel,
-     {2, -256, 0.25F},
-     ValueUnit::mps,
-     "m/s",
-     false,
-     "each measures along its own beams"},
-    {Moment::sw, {1, 0, 0.25F}, ValueUnit::mps, "m/s"},
-    {Moment::zdr, {2, -32, 0.03125F}, ValueUnit::db, "dB"},
-    {Moment::phi,
-     {2, 0, 0.25F},
-     ValueUnit::degree,
-     "degree",
-     false,
-     "each has an offset of its own"},
-    {Moment::rho, {2, 0, 0.001953125F}, ValueUnit::ratio, "1"},
-    {Moment::cfp, {2, -256, 0.25F}, ValueUnit::db, "dB"},
+    {Moment::ref, {1, -32, 0.5F}, ValueUnit::db, true},
+    {Moment::vel, {2, -256, 0.25F}, ValueUnit::mps, false, "each measures along its own beams"},
+    {Moment::sw, {1, 0, 0.25F}, ValueUnit::mps},
+    {Moment::zdr, {2, -32, 0.03125F}, ValueUnit::db},
+    {Moment::phi, {2, 0, 0.25F}, ValueUnit::degree, false, "each has an offset of its own"},
+    {Moment::rho, {2, 0, 0.001953125F}, ValueUnit::ratio},
+    {Moment::cfp, {2, -256, 0.25F}, ValueUnit::db},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_rules));
 
@@ -42,7 +32,8 @@ Quantization default_quantization(Moment moment) {
 }
 
 std::string_view difference_unit(Moment moment) {
-    return rules_of(moment).difference_unit;
+    const std::string_view units = level2::moment_units(moment);
+    return units == "dBZ" ? "dB" : units;  // a ratio of two Z is in dB
 }
 
 }  // namespace stormcellar::grid

@@ -17,7 +17,6 @@ struct MomentRules {
     // The coding of stored values. Steps are no coarser than the radar's own codes.
     Quantization quantization = {};
     accuracy::ValueUnit value_unit = accuracy::ValueUnit::ratio;  // of errors
-    std::string_view difference_unit = {};                        // of two values
     // True if a gate without echo enters a mean as the weakest echo that it could have shown.
     bool has_detection_limit = false;
     // Reason why values of different sites are not mixed; empty if they are mixed.
