@@ -304,7 +304,7 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
     refused(
         lambert_conformal, {10, 0}, [](auto& s) { s.spacing_m = 1e6; }, "opposite its center");
     GridSpec bad = spec_of(azimuthal_equidistant, {35, 0});
-    bad.projection = static_cast<Projection>(3);
+    bad.projection = static_cast<Projection>(projection_facts.size());
     EXPECT_NE(why_refused(bad), "");
 
     GridSpec world = spec_of(latitude_longitude, {0, 180});
@@ -315,10 +315,8 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
 }
 
 TEST(GridProjection, NamesAreReadAsTheyAreWritten) {
-    for (const Projection kind : {Projection::azimuthal_equidistant, Projection::latitude_longitude,
-                                  Projection::lambert_conformal}) {
-        EXPECT_EQ(projection_from_name(projection_name(kind)), kind);
-    }
+    for (const ProjectionFacts& facts : projection_facts)
+        EXPECT_EQ(projection_from_name(facts.name), facts.projection);
     EXPECT_FALSE(projection_from_name("mercator"));
 }
 
