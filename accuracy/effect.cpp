@@ -1,6 +1,7 @@
 #include "stormcellar/accuracy/effect.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,15 +30,8 @@ tl::unexpected<Error> unknown_name(std::string_view name, const std::vector<std:
 }  // namespace
 
 std::string_view name_of(Evidence evidence) {
-    switch (evidence) {
-        case Evidence::exact:
-            return "exact";
-        case Evidence::proven_bound:
-            return "proven";
-        case Evidence::sample:
-            break;
-    }
-    return "sample";
+    constexpr std::array<std::string_view, 3> names = {"exact", "proven", "sample"};
+    return names[static_cast<std::size_t>(evidence)];
 }
 
 Effect make_effect(std::string name, std::string rung, std::string what, double effort) {

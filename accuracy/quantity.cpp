@@ -18,17 +18,8 @@ constexpr double digit_slack = 1e-12;
 }  // namespace
 
 std::string_view name_of(ValueUnit unit) {
-    switch (unit) {
-        case ValueUnit::db:
-            return "dB";
-        case ValueUnit::mps:
-            return "m/s";
-        case ValueUnit::degree:
-            return "deg";
-        case ValueUnit::ratio:
-            break;
-    }
-    return "ratio";
+    constexpr std::array<std::string_view, 4> names = {"dB", "m/s", "deg", "ratio"};
+    return names[static_cast<std::size_t>(unit)];
 }
 
 double ErrorSize::of(Quantity quantity) const {

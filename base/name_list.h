@@ -1,9 +1,10 @@
-// base/name_list.h -- the names in a table, for help and messages.
+// base/name_list.h -- the names in a table: for help and messages, and to find a row.
 //
 // Threads: pure functions.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,15 @@ template <class Rows>
         --left;
     }
     return names;
+}
+
+// Returns the `key` of the row with this name, or none.
+template <class Rows, class Row, class Key>
+[[nodiscard]] std::optional<Key> key_named(const Rows& rows, Key Row::*key, std::string_view name) {
+    for (const Row& row : rows) {
+        if (row.name == name) return row.*key;
+    }
+    return std::nullopt;
 }
 
 // Returns true if each row's `key` is its index in the table, so that an enumeration can index it.

@@ -24,17 +24,9 @@ Path path_of_environment() {
 }  // namespace
 
 std::string_view name_of(Path path) {
-    switch (path) {
-        case Path::libbz2:
-            return "libbz2";
-        case Path::plain:
-            return "plain";
-        case Path::avx2:
-            return "avx2";
-        case Path::avx512:
-            return "avx512";
-    }
-    return "";
+    constexpr std::array<std::string_view, all_paths.size()> names = {"libbz2", "plain", "avx2",
+                                                                      "avx512"};
+    return names[static_cast<std::size_t>(path)];
 }
 
 std::optional<Path> path_named(std::string_view name) {

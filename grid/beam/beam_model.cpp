@@ -60,14 +60,8 @@ BeamModel BeamModel::traced(double site_latitude_deg, double antenna_altitude_m,
 }
 
 std::string BeamModel::name() const {
-    switch (kind_) {
-        case BeamKind::flat_earth:
-            return "flat earth";
-        case BeamKind::four_thirds:
-            return "4/3 earth";
-        case BeamKind::traced:
-            break;
-    }
+    if (kind_ == BeamKind::flat_earth) return "flat earth";
+    if (kind_ == BeamKind::four_thirds) return "4/3 earth";
     const char* const range = range_kind_ == RangeKind::geometric ? ", geometric range" : "";
     return "traced, " + profile_->name() + range;
 }

@@ -1,5 +1,6 @@
 #include "stormcellar/grid/brick_view.h"
 
+#include <array>
 #include <cstring>
 
 namespace stormcellar::grid {
@@ -22,17 +23,9 @@ CellStatus stored_state(const BrickView& view, const BrickEntry& brick, std::siz
 }  // namespace
 
 std::string_view cell_status_name(CellStatus status) {
-    switch (status) {
-        case CellStatus::not_seen:
-            return "not_seen";
-        case CellStatus::no_echo:
-            return "no_echo";
-        case CellStatus::range_folded:
-            return "range_folded";
-        case CellStatus::value:
-            return "value";
-    }
-    return "unknown";
+    constexpr std::array<std::string_view, 4> names = {"not_seen", "no_echo", "range_folded",
+                                                       "value"};
+    return names[static_cast<std::size_t>(status)];
 }
 
 std::uint16_t BrickView::code_at(std::size_t offset) const {

@@ -5,17 +5,9 @@
 namespace stormcellar::grid {
 
 std::string_view detail_name(Detail detail) {
-    switch (detail) {
-        case Detail::age:
-            return "age";
-        case Detail::height_offset:
-            return "height_offset";
-        case Detail::distance:
-            return "distance";
-        case Detail::weight:
-            break;
-    }
-    return "weight";
+    constexpr std::array<std::string_view, all_details.size()> names = {"age", "height_offset",
+                                                                        "distance", "weight"};
+    return names[static_cast<std::size_t>(detail)];
 }
 
 std::optional<Detail> detail_from_name(std::string_view name) {

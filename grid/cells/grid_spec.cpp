@@ -75,10 +75,7 @@ bool is_window_offset(double offset_cells, int cells) {
 }  // namespace
 
 std::optional<Projection> projection_from_name(std::string_view name) {
-    for (const ProjectionFacts& facts : projection_facts) {
-        if (facts.name == name) return facts.projection;
-    }
-    return std::nullopt;
+    return key_named(projection_facts, &ProjectionFacts::projection, name);
 }
 
 DegreeLength degree_length(double latitude_deg) noexcept {

@@ -123,10 +123,7 @@ std::string_view overlap_name(Overlap overlap) {
 }
 
 std::optional<Overlap> overlap_from_name(std::string_view name) {
-    for (const OverlapFacts& facts : overlap_facts) {
-        if (facts.name == name) return facts.overlap;
-    }
-    return std::nullopt;
+    return key_named(overlap_facts, &OverlapFacts::overlap, name);
 }
 
 Overlap default_overlap(level2::Moment moment) {

@@ -31,10 +31,7 @@ std::string_view time_method_name(TimeMethod method) {
 }
 
 std::optional<TimeMethod> time_method_from_name(std::string_view name) {
-    for (const TimeMethodFacts& facts : time_method_facts) {
-        if (facts.name == name) return facts.method;
-    }
-    return std::nullopt;
+    return key_named(time_method_facts, &TimeMethodFacts::method, name);
 }
 
 Result<BrickGrid> grid_at(const TimedView& before, const std::optional<TimedView>& after,

@@ -1,6 +1,7 @@
 #include "stormcellar/grid/frame_ladder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -68,15 +69,8 @@ bool holds_antipode(const SitePosition& site, const GridSpec& spec,
 }  // namespace
 
 std::string_view frame_kind_name(FrameKind kind) {
-    switch (kind) {
-        case FrameKind::sphere:
-            return "sphere";
-        case FrameKind::table:
-            return "table";
-        case FrameKind::geodesic:
-            return "geodesic";
-    }
-    return "unknown";
+    constexpr std::array<std::string_view, 3> names = {"sphere", "table", "geodesic"};
+    return names[static_cast<std::size_t>(kind)];
 }
 
 bool is_centered_at(const SitePosition& site, const GridSpec& spec) {

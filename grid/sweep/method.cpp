@@ -20,10 +20,7 @@ std::string_view interpolation_name(Interpolation interpolation) {
 }
 
 std::optional<Interpolation> interpolation_from_name(std::string_view name) {
-    for (const InterpolationFacts& facts : interpolation_facts) {
-        if (facts.name == name) return facts.interpolation;
-    }
-    return std::nullopt;
+    return key_named(interpolation_facts, &InterpolationFacts::interpolation, name);
 }
 
 std::string Method::name() const {

@@ -7,28 +7,18 @@
 namespace stormcellar::grid {
 
 Blending blending_of(level2::Moment moment) {
-    switch (level2::facts_of(moment).circle) {
-        case level2::Circle::nyquist:
-            return Blending::nyquist_circle;
-        case level2::Circle::full_turn:
-            return Blending::phase_circle;
-        case level2::Circle::none:
-            break;
-    }
+    const level2::Circle circle = level2::facts_of(moment).circle;
+    if (circle == level2::Circle::nyquist) return Blending::nyquist_circle;
+    if (circle == level2::Circle::full_turn) return Blending::phase_circle;
     return rules_of(moment).has_detection_limit ? Blending::with_detection_limit
                                                 : Blending::values_only;
 }
 
 float half_period_of(level2::Moment moment, float nyquist_mps) {
-    switch (level2::facts_of(moment).circle) {
-        case level2::Circle::nyquist:
-            return std::isfinite(nyquist_mps) && nyquist_mps > 0 ? nyquist_mps : 0;
-        case level2::Circle::full_turn:
-            return 180;
-        case level2::Circle::none:
-            break;
-    }
-    return 0;
+    const level2::Circle circle = level2::facts_of(moment).circle;
+    if (circle == level2::Circle::full_turn) return 180;
+    const bool is_known = std::isfinite(nyquist_mps) && nyquist_mps > 0;
+    return circle == level2::Circle::nyquist && is_known ? nyquist_mps : 0;
 }
 
 // Adds a value by its difference from the reference, the shorter way round. The reference is the

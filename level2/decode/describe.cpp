@@ -104,18 +104,11 @@ Json describe_block(const std::optional<VolumeBlock>& block) {
 }
 
 Json describe_vcp_source(const Volume& volume) {
-    switch (volume.vcp_source) {
-        case VcpSource::message_5:
-            return "msg5";
-        case VcpSource::message_7:
-            return "msg7";
-        case VcpSource::radial:
-            return !volume.sweeps.empty() && volume.sweeps.front().message_type == 1 ? "msg1 radial"
-                                                                                     : "RVOL";
-        case VcpSource::none:
-            break;
-    }
-    return nullptr;
+    if (volume.vcp_source == VcpSource::none) return nullptr;
+    if (volume.vcp_source == VcpSource::message_5) return "msg5";
+    if (volume.vcp_source == VcpSource::message_7) return "msg7";
+    const bool is_legacy = !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
+    return is_legacy ? "msg1 radial" : "RVOL";
 }
 
 template <class Key>

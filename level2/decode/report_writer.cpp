@@ -1,6 +1,7 @@
 #include "level2/decode/report_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,15 +16,8 @@ void add_count(std::optional<std::uint64_t>& total, std::optional<std::uint64_t>
 }  // namespace
 
 std::string_view severity_name(Severity severity) {
-    switch (severity) {
-        case Severity::note:
-            return "note";
-        case Severity::warning:
-            return "warning";
-        case Severity::error:
-            break;
-    }
-    return "error";
+    constexpr std::array<std::string_view, 3> names = {"note", "warning", "error"};
+    return names[static_cast<std::size_t>(severity)];
 }
 
 std::string Problem::text() const {

@@ -5,10 +5,7 @@
 namespace stormcellar::level2 {
 
 std::optional<Moment> moment_from_name(std::string_view name) {
-    for (const MomentFacts& facts : moment_facts) {
-        if (facts.name == name) return facts.moment;
-    }
-    return std::nullopt;
+    return key_named(moment_facts, &MomentFacts::moment, name);
 }
 
 std::string moment_names(std::string_view between, std::string_view before_last) {
