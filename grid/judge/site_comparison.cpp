@@ -227,6 +227,20 @@ std::array<FaultText, fit_size> texts(const FaultLimits& limits) {
             FaultText{"clock late by", "clock early by", "s", limits.time_s}};
 }
 
+// Returns a sentence for each of the four estimates about which `words_for` has something to say.
+template <class WordsFor>
+std::vector<std::string> sentences(const SiteComparison& comparison, WordsFor words_for) {
+    const std::array estimates = {&comparison.bias_db, &comparison.azimuth_deg,
+                                  &comparison.elevation_deg, &comparison.time_s};
+    std::vector<std::string> listed;
+    for (std::size_t i = 0; i < fit_size; ++i) {
+        const std::string words = words_for(i, *estimates[i]);
+        if (words.empty()) continue;
+        listed.push_back(fmt::format("{} against {}: {}", comparison.b, comparison.a, words));
+    }
+    return listed;
+}
+
 }  // namespace
 
 Result<SiteComparison> compare_sites(const SiteGrid& a, const SiteGrid& b,
@@ -257,38 +271,27 @@ Result<SiteComparison> compare_sites(const SiteGrid& a, const SiteGrid& b,
 }
 
 std::vector<std::string> faults(const SiteComparison& comparison, const FaultLimits& limits) {
-    const std::array all = {&comparison.bias_db, &comparison.azimuth_deg, &comparison.elevation_deg,
-                            &comparison.time_s};
-    std::vector<std::string> named;
-    for (std::size_t i = 0; i < fit_size; ++i) {
+    return sentences(comparison, [&](std::size_t i, const Estimate& estimate) -> std::string {
         const FaultText text = texts(limits)[i];
-        const double size = std::abs(all[i]->value);
-        const bool is_fault = all[i]->untold.empty() && size > text.limit &&
-                              size > limits.standard_errors * all[i]->standard_error;
-        if (!is_fault) continue;
-        named.push_back(fmt::format("{} against {}: {} {:.2f} +- {:.2f} {}", comparison.b,
-                                    comparison.a, all[i]->value > 0 ? text.more : text.less, size,
-                                    all[i]->standard_error, text.unit));
-    }
-    return named;
+        const double size = std::abs(estimate.value);
+        const bool is_fault = estimate.untold.empty() && size > text.limit &&
+                              size > limits.standard_errors * estimate.standard_error;
+        if (!is_fault) return {};
+        return fmt::format("{} {:.2f} +- {:.2f} {}", estimate.value > 0 ? text.more : text.less,
+                           size, estimate.standard_error, text.unit);
+    });
 }
 
 std::vector<std::string> untold(const SiteComparison& comparison, const FaultLimits& limits) {
-    const std::array all = {&comparison.bias_db, &comparison.azimuth_deg, &comparison.elevation_deg,
-                            &comparison.time_s};
-    std::vector<std::string> listed;
-    for (std::size_t i = 0; i < fit_size; ++i) {
+    return sentences(comparison, [&](std::size_t i, const Estimate& estimate) -> std::string {
         const FaultText text = texts(limits)[i];
-        std::string why = all[i]->untold;
-        if (why.empty() && limits.standard_errors * all[i]->standard_error > 2 * text.limit) {
+        std::string why = estimate.untold;
+        if (why.empty() && limits.standard_errors * estimate.standard_error > 2 * text.limit) {
             why =
-                fmt::format("it is known only to +- {:.2f} {}", all[i]->standard_error, text.unit);
+                fmt::format("it is known only to +- {:.2f} {}", estimate.standard_error, text.unit);
         }
-        if (why.empty()) continue;
-        listed.push_back(fmt::format("{} against {}: {} cannot be determined: {}", comparison.b,
-                                     comparison.a, fault_names[i], why));
-    }
-    return listed;
+        return why.empty() ? why : fmt::format("{} cannot be determined: {}", fault_names[i], why);
+    });
 }
 
 }  // namespace stormcellar::grid
