@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <initializer_list>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -20,126 +20,107 @@ bool same(const std::optional<float>& a, const std::optional<float>& b) {
     return a.has_value() == b.has_value() && (!a || same(*a, *b));
 }
 
+template <class Part, class Value>
 struct Field {
     std::string_view name;
-    bool is_same = true;
+    Value Part::*value;
+};
+template <class Part, class Value>
+Field(std::string_view name, Value Part::*value) -> Field<Part, Value>;
+
+// The fields that must be the same, in the order in which a difference is looked for.
+constexpr std::tuple fields = {
+    Field{"time", &Radial::time},
+    Field{"azimuth", &Radial::azimuth_deg},
+    Field{"elevation", &Radial::elevation_deg},
+    Field{"Nyquist velocity", &Radial::nyquist_mps},
+    Field{"unambiguous range", &Radial::unambiguous_range_m},
+    Field{"calibration", &Radial::calibration_dbz},
+    Field{"vertical calibration", &Radial::vertical_calibration_dbz},
+    Field{"horizontal noise", &Radial::horizontal_noise_dbm},
+    Field{"vertical noise", &Radial::vertical_noise_dbm},
+    Field{"azimuth number", &Radial::azimuth_number},
+    Field{"status", &Radial::status},
+    Field{"cut sector", &Radial::cut_sector},
+    Field{"spot blanking", &Radial::spot_blanking},
+    Field{"azimuth indexing", &Radial::azimuth_indexing},
+    Field{"radial flags", &Radial::radial_flags},
+    Field{"attenuation", &Radial::attenuation_db_per_km_thousandths},
+    Field{"elevation's calibration", &Radial::elevation_calibration_db},
+    Field{"name", &SweepMoment::moment},
+    Field{"first gate", &SweepMoment::first_gate_m},
+    Field{"gate spacing", &SweepMoment::gate_spacing_m},
+    Field{"word size", &SweepMoment::word_size_bits},
+    Field{"scale", &SweepMoment::scale},
+    Field{"offset", &SweepMoment::offset},
+    Field{"control flags", &SweepMoment::control_flags},
+    Field{"signal threshold", &SweepMoment::snr_threshold_db},
+    Field{"folding threshold", &SweepMoment::folding_threshold_db},
+    Field{"length of its rows", &SweepMoment::gate_stride},
+    Field{"number of gates", &SweepMoment::gate_counts},
+    Field{"codes", &SweepMoment::codes8},
+    Field{"codes", &SweepMoment::codes16},
+    Field{"elevation", &VcpCut::elevation_deg},
+    Field{"channel configuration", &VcpCut::channel_configuration},
+    Field{"waveform", &VcpCut::waveform},
+    Field{"super-resolution", &VcpCut::super_resolution},
+    Field{"surveillance PRF", &VcpCut::surveillance_prf},
+    Field{"surveillance pulses", &VcpCut::surveillance_pulses},
+    Field{"azimuth rate", &VcpCut::azimuth_rate_code},
+    Field{"flags", &VcpCut::supplemental},
+    Field{"thresholds", &VcpCut::thresholds_eighth_db},
+    Field{"Doppler sectors", &VcpCut::rest},
+    Field{"message", &Vcp::message_type},
+    Field{"type", &Vcp::pattern_type},
+    Field{"number", &Vcp::pattern_number},
+    Field{"version", &Vcp::version},
+    Field{"clutter map group", &Vcp::clutter_group},
+    Field{"velocity resolution", &Vcp::doppler_resolution},
+    Field{"pulse width", &Vcp::pulse_width},
+    Field{"sequencing", &Vcp::sequencing},
+    Field{"flags", &Vcp::supplemental},
+    Field{"size", &VolumeBlock::size_bytes},
+    Field{"version", &VolumeBlock::version_major},
+    Field{"version's second part", &VolumeBlock::version_minor},
+    Field{"latitude", &VolumeBlock::latitude_deg},
+    Field{"longitude", &VolumeBlock::longitude_deg},
+    Field{"site height", &VolumeBlock::site_height_m},
+    Field{"tower height", &VolumeBlock::tower_height_m},
+    Field{"calibration", &VolumeBlock::calibration_db},
+    Field{"horizontal power", &VolumeBlock::horizontal_power_kw},
+    Field{"vertical power", &VolumeBlock::vertical_power_kw},
+    Field{moment_name(Moment::zdr), &VolumeBlock::differential_reflectivity_db},
+    Field{"phase", &VolumeBlock::initial_differential_phase_deg},
+    Field{"VCP", &VolumeBlock::vcp},
+    Field{"processing status", &VolumeBlock::processing_status},
+    Field{"rest", &VolumeBlock::rest},
+    Field{"name", &VolumeHeader::filename},
+    Field{"day", &VolumeHeader::date},
+    Field{"time", &VolumeHeader::ms},
+    Field{"ICAO", &VolumeHeader::icao},
+    Field{"elevation number", &Sweep::elevation_number},
+    Field{"message", &Sweep::message_type},
+    Field{"azimuth spacing", &Sweep::azimuth_spacing_deg},
+    Field{"fixed angle", &Sweep::vcp_elevation_deg},
+    Field{"station", &Volume::station},
+    Field{"VCP number", &Volume::vcp},
+    Field{"source of the VCP number", &Volume::vcp_source},
 };
 
-// Returns the name of the first field that differs, or an empty text.
-std::string_view first_other(std::initializer_list<Field> fields) {
-    for (const Field& field : fields) {
-        if (!field.is_same) return field.name;
-    }
-    return {};
+// Sets `name` if no name is set, and the field is one of these parts and differs.
+template <class Part, class Value>
+void note(const Field<Part, Value>& field, const Part& a, const Part& b, std::string_view& name) {
+    if (name.empty() && !same(a.*field.value, b.*field.value)) name = field.name;
 }
+template <class OtherPart, class Value, class Part>
+void note(const Field<OtherPart, Value>&, const Part&, const Part&, std::string_view&) {}
 
-// Each overload of other() returns the first field in which two parts differ, or an empty text.
-std::string_view other(const Radial& a, const Radial& b) {
-    return first_other({
-        {"time", same(a.time, b.time)},
-        {"azimuth", same(a.azimuth_deg, b.azimuth_deg)},
-        {"elevation", same(a.elevation_deg, b.elevation_deg)},
-        {"Nyquist velocity", same(a.nyquist_mps, b.nyquist_mps)},
-        {"unambiguous range", same(a.unambiguous_range_m, b.unambiguous_range_m)},
-        {"calibration", same(a.calibration_dbz, b.calibration_dbz)},
-        {"vertical calibration", same(a.vertical_calibration_dbz, b.vertical_calibration_dbz)},
-        {"horizontal noise", same(a.horizontal_noise_dbm, b.horizontal_noise_dbm)},
-        {"vertical noise", same(a.vertical_noise_dbm, b.vertical_noise_dbm)},
-        {"azimuth number", same(a.azimuth_number, b.azimuth_number)},
-        {"status", same(a.status, b.status)},
-        {"cut sector", same(a.cut_sector, b.cut_sector)},
-        {"spot blanking", same(a.spot_blanking, b.spot_blanking)},
-        {"azimuth indexing", same(a.azimuth_indexing, b.azimuth_indexing)},
-        {"radial flags", same(a.radial_flags, b.radial_flags)},
-        {"attenuation",
-         same(a.attenuation_db_per_km_thousandths, b.attenuation_db_per_km_thousandths)},
-        {"elevation's calibration", same(a.elevation_calibration_db, b.elevation_calibration_db)},
-    });
-}
-
-std::string_view other(const SweepMoment& a, const SweepMoment& b) {
-    return first_other({
-        {"name", same(a.moment, b.moment)},
-        {"first gate", same(a.first_gate_m, b.first_gate_m)},
-        {"gate spacing", same(a.gate_spacing_m, b.gate_spacing_m)},
-        {"word size", same(a.word_size_bits, b.word_size_bits)},
-        {"scale", same(a.scale, b.scale)},
-        {"offset", same(a.offset, b.offset)},
-        {"control flags", same(a.control_flags, b.control_flags)},
-        {"signal threshold", same(a.snr_threshold_db, b.snr_threshold_db)},
-        {"folding threshold", same(a.folding_threshold_db, b.folding_threshold_db)},
-        {"length of its rows", same(a.gate_stride, b.gate_stride)},
-        {"number of gates", same(a.gate_counts, b.gate_counts)},
-        {"codes", same(a.codes8, b.codes8) && same(a.codes16, b.codes16)},
-    });
-}
-
-std::string_view other(const VcpCut& a, const VcpCut& b) {
-    return first_other({
-        {"elevation", same(a.elevation_deg, b.elevation_deg)},
-        {"channel configuration", same(a.channel_configuration, b.channel_configuration)},
-        {"waveform", same(a.waveform, b.waveform)},
-        {"super-resolution", same(a.super_resolution, b.super_resolution)},
-        {"surveillance PRF", same(a.surveillance_prf, b.surveillance_prf)},
-        {"surveillance pulses", same(a.surveillance_pulses, b.surveillance_pulses)},
-        {"azimuth rate", same(a.azimuth_rate_code, b.azimuth_rate_code)},
-        {"flags", same(a.supplemental, b.supplemental)},
-        {"thresholds", same(a.thresholds_eighth_db, b.thresholds_eighth_db)},
-        {"Doppler sectors", same(a.rest, b.rest)},
-    });
-}
-
-std::string_view other(const Vcp& a, const Vcp& b) {
-    return first_other({
-        {"message", same(a.message_type, b.message_type)},
-        {"type", same(a.pattern_type, b.pattern_type)},
-        {"number", same(a.pattern_number, b.pattern_number)},
-        {"version", same(a.version, b.version)},
-        {"clutter map group", same(a.clutter_group, b.clutter_group)},
-        {"velocity resolution", same(a.doppler_resolution, b.doppler_resolution)},
-        {"pulse width", same(a.pulse_width, b.pulse_width)},
-        {"sequencing", same(a.sequencing, b.sequencing)},
-        {"flags", same(a.supplemental, b.supplemental)},
-    });
-}
-
-std::string_view other(const VolumeBlock& a, const VolumeBlock& b) {
-    return first_other({
-        {"size", same(a.size_bytes, b.size_bytes)},
-        {"version", same(a.version_major, b.version_major)},
-        {"version's second part", same(a.version_minor, b.version_minor)},
-        {"latitude", same(a.latitude_deg, b.latitude_deg)},
-        {"longitude", same(a.longitude_deg, b.longitude_deg)},
-        {"site height", same(a.site_height_m, b.site_height_m)},
-        {"tower height", same(a.tower_height_m, b.tower_height_m)},
-        {"calibration", same(a.calibration_db, b.calibration_db)},
-        {"horizontal power", same(a.horizontal_power_kw, b.horizontal_power_kw)},
-        {"vertical power", same(a.vertical_power_kw, b.vertical_power_kw)},
-        {moment_name(Moment::zdr),
-         same(a.differential_reflectivity_db, b.differential_reflectivity_db)},
-        {"phase", same(a.initial_differential_phase_deg, b.initial_differential_phase_deg)},
-        {"VCP", same(a.vcp, b.vcp)},
-        {"processing status", same(a.processing_status, b.processing_status)},
-        {"rest", same(a.rest, b.rest)},
-    });
-}
-
-std::string_view other(const VolumeHeader& a, const VolumeHeader& b) {
-    return first_other({
-        {"name", same(a.filename, b.filename)},
-        {"day", same(a.date, b.date)},
-        {"time", same(a.ms, b.ms)},
-        {"ICAO", same(a.icao, b.icao)},
-    });
-}
-
-std::string_view other(const Sweep& a, const Sweep& b) {
-    return first_other({
-        {"elevation number", same(a.elevation_number, b.elevation_number)},
-        {"message", same(a.message_type, b.message_type)},
-        {"azimuth spacing", same(a.azimuth_spacing_deg, b.azimuth_spacing_deg)},
-        {"fixed angle", same(a.vcp_elevation_deg, b.vcp_elevation_deg)},
-    });
+// Returns the name of the first field in which two parts differ, or an empty text.
+template <class Part>
+std::string_view other(const Part& a, const Part& b) {
+    std::string_view name;
+    std::apply([&](const auto&... field) { (note(field, a, b, name), ...); }, fields);
+    return name;
 }
 
 template <class T>
@@ -171,11 +152,7 @@ std::string other_facts(const Volume& a, const Volume& b) {
         std::string where = other_of("VCP, cut", a.vcp_message->cuts, b.vcp_message->cuts);
         if (!where.empty()) return where;
     }
-    return std::string{first_other({
-        {"station", same(a.station, b.station)},
-        {"VCP number", same(a.vcp, b.vcp)},
-        {"source of the VCP number", same(a.vcp_source, b.vcp_source)},
-    })};
+    return std::string{other(a, b)};
 }
 
 }  // namespace
