@@ -19,6 +19,11 @@ Bytes change_a_byte(Bytes bytes, std::size_t most, Random& random) {
     return bytes;
 }
 
+// For properties without a mutator of their own.
+Bytes mutate_bytes(const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
+    return mutate(bytes, most);
+}
+
 // Checks each seed, and then mutates it more and more.
 template <class Check, class Mutate>
 void check_seeds(const std::vector<Seed>& seeds, int changes, Check check, Mutate mutate) {
@@ -51,24 +56,15 @@ TEST(Fuzz, Messages) {
 }
 
 TEST(Fuzz, Compress) {
-    check_seeds(compress_seeds(), 200, check_compress,
-                [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
-                    return mutate(bytes, most);
-                });
+    check_seeds(compress_seeds(), 200, check_compress, mutate_bytes);
 }
 
 TEST(Fuzz, Archive) {
-    check_seeds(archive_seeds(), 200, check_archive,
-                [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
-                    return mutate(bytes, most);
-                });
+    check_seeds(archive_seeds(), 200, check_archive, mutate_bytes);
 }
 
 TEST(Fuzz, Bunzip) {
-    check_seeds(bunzip_seeds(), 50, check_bunzip,
-                [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
-                    return mutate(bytes, most);
-                });
+    check_seeds(bunzip_seeds(), 50, check_bunzip, mutate_bytes);
 }
 
 TEST(Fuzz, GridFile) {
@@ -76,10 +72,7 @@ TEST(Fuzz, GridFile) {
 }
 
 TEST(Fuzz, Request) {
-    check_seeds(request_seeds(), 2000, check_request,
-                [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
-                    return mutate(bytes, most);
-                });
+    check_seeds(request_seeds(), 2000, check_request, mutate_bytes);
 }
 
 }  // namespace

@@ -159,31 +159,15 @@ void change_entry(Bytes& file, Random& random) {
     BrickEntry entry = entry_of(file, sections, brick);
     const auto number = static_cast<std::uint16_t>(
         below(random, 2) == 0 ? below(random, 5) : 0xFFFF - below(random, 0xF001));
-    switch (below(random, 8)) {
-        case 0:
-            entry.kind = static_cast<BrickKind>(below(random, 4));
-            break;
-        case 1:
-            entry.uniform_status = static_cast<grid::CellStatus>(below(random, 5));
-            break;
-        case 2:
-            entry.value_count = number;
-            break;
-        case 3:
-            entry.min_code = number;
-            break;
-        case 4:
-            entry.max_code = number;
-            break;
-        case 5:
-            entry.status_index = number;
-            break;
-        case 6:
-            entry.packed_bytes = number;
-            break;
-        default:
-            entry = entry_of(file, sections, below(random, sections.bricks));
-    }
+    const std::size_t field = below(random, 8);
+    if (field == 0) entry.kind = static_cast<BrickKind>(below(random, 4));
+    if (field == 1) entry.uniform_status = static_cast<grid::CellStatus>(below(random, 5));
+    if (field == 2) entry.value_count = number;
+    if (field == 3) entry.min_code = number;
+    if (field == 4) entry.max_code = number;
+    if (field == 5) entry.status_index = number;
+    if (field == 6) entry.packed_bytes = number;
+    if (field == 7) entry = entry_of(file, sections, below(random, sections.bricks));
     set_entry(file, sections, brick, entry);
 }
 
@@ -230,32 +214,15 @@ Bytes mutate_grid_file(const Bytes& file, std::size_t most, Random& random,
     }
     Bytes changed = file;
     const Sections sections = sections_of(file);
-    switch (below(random, 9)) {
-        case 0:
-            set_header_field(changed, random);
-            break;
-        case 1:
-            set_number(changed, random);
-            break;
-        case 2:
-        case 3:
-            change_entry(changed, random);
-            break;
-        case 4:
-            change_record(changed, random);
-            break;
-        case 5:
-            change_section(changed, sizeof(FileHeader), sections.table, mutate);
-            break;
-        case 6:
-            change_section(changed, sections.states, sections.codes, mutate);
-            break;
-        case 7:
-            change_section(changed, sections.codes, changed.size(), mutate);
-            break;
-        default:
-            change_size(changed, most, random);
-    }
+    const std::size_t kind = below(random, 9);
+    if (kind == 0) set_header_field(changed, random);
+    if (kind == 1) set_number(changed, random);
+    if (kind == 2 || kind == 3) change_entry(changed, random);
+    if (kind == 4) change_record(changed, random);
+    if (kind == 5) change_section(changed, sizeof(FileHeader), sections.table, mutate);
+    if (kind == 6) change_section(changed, sections.states, sections.codes, mutate);
+    if (kind == 7) change_section(changed, sections.codes, changed.size(), mutate);
+    if (kind == 8) change_size(changed, most, random);
     if (changed.size() < sizeof(FileHeader)) return changed;
     if (below(random, 4) != 0) seal_bricks(changed);
     if (below(random, 16) != 0) seal_header(changed);
