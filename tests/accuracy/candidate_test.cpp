@@ -1,5 +1,6 @@
 #include "stormcellar/accuracy/candidate.h"
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -15,6 +16,12 @@ namespace {
 using ::testing::HasSubstr;
 using testing::random_chain;
 using testing::small_chain;
+
+template <class Change>
+void change_effects(Chain& chain, Change change) {
+    for (Step& step : chain.steps)
+        std::for_each(step.effects.begin(), step.effects.end(), change);
+}
 
 TEST(Candidate, EachChoiceCostsAndLeavesOffWhatItSays) {
     const auto candidates = list_candidates(small_chain());
@@ -50,16 +57,10 @@ TEST(Candidate, EffortGoesBeforeWhatWasMeasured) {
 
 TEST(Candidate, TheOrderDoesNotHangOnWhatWasMeasuredWhereThereAreEfforts) {
     Chain chain = small_chain();
-    for (Step& step : chain.steps) {
-        for (Effect& effect : step.effects)
-            effect.effort = 0.1;
-    }
+    change_effects(chain, [](Effect& effect) { effect.effort = 0.1; });
     const auto quiet = list_candidates(chain);
     double noise_s = 1;
-    for (Step& step : chain.steps) {
-        for (Effect& effect : step.effects)
-            effect.cost_s = noise_s = 3 / (1 + noise_s);
-    }
+    change_effects(chain, [&](Effect& effect) { effect.cost_s = noise_s = 3 / (1 + noise_s); });
     const auto busy = list_candidates(chain);
     ASSERT_TRUE(quiet && busy);
     for (std::size_t i = 0; i < quiet->size(); ++i)
@@ -81,10 +82,7 @@ TEST(Candidate, WhatHasNoBoundIsNotLeftOffUnlessItIsSetSo) {
 
 TEST(Candidate, AtEqualCostTheMoreAccurateComesFirst) {
     Chain chain = small_chain();
-    for (Step& step : chain.steps) {
-        for (Effect& effect : step.effects)
-            effect.cost_s = 0;
-    }
+    change_effects(chain, [](Effect& effect) { effect.cost_s = 0; });
     const auto candidates = list_candidates(chain);
     ASSERT_TRUE(candidates);
     EXPECT_EQ(candidates->front().off, 0U);

@@ -4,6 +4,7 @@
 
 #include "tests/bunzip/each_path.h"
 #include "tests/bunzip/stream_maker.h"
+#include "tests/testing/noise.h"
 
 namespace stormcellar::bunzip {
 namespace {
@@ -24,10 +25,7 @@ TEST_P(ChecksumOf, TheNineDigits) {
 }
 
 TEST_P(ChecksumOf, AnyLengthAsBitByBit) {
-    std::mt19937 random(3);
-    Bytes bytes(4200);
-    for (std::byte& byte : bytes)
-        byte = static_cast<std::byte>(random());
+    const Bytes bytes = stormcellar::testing::noise(4200, 256, 3);
     for (std::size_t size = 0; size <= bytes.size(); size += size < 300 ? 1 : 61) {
         const auto part = std::span{bytes}.first(size);
         ASSERT_EQ(~go_on(checksum_begin, part), slow_checksum(part)) << size;
@@ -36,9 +34,7 @@ TEST_P(ChecksumOf, AnyLengthAsBitByBit) {
 
 TEST_P(ChecksumOf, GoesOnFromPieceToPiece) {
     std::mt19937 random(4);
-    Bytes bytes(10'000);
-    for (std::byte& byte : bytes)
-        byte = static_cast<std::byte>(random());
+    const Bytes bytes = stormcellar::testing::noise(10'000, 256, random);
     std::uint32_t state = checksum_begin;
     for (std::size_t at = 0; at < bytes.size();) {
         const std::size_t piece = std::min<std::size_t>(random() % 700, bytes.size() - at);

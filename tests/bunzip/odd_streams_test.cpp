@@ -7,9 +7,12 @@
 #include "bunzip/bzip2_format.h"
 #include "tests/bunzip/each_path.h"
 #include "tests/bunzip/stream_maker.h"
+#include "tests/testing/noise.h"
 
 namespace stormcellar::bunzip {
 namespace {
+
+using stormcellar::testing::noise;
 
 using End = LibraryOutcome::Status;
 constexpr std::size_t most = std::size_t{16} << 20;
@@ -34,14 +37,6 @@ class OddStreams : public ::testing::TestWithParam<Path> {
     Workspace workspace_;
 };
 INSTANTIATE_TEST_SUITE_P(EachPath, OddStreams, ::testing::ValuesIn(available_kernels()), test_name);
-
-Bytes noise(std::size_t size, unsigned kinds, unsigned seed) {
-    std::mt19937 random(seed);
-    Bytes bytes(size);
-    for (std::byte& byte : bytes)
-        byte = static_cast<std::byte>(random() % kinds);
-    return bytes;
-}
 
 TEST_P(OddStreams, AllLevelsAndBlockEnds) {
     for (const int level : {1, 2, 5, 9}) {

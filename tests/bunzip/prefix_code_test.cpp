@@ -55,6 +55,15 @@ void expect_slow_code(const Lengths& lengths, std::mt19937_64& random) {
     }
 }
 
+void expect_slow_codes_of_lengths(unsigned least, unsigned most, std::mt19937_64& random) {
+    for (int round = 0; round < 100; ++round) {
+        Lengths lengths(3 + random() % 256);
+        for (std::uint8_t& length : lengths)
+            length = static_cast<std::uint8_t>(least + random() % (most - least + 1));
+        expect_slow_code(lengths, random);
+    }
+}
+
 TEST(PrefixCode, ProperCodes) {
     std::mt19937_64 random(1);
     expect_slow_code({1, 2, 2}, random);
@@ -72,12 +81,7 @@ TEST(PrefixCode, LengthsThatLeaveWordsUnused) {
     expect_slow_code({2, 2, 2}, random);
     expect_slow_code({20, 20, 20}, random);
     expect_slow_code({4, 12, 9, 17}, random);
-    for (int round = 0; round < 100; ++round) {
-        Lengths lengths(3 + random() % 256);
-        for (std::uint8_t& length : lengths)
-            length = static_cast<std::uint8_t>(9 + random() % 12);
-        expect_slow_code(lengths, random);
-    }
+    expect_slow_codes_of_lengths(9, 20, random);
 }
 
 // There are more words than fit, so those of longer lengths cannot be reached.
@@ -86,12 +90,7 @@ TEST(PrefixCode, LengthsThatAreTooShort) {
     expect_slow_code({1, 1, 1}, random);
     expect_slow_code({1, 1, 2, 3, 20}, random);
     expect_slow_code(Lengths(258, 1), random);
-    for (int round = 0; round < 100; ++round) {
-        Lengths lengths(3 + random() % 256);
-        for (std::uint8_t& length : lengths)
-            length = static_cast<std::uint8_t>(1 + random() % 20);
-        expect_slow_code(lengths, random);
-    }
+    expect_slow_codes_of_lengths(1, 20, random);
 }
 
 TEST(PrefixCode, IsBuiltAnew) {

@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include "base/byte_reader.h"
+#include "tests/testing/noise.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -176,9 +177,7 @@ Mutant ContainerMutants::resized(Random& random) const {
     const bool add = random() % 2 == 0;
     const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     if (add) {
-        Bytes noise(count);
-        for (std::byte& byte : noise)
-            byte = static_cast<std::byte>(random() % 256);
+        const Bytes noise = testing::noise(count, 256, random);
         bytes.insert(place, noise.begin(), noise.end());
     } else {
         bytes.erase(place, place + static_cast<std::ptrdiff_t>(std::min(count, bytes.size() - at)));

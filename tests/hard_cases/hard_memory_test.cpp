@@ -109,11 +109,15 @@ Bytes amplifier(unsigned cut, unsigned kinds, unsigned short_radials, bool begin
     return messages;
 }
 
+Bytes repeated(const Bytes& part, unsigned times) {
+    Bytes all;
+    for (unsigned i = 0; i < times; ++i)
+        append(all, part);
+    return all;
+}
+
 Bytes file_of(const Bytes& record, unsigned records) {
-    Bytes file = wire::archive_header();
-    for (unsigned i = 0; i < records; ++i)
-        append(file, record);
-    return file;
+    return wire::join({wire::archive_header(), repeated(record, records)});
 }
 
 DecodeOptions with_threads(int threads) {
@@ -153,10 +157,9 @@ TEST_P(MemoryByThreads, RecordsJustBelowAShare) {
 INSTANTIATE_TEST_SUITE_P(Threads, MemoryByThreads, ::testing::Values(1, 2, 4, 32, 1000));
 
 TEST(Memory, OneSweepThatGrowsWithoutEnd) {
-    Bytes file = wire::join({wire::archive_header(), wire::ldm_record(amplifier(1, 8, 100))});
+    const Bytes first = wire::ldm_record(amplifier(1, 8, 100));
     const Bytes more = wire::ldm_record(amplifier(1, 8, 100, false));
-    for (int i = 0; i < 20; ++i)
-        append(file, more);
+    const Bytes file = wire::join({wire::archive_header(), first, repeated(more, 20)});
     expect_small([&] { (void)decode(file); });
 }
 
@@ -171,29 +174,19 @@ TEST(Memory, PlainMessagesThatGrowWithoutEnd) {
 // 408 kB that took 1504 MiB, because growing arrays were copied and only their contents were
 // counted.
 TEST(Memory, RadialsOfThirtyThousandGates) {
-    Bytes messages;
-    for (unsigned i = 0; i < 20; ++i)
-        append(messages, radial(1, 1, 30'000));
-    const Bytes file = file_of(wire::ldm_record(messages), 520);
+    const Bytes file = file_of(wire::ldm_record(repeated(radial(1, 1, 30'000), 20)), 520);
     expect_small([&] { (void)decode(file); });
 }
 
 TEST(Memory, SweepsOfOneRadial) {
-    Bytes messages;
-    for (unsigned i = 0; i < 50'000; ++i)
-        append(messages, radial(1, 0, 0));
-    const Bytes file = file_of(wire::ldm_record(messages), 40);
+    const Bytes file = file_of(wire::ldm_record(repeated(radial(1, 0, 0), 50'000)), 40);
     expect_small([&] { (void)decode(file); });
 }
 
 // Seven moments of one gate: their descriptions take more memory than their gates.
 TEST(Memory, SweepsOfOneRadialOfOneGate) {
-    Bytes messages;
-    for (unsigned i = 0; i < 20'000; ++i) {
-        Bytes message = wire::message_31({.status = 0, .gates = 1});
-        append(messages, message);
-    }
-    const Bytes record = wire::ldm_record(messages);
+    const Bytes record =
+        wire::ldm_record(repeated(wire::message_31({.status = 0, .gates = 1}), 20'000));
     const Bytes file = file_of(record, 30);
     expect_small([&] { (void)decode(file); });
     expect_small([&] {

@@ -7,78 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "base/byte_reader.h"
+#include "tests/hard_cases/message_fields.h"
+#include "tests/testing/noise.h"
 
 namespace stormcellar::level2 {
 namespace {
 
 using wire::Bytes;
 using Random = std::mt19937_64;
-
-// Headers at wrong places can be plausible, more so if they repeat at the distance of a frame.
-
-struct Field {
-    const char* name;
-    std::size_t at;  // in the message, including its 28 bytes of header
-    std::size_t width;
-};
-
-constexpr std::array<Field, 6> header_fields = {{{"size", 12, 2},
-                                                 {"type", 15, 1},
-                                                 {"date", 18, 2},
-                                                 {"time", 20, 4},
-                                                 {"number of segments", 24, 2},
-                                                 {"segment", 26, 2}}};
-constexpr std::array<Field, 14> fields_31 = {{{"station", 28, 4},
-                                              {"time", 32, 4},
-                                              {"date", 36, 2},
-                                              {"azimuth number", 38, 2},
-                                              {"azimuth", 40, 4},
-                                              {"compression", 44, 1},
-                                              {"radial length", 46, 2},
-                                              {"spacing", 48, 1},
-                                              {"status", 49, 1},
-                                              {"elevation number", 50, 1},
-                                              {"elevation", 52, 4},
-                                              {"number of blocks", 58, 2},
-                                              {"first pointer", 60, 4},
-                                              {"fourth pointer", 72, 4}}};
-constexpr std::array<Field, 14> fields_1 = {{{"time", 28, 4},
-                                             {"date", 32, 2},
-                                             {"azimuth", 36, 2},
-                                             {"azimuth number", 38, 2},
-                                             {"status", 40, 2},
-                                             {"elevation", 42, 2},
-                                             {"elevation number", 44, 2},
-                                             {"first gate", 46, 2},
-                                             {"gate spacing", 50, 2},
-                                             {"surveillance gates", 54, 2},
-                                             {"Doppler gates", 56, 2},
-                                             {"REF pointer", 64, 2},
-                                             {"VEL pointer", 66, 2},
-                                             {"resolution", 70, 2}}};
-constexpr std::array<Field, 4> fields_5 = {
-    {{"size", 28, 2}, {"pattern", 32, 2}, {"number of cuts", 34, 2}, {"first elevation", 50, 2}}};
-// after the name of a block of message 31
-constexpr std::array<Field, 8> fields_of_block = {{{"name", 0, 4},
-                                                   {"size", 4, 2},
-                                                   {"gates", 8, 2},
-                                                   {"first gate", 10, 2},
-                                                   {"gate spacing", 12, 2},
-                                                   {"word size", 19, 1},
-                                                   {"scale", 20, 4},
-                                                   {"offset", 24, 4}}};
-
-std::uint32_t read(const Bytes& bytes, const Field& field) {
-    ByteReader reader{bytes};
-    reader.skip(field.at);
-    return field.width == 1 ? reader.u8() : field.width == 2 ? reader.u16() : reader.u32();
-}
-
-void write(Bytes& bytes, const Field& field, std::uint32_t number) {
-    for (std::size_t i = 0; i < field.width; ++i)
-        bytes[field.at + i] = static_cast<std::byte>(number >> (8 * (field.width - 1 - i)));
-}
 
 // Nothing, little, the ends of the range, the neighbors; for 4 bytes also NaN, infinity, 1e30.
 std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
@@ -89,10 +25,21 @@ std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
     return numbers[below(random, width == 4 ? 13 : 10)] & most;
 }
 
-std::span<const Field> own_fields(int type) {
-    if (type == 31) return fields_31;
-    if (type == 1) return fields_1;
-    if (type == 5 || type == 7) return fields_5;
+// Returns what was changed; an empty text for a field beyond the end. The field counts from
+// `start`.
+std::string overwrite(Bytes& bytes, std::size_t start, const MessageField& field, Random& random) {
+    const std::size_t at = start + field.at;
+    if (at + field.width > bytes.size()) return {};
+    const std::uint32_t was = number_at(bytes, at, field.width);
+    const std::uint32_t is = extreme(was, field.width, random);
+    set_number(bytes, at, field.width, is);
+    return fmt::format("{} {:#x} becomes {:#x}", field.name, was, is);
+}
+
+std::span<const MessageField> own_fields(int type) {
+    if (type == 31) return fields_of_31;
+    if (type == 1) return fields_of_1;
+    if (type == 5 || type == 7) return fields_of_5;
     return header_fields;
 }
 
@@ -114,22 +61,20 @@ std::uint32_t MessageMutants::elevation_number(std::size_t number) const {
     const StreamMessage& message = volume_.messages[number];
     if (!message.radial) return 0;
     const auto bytes = std::span{volume_.stream}.subspan(message.offset, message.length);
-    const Field field = message.type == 31 ? Field{"", 50, 1} : Field{"", 44, 2};
-    return read({bytes.begin(), bytes.end()}, field);
+    return message.type == 31 ? number_at(bytes, 50, 1) : number_at(bytes, 44, 2);
 }
 
 // Returns true if the radials between these messages are of one volume: what is further apart is
 // taken for another one (level2/decode/late_radials.h).
 bool MessageMutants::is_of_one_volume(std::size_t first_message, std::size_t last_message) const {
     constexpr std::uint32_t longest_ms = 15 * 60'000;
-    constexpr Field ms{"", 20, 4};
     std::optional<std::uint32_t> first;
     std::uint32_t last = 0;
     for (std::size_t number = first_message; number <= last_message; ++number) {
         const StreamMessage& message = volume_.messages[number];
         if (!message.radial) continue;
         const auto bytes = std::span{volume_.stream}.subspan(message.offset, message.length);
-        last = read({bytes.begin(), bytes.end()}, ms);
+        last = number_at(bytes, 20, 4);
         if (!first) first = last;
     }
     return !first || last - *first <= longest_ms;
@@ -151,35 +96,28 @@ void MessageMutants::field(Draft& draft, Random& random) const {
     Bytes& bytes = draft.parts[number];
     const auto own = own_fields(volume_.messages[number].type);
     const bool of_header = random() % 3 == 0;
-    const std::span<const Field> fields = of_header ? std::span<const Field>{header_fields} : own;
-    const Field& field = fields[below(random, fields.size())];
-    if (field.at + field.width > bytes.size()) return;
-    const std::uint32_t was = read(bytes, field);
-    const std::uint32_t is = extreme(was, field.width, random);
-    write(bytes, field, is);
+    const std::span<const MessageField> fields =
+        of_header ? std::span<const MessageField>{header_fields} : own;
+    const MessageField& field = fields[below(random, fields.size())];
+    const std::string change = overwrite(bytes, 0, field, random);
+    if (change.empty()) return;
     draft.fates[number] = Fate::damaged;
     draft.mutant.kind = of_header ? "field of a message header" : "field of a message";
-    draft.mutant.what +=
-        fmt::format(" message {}: {} {:#x} becomes {:#x}", number, field.name, was, is);
+    draft.mutant.what += fmt::format(" message {}: {}", number, change);
 }
 
 void MessageMutants::block_field(Draft& draft, Random& random) const {
-    constexpr Field blocks{"", 58, 2};
     const std::size_t number = any_message(random);
     Bytes& bytes = draft.parts[number];
     if (volume_.messages[number].type != 31) return field(draft, random);
-    const std::size_t block = below(random, read(bytes, blocks));
-    const std::size_t at = 28 + read(bytes, {"", 60 + 4 * block, 4});
-    Field field = fields_of_block[below(random, fields_of_block.size())];
-    field.at += at;
-    if (field.at + field.width > bytes.size()) return;
-    const std::uint32_t was = read(bytes, field);
-    const std::uint32_t is = extreme(was, field.width, random);
-    write(bytes, field, is);
+    const std::size_t block = below(random, number_at(bytes, 58, 2));
+    const std::size_t at = 28 + number_at(bytes, 60 + 4 * block, 4);
+    const std::string change = overwrite(
+        bytes, at, moment_fields_of_31[below(random, moment_fields_of_31.size())], random);
+    if (change.empty()) return;
     draft.fates[number] = Fate::damaged;
     draft.mutant.kind = "field of a data block";
-    draft.mutant.what += fmt::format(" message {}, block {}: {} {:#x} becomes {:#x}", number, block,
-                                     field.name, was, is);
+    draft.mutant.what += fmt::format(" message {}, block {}: {}", number, block, change);
 }
 
 void MessageMutants::rearranged(Draft& draft, Random& random) const {
@@ -211,9 +149,7 @@ void MessageMutants::resized(Draft& draft, Random& random) const {
     const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     const bool add = random() % 2 == 0;
     if (add) {
-        Bytes noise(count);
-        for (std::byte& byte : noise)
-            byte = static_cast<std::byte>(random() % 256);
+        const Bytes noise = testing::noise(count, 256, random);
         bytes.insert(place, noise.begin(), noise.end());
         draft.fates[number] = Fate::damaged;
     } else {

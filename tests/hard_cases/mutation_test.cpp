@@ -19,6 +19,7 @@
 #include "tests/hard_cases/container_mutants.h"
 #include "tests/hard_cases/hard_oracle.h"
 #include "tests/hard_cases/message_mutants.h"
+#include "tests/level2/joined_files.h"
 #include "tests/testing/data.h"
 #include "tests/testing/test_name.h"
 
@@ -67,16 +68,7 @@ std::vector<std::string> names() {
 }
 
 std::vector<std::byte> bytes_of(const fs::path& path) {
-    if (!fs::is_directory(path)) return read_file(path).value();
-    std::set<fs::path> chunks;
-    for (const auto& chunk : fs::directory_iterator(path))
-        chunks.insert(chunk.path());
-    std::vector<std::byte> joined;
-    for (const auto& chunk : chunks) {
-        const auto bytes = read_file(chunk).value();
-        joined.insert(joined.end(), bytes.begin(), bytes.end());
-    }
-    return joined;
+    return fs::is_directory(path) ? joined_files(path) : read_file(path).value();
 }
 
 // Names what is being decoded, for the handler below to print after a crash or a hang.

@@ -121,11 +121,9 @@ TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
 TEST(FoundByMutants, EightBytesLostCostOneLegacyRadial) {
     Bytes radials;
     for (unsigned i = 0; i < 40; ++i) {
-        wire::Ray ray;
-        ray.azimuth_number = i + 1;
-        ray.azimuth_deg = static_cast<float>(i);
-        ray.status = i == 0 ? 3 : 1;
-        radials = wire::join({radials, wire::message_1(ray)});
+        radials = wire::join({radials, wire::message_1({.azimuth_deg = static_cast<float>(i),
+                                                        .azimuth_number = i + 1,
+                                                        .status = i == 0 ? 3U : 1U})});
     }
     const Bytes header = wire::archive_header("ARCHIVE2.031", std::string(4, '\0'));
     ASSERT_EQ(radials_of(wire::join({header, radials})).size(), 40);
@@ -156,12 +154,9 @@ TEST(FoundByMutants, MetadataOfAnotherTypeIsNoRadial) {
 TEST(FoundByMutants, AFrameDoesNotSwallowTheRadialsInsideIt) {
     Bytes radials;
     for (unsigned i = 0; i < 20; ++i) {
-        wire::Ray ray;
-        ray.azimuth_number = i + 1;
-        ray.azimuth_deg = static_cast<float>(i);
-        ray.gates = 100;
-        ray.fill = 0;
-        radials = wire::join({radials, wire::message_31(ray)});
+        radials = wire::join({radials, wire::message_31({.azimuth_deg = static_cast<float>(i),
+                                                         .azimuth_number = i + 1,
+                                                         .fill = 0})});
     }
     const Bytes header = wire::archive_header();
     const std::size_t length = radials.size() / 20;

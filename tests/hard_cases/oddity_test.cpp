@@ -6,7 +6,6 @@
 // Fields that give the place of bytes, or the sweep and azimuth to which they belong, are
 // different: everything returned must be in the volume, and everything lost must be reported.
 // STORMCELLAR_MUTANTS=N takes 8 MiB of each volume instead of its start and end.
-#include <array>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -14,9 +13,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "base/byte_reader.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/level2/decode.h"
+#include "tests/hard_cases/message_fields.h"
 #include "tests/hard_cases/unpacked_volume.h"
 #include "tests/testing/data.h"
 #include "tests/testing/test_name.h"
@@ -26,130 +25,12 @@ namespace {
 
 using wire::Bytes;
 
-// The rule for the gates of radials with an odd field.
-enum class Rule { keep, name_what_is_lost };
-
-struct OddField {
-    std::string_view block;  // empty: the message
-    std::string_view name;
-    std::size_t at = 0;  // in the block, or in the message including its 28 bytes of header
-    std::size_t width = 0;
-    Rule rule = Rule::keep;
-};
-
-constexpr auto apart = Rule::name_what_is_lost;
-
-constexpr std::array odd_header_fields = {
-    OddField{"", "terminal manager", 4, 4},
-    OddField{"", "size", 12, 2, apart},
-    OddField{"", "channel", 14, 1},
-    OddField{"", "type", 15, 1, apart},
-    OddField{"", "sequence", 16, 2},
-    OddField{"", "date of the header", 18, 2},
-    OddField{"", "time of the header", 20, 4},
-    OddField{"", "segments", 24, 2},
-    OddField{"", "segment", 26, 2},
-};
-
-constexpr std::array odd_fields_of_31 = {
-    OddField{"", "station", 28, 4},
-    OddField{"", "time", 32, 4},
-    OddField{"", "date", 36, 2},
-    OddField{"", "azimuth number", 38, 2},
-    OddField{"", "azimuth", 40, 4, apart},
-    OddField{"", "compression", 44, 1},
-    OddField{"", "spare", 45, 1},
-    OddField{"", "radial length", 46, 2},
-    OddField{"", "spacing", 48, 1},
-    OddField{"", "status", 49, 1, apart},
-    OddField{"", "elevation number", 50, 1, apart},
-    OddField{"", "sector", 51, 1},
-    OddField{"", "elevation", 52, 4, apart},
-    OddField{"", "spot blanking", 56, 1},
-    OddField{"", "azimuth indexing", 57, 1},
-    OddField{"", "number of blocks", 58, 2, apart},
-    OddField{"", "first pointer", 60, 4, apart},
-    OddField{"", "fourth pointer", 72, 4, apart},
-    OddField{"RVOL", "name", 0, 4, apart},
-    OddField{"RVOL", "size", 4, 2},
-    OddField{"RVOL", "version", 6, 2},
-    OddField{"RVOL", "latitude", 8, 4},
-    OddField{"RVOL", "longitude", 12, 4},
-    OddField{"RVOL", "height", 16, 2},
-    OddField{"RVOL", "tower", 18, 2},
-    OddField{"RVOL", "calibration", 20, 4},
-    OddField{"RVOL", "power", 24, 4},
-    OddField{"RVOL", "ZDR", 32, 4},
-    OddField{"RVOL", "phase", 36, 4},
-    OddField{"RVOL", "pattern", 40, 2},
-    OddField{"RVOL", "processing", 42, 2},
-    OddField{"RELV", "size", 4, 2},
-    OddField{"RELV", "attenuation", 6, 2},
-    OddField{"RELV", "calibration", 8, 4},
-    OddField{"RRAD", "size", 4, 2},
-    OddField{"RRAD", "range", 6, 2},
-    OddField{"RRAD", "noise", 8, 4},
-    OddField{"RRAD", "Nyquist", 16, 2},
-    OddField{"RRAD", "flags", 18, 2},
-    OddField{"DREF", "name", 0, 4, apart},
-    OddField{"DREF", "reserved", 4, 4},
-    OddField{"DREF", "gates", 8, 2, apart},
-    OddField{"DREF", "first gate", 10, 2},
-    OddField{"DREF", "gate spacing", 12, 2},
-    OddField{"DREF", "folding threshold", 14, 2},
-    OddField{"DREF", "signal threshold", 16, 2},
-    OddField{"DREF", "control flags", 18, 1},
-    OddField{"DREF", "word size", 19, 1, apart},
-    OddField{"DREF", "scale", 20, 4, apart},
-    OddField{"DREF", "offset", 24, 4, apart},
-};
-
-constexpr std::array odd_fields_of_1 = {
-    OddField{"", "time", 28, 4},
-    OddField{"", "date", 32, 2},
-    OddField{"", "range", 34, 2},
-    OddField{"", "azimuth", 36, 2, apart},
-    OddField{"", "azimuth number", 38, 2},
-    OddField{"", "status", 40, 2, apart},
-    OddField{"", "elevation", 42, 2, apart},
-    OddField{"", "elevation number", 44, 2, apart},
-    OddField{"", "first gate", 46, 2},
-    OddField{"", "first Doppler gate", 48, 2},
-    OddField{"", "gate spacing", 50, 2},
-    OddField{"", "Doppler spacing", 52, 2},
-    OddField{"", "surveillance gates", 54, 2, apart},
-    OddField{"", "Doppler gates", 56, 2, apart},
-    OddField{"", "sector", 58, 2},
-    OddField{"", "calibration", 60, 4},
-    OddField{"", "REF pointer", 64, 2, apart},
-    OddField{"", "VEL pointer", 66, 2, apart},
-    OddField{"", "resolution", 70, 2},
-    OddField{"", "pattern", 72, 2},
-    OddField{"", "spare", 74, 4},
-    OddField{"", "Nyquist", 88, 2},
-    OddField{"", "attenuation", 90, 2},
-    OddField{"", "threshold", 92, 2},
-    OddField{"", "spot blanking", 94, 2},
-};
-
 std::vector<std::uint32_t> odd_values(std::size_t width) {
     if (width == 1) return {0, 1, 2, 3, 77, 127, 128, 255};
     if (width == 2) return {0, 1, 2, 77, 7304, 40'001, 0x7FFF, 0x8000, 0xFFFF};
     // They include NaN, infinity, 1e30, lower case, no letters and times after midnight.
     return {0,          1,          0x7FFFFFFF, 0xFFFFFFFF, 0x7FC00000,
             0x7F800000, 0x7149F2CA, 0x6B746C78, 0x2A2A2A2A, 90'000'000};
-}
-
-std::uint32_t number_at(std::span<const std::byte> bytes, std::size_t at, std::size_t width) {
-    ByteReader reader{bytes};
-    reader.skip(at);
-    return width == 1 ? reader.u8() : width == 2 ? reader.u16() : reader.u32();
-}
-
-void set_number(std::span<std::byte> bytes, std::size_t at, std::size_t width,
-                std::uint32_t number) {
-    for (std::size_t i = 0; i < width; ++i)
-        bytes[at + i] = static_cast<std::byte>(number >> (8 * (width - 1 - i)));
 }
 
 // Returns where the block of this name begins in a message 31; none if it has no such block.
@@ -164,7 +45,7 @@ std::optional<std::size_t> block_at(std::span<const std::byte> message, std::str
 }
 
 // Returns false if the radial lacks the field's block, or has the value already.
-bool set_field(std::span<std::byte> message, const OddField& field, std::uint32_t value) {
+bool set_field(std::span<std::byte> message, const MessageField& field, std::uint32_t value) {
     std::size_t at = field.at;
     if (!field.block.empty()) {
         const auto block = block_at(message, field.block);
@@ -240,7 +121,7 @@ class OddityTest : public ::testing::TestWithParam<std::string> {
     }
 
     // Sets the field in the radial of this number, or in all. Returns false if in none.
-    bool set(UnpackedVolume& odd, const OddField& field, std::uint32_t value,
+    bool set(UnpackedVolume& odd, const MessageField& field, std::uint32_t value,
              std::optional<std::size_t> number) const {
         bool any = false;
         for (const StreamMessage& message : odd.messages) {
@@ -251,7 +132,7 @@ class OddityTest : public ::testing::TestWithParam<std::string> {
         return any;
     }
 
-    void check(const OddField& field, std::uint32_t value, std::optional<std::size_t> number) {
+    void check(const MessageField& field, std::uint32_t value, std::optional<std::size_t> number) {
         UnpackedVolume odd = volume_;
         if (!set(odd, field, value, number)) return;
         ++tried_;
@@ -259,7 +140,7 @@ class OddityTest : public ::testing::TestWithParam<std::string> {
             fmt::format("{} {} {:#x} in {}", field.block, field.name, value,
                         number ? fmt::format("radial {}", *number) : std::string{"all radials"});
         const auto decoded = decode(odd.plain_file());
-        if (field.rule == Rule::keep) {
+        if (!field.places_gates) {
             ASSERT_TRUE(decoded) << what << ": " << decoded.error().message;
             EXPECT_TRUE(gates_of(decoded->volume) == own_) << what << ": gates are lost";
             EXPECT_EQ(decoded->report.bytes_dropped, 0U) << what;
@@ -271,15 +152,15 @@ class OddityTest : public ::testing::TestWithParam<std::string> {
             }
         }
         if (!decoded) return;
-        if (field.rule == Rule::keep) {
+        if (!field.places_gates) {
             EXPECT_EQ(said_twice(decoded->report), "") << what;
         }
-        const std::size_t most = field.rule == Rule::keep ? 8 : DecodeReport::max_problems;
+        const std::size_t most = field.places_gates ? DecodeReport::max_problems : 8;
         EXPECT_LE(decoded->report.problems.size(), own_problems_ + most) << what;
     }
 
-    void check(std::span<const OddField> fields) {
-        for (const OddField& field : fields) {
+    void check(std::span<const MessageField> fields) {
+        for (const MessageField& field : fields) {
             for (const std::uint32_t value : odd_values(field.width)) {
                 check(field, value, std::nullopt);
                 for (const std::size_t number : {std::size_t{0}, own_.size() / 2, own_.size() - 1})
@@ -297,11 +178,13 @@ class OddityTest : public ::testing::TestWithParam<std::string> {
 TEST_P(OddityTest, CostsNoGate) {
     const auto first = std::find_if(volume_.messages.begin(), volume_.messages.end(),
                                     [](const StreamMessage& m) { return m.radial.has_value(); });
-    check(odd_header_fields);
+    check(header_fields);
     if (first->type == 31) {
-        check(odd_fields_of_31);
+        check(fields_of_31);
+        check(block_fields_of_31);
+        check(moment_fields_of_31);
     } else {
-        check(odd_fields_of_1);
+        check(fields_of_1);
     }
     EXPECT_GT(tried_, 500U);
 }

@@ -8,10 +8,12 @@
 #include "stormcellar/level2/decode.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
+#include "tests/testing/noise.h"
 
 namespace stormcellar::level2 {
 namespace {
 
+using stormcellar::testing::noise;
 using wire::Bytes;
 
 Bytes expand_all(CompressStream& stream) {
@@ -21,19 +23,10 @@ Bytes expand_all(CompressStream& stream) {
     return all;
 }
 
-// Few values give repetitions of all lengths; noise fills the table quickly.
-Bytes sample(std::size_t size, unsigned values, unsigned seed) {
-    std::mt19937 random(seed);
-    Bytes bytes(size);
-    for (std::byte& byte : bytes)
-        byte = static_cast<std::byte>(random() % values);
-    return bytes;
-}
-
 TEST(CompressStream, ExpandsWhatCompressMakes) {
     for (const int width : {9, 10, 12, 16}) {
         for (const unsigned values : {1U, 2U, 5U, 256U}) {
-            const Bytes plain = sample(700'000, values, 7);
+            const Bytes plain = noise(700'000, values, 7);
             for (const std::size_t clear_every : {std::size_t{0}, std::size_t{5000}}) {
                 const Bytes packed = wire::compress(plain, width, clear_every);
                 CompressStream stream{packed};
@@ -47,7 +40,7 @@ TEST(CompressStream, ExpandsWhatCompressMakes) {
 
 TEST(CompressStream, NothingAndOneByte) {
     for (const std::size_t size : {0U, 1U, 2U}) {
-        const Bytes plain = sample(size, 256, 1);
+        const Bytes plain = noise(size, 256, 1);
         const Bytes packed = wire::compress(plain, 16, 0);
         CompressStream stream{packed};
         EXPECT_EQ(expand_all(stream), plain);
@@ -66,7 +59,7 @@ TEST(CompressStream, ReadsTheProgramsOwnBytes) {
 }
 
 TEST(CompressStream, ACodeThatCannotBeEndsItAndKeepsWhatCameBefore) {
-    const Bytes plain = sample(100'000, 5, 3);
+    const Bytes plain = noise(100'000, 5, 3);
     Bytes packed = wire::compress(plain, 16, 0);
     const auto half = static_cast<std::ptrdiff_t>(packed.size() / 2);
     std::fill(packed.begin() + half, packed.begin() + half + 64, std::byte{0xFF});
@@ -93,7 +86,7 @@ TEST(CompressStream, AHeadThatCannotBeIsRefused) {
 
 TEST(CompressStream, NoiseNeverHarmsIt) {
     for (unsigned seed = 0; seed < 300; ++seed) {
-        Bytes packed = sample(3000, 256, seed);
+        Bytes packed = noise(3000, 256, seed);
         packed[0] = std::byte{0x1F};
         packed[1] = std::byte{0x9D};
         packed[2] = static_cast<std::byte>(0x80U | (9U + seed % 8));

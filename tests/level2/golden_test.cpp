@@ -14,6 +14,7 @@
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/level2/describe.h"
+#include "tests/level2/joined_files.h"
 #include "tests/testing/data.h"
 #include "tests/testing/test_name.h"
 
@@ -47,16 +48,8 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& data, const std::st
         return {};
     }
     for (const auto& set : std::filesystem::directory_iterator(data / "chunks")) {
-        if (!name.starts_with("CHUNKS_" + set.path().filename().string() + "_")) continue;
-        std::set<std::filesystem::path> chunks;
-        for (const auto& chunk : std::filesystem::directory_iterator(set.path()))
-            chunks.insert(chunk.path());
-        std::vector<std::byte> joined;
-        for (const auto& chunk : chunks) {
-            const auto bytes = read_file(chunk).value();
-            joined.insert(joined.end(), bytes.begin(), bytes.end());
-        }
-        return joined;
+        if (name.starts_with("CHUNKS_" + set.path().filename().string() + "_"))
+            return joined_files(set.path());
     }
     ADD_FAILURE() << "no chunk set of this name";
     return {};

@@ -12,6 +12,7 @@
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
+#include "tests/testing/test_name.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -153,25 +154,23 @@ TEST(LiveVolume, AnyOrderGivesTheSame) {
     expect_any_order_gives_the_same(simple_chunks(5), 200);
 }
 
-TEST(LiveVolumeReal, AnyOrderGivesTheSameForATdwr) {
+struct RealChunks {
+    const char* set;
+    int rounds;
+};
+class AnyOrder : public ::testing::TestWithParam<RealChunks> {};
+
+TEST_P(AnyOrder, GivesTheSame) {
     STORMCELLAR_NEED_DATA();
-    expect_any_order_gives_the_same(real_chunks("L2D_185"), 6);
+    expect_any_order_gives_the_same(real_chunks(GetParam().set), GetParam().rounds);
 }
 
-TEST(LiveVolumeReal, AnyOrderGivesTheSameForAVolumeThatStops) {
-    STORMCELLAR_NEED_DATA();
-    expect_any_order_gives_the_same(real_chunks("KLOT_34"), 4);
-}
-
-TEST(LiveVolumeReal, AnyOrderGivesTheSameForAKlotOf2026) {
-    STORMCELLAR_NEED_DATA();
-    expect_any_order_gives_the_same(real_chunks("OPENRADAR_KLOT"), 2);
-}
-
-TEST(LiveVolumeReal, AnyOrderGivesTheSameForALargeVolume) {
-    STORMCELLAR_NEED_DATA();
-    expect_any_order_gives_the_same(real_chunks("L2D_230"), 2);
-}
+// A TDWR, a volume that stops, one of 2026, and a large one.
+INSTANTIATE_TEST_SUITE_P(LiveVolumeReal, AnyOrder,
+                         ::testing::Values(RealChunks{"L2D_185", 6}, RealChunks{"KLOT_34", 4},
+                                           RealChunks{"OPENRADAR_KLOT", 2},
+                                           RealChunks{"L2D_230", 2}),
+                         [](const auto& test) { return testing::test_name(test.param.set); });
 
 // The last version of each sweep that was returned must be that of the final volume.
 void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled,

@@ -203,41 +203,44 @@ TEST_F(VolumeBuilderTest, AMomentThatIsNotAskedForIsLeftOut) {
     EXPECT_TRUE(volume.sweeps.at(0).moments.empty());
 }
 
-// One radial with very many gates makes every row long: 65,535 codes for every 4 that were sent.
-TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
-    ArrayRoom room{10'000'000};
+// Returns how many radials a fragment takes, at most `most`. `block_of(i)` is the moment of each.
+template <class BlockOf>
+int radials_taken(std::size_t room_bytes, int most, BlockOf block_of) {
+    ArrayRoom room{room_bytes};
     FragmentBuilder builder{room, rows, everything};
-    const std::vector<std::byte> codes(65'535);
     int taken = 0;
-    for (; taken < 100'000; ++taken) {
+    for (; taken < most; ++taken) {
         RadialMessage message;
         message.elevation_number = 1;
-        MomentBlock block;
-        block.gates = taken == 0 ? 65'535 : 4;
-        block.codes = std::span{codes}.first(block.gates);
-        ASSERT_TRUE(message.add(block));
+        EXPECT_TRUE(message.add(block_of(taken)));
         if (!builder.add(message)) break;
     }
+    return taken;
+}
+
+// One radial with very many gates makes every row long: 65,535 codes for every 4 that were sent.
+TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
+    const std::vector<std::byte> codes(65'535);
+    const int taken = radials_taken(10'000'000, 100'000, [&](int number) {
+        MomentBlock block;
+        block.gates = number == 0 ? 65'535 : 4;
+        block.codes = std::span{codes}.first(block.gates);
+        return block;
+    });
     EXPECT_GT(taken, 100);
     EXPECT_LT(taken, 160);
 }
 
 // A different scale in each radial makes another kind of row, padded to the end of the sweep.
 TEST(FragmentBuilderLimit, RowsOfManyKindsStopAtTheLimitOfASweep) {
-    ArrayRoom room{ample};
-    FragmentBuilder builder{room, rows, everything};
     const std::vector<std::byte> codes(1000);
-    int taken = 0;
-    for (; taken < 1000; ++taken) {
-        RadialMessage message;
-        message.elevation_number = 1;
+    const int taken = radials_taken(ample, 1000, [&](int number) {
         MomentBlock block;
         block.gates = 1000;
-        block.scale = static_cast<float>(1 + taken);
+        block.scale = static_cast<float>(1 + number);
         block.codes = codes;
-        ASSERT_TRUE(message.add(block));
-        if (!builder.add(message)) break;
-    }
+        return block;
+    });
     EXPECT_GT(taken, 200) << "radials of as many kinds: 200 x 200 x 1000 bytes";
     EXPECT_LT(taken, 270);
 }

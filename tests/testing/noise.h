@@ -1,0 +1,23 @@
+// tests/testing/noise.h -- random bytes that are the same on every machine.
+#pragma once
+
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace stormcellar::testing {
+
+// Returns bytes below `kinds`: few kinds repeat each other, 256 do not compress.
+template <class Random>
+[[nodiscard]] std::vector<std::byte> noise(std::size_t size, unsigned kinds, Random& random) {
+    std::vector<std::byte> bytes(size);
+    for (std::byte& byte : bytes)
+        byte = static_cast<std::byte>(random() % kinds);
+    return bytes;
+}
+[[nodiscard]] inline std::vector<std::byte> noise(std::size_t size, unsigned kinds, unsigned seed) {
+    std::mt19937 random(seed);
+    return noise(size, kinds, random);
+}
+
+}  // namespace stormcellar::testing
