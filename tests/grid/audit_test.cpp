@@ -9,9 +9,8 @@
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/column_geometry.h"
-#include "stormcellar/level2/decode.h"
+#include "tests/grid/real_volume.h"
 #include "tests/grid/volume_maker.h"
-#include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -140,10 +139,7 @@ TEST(Audit, VelocitiesDifferByTheShorterWayRound) {
     high.elevation_deg = 1.5;
     high.cut = 2;
     level2::Volume volume = make_volume({plan, high});
-    for (level2::Sweep& sweep : volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.nyquist_mps = 25;
-    }
+    change_radials(volume, [&](level2::Radial& radial) { radial.nyquist_mps = 25; });
     Grid all;
     all.spec = small_spec();
     all.moment = level2::Moment::vel;
@@ -179,12 +175,8 @@ struct Real {
 };
 
 Real real(const char* file) {
-    auto decoded = level2::decode_file(*testing::data_directory() / file);
-    EXPECT_TRUE(decoded);
-    Real made{std::move(decoded->volume), {}};
-    const auto antenna = level2::antenna_position(made.volume);
-    made.site = {made.volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                 antenna->altitude_m};
+    Real made{real_volume(file), {}};
+    made.site = site_of(made.volume);
     return made;
 }
 
@@ -242,10 +234,9 @@ TEST(Audit, ARealVolumeTurnedByHalfADegreeShowsIt) {
     const GridSpec spec = default_spec(of.site.latitude_deg, of.site.longitude_deg);
     const BrickGrid grid = gridded(of, spec, {});
     const auto straight = audit(grid.view(), of.volume, of.site, {});
-    for (level2::Sweep& sweep : of.volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.azimuth_deg = std::fmod(radial.azimuth_deg + 0.5F, 360.0F);
-    }
+    change_radials(of.volume, [&](level2::Radial& radial) {
+        radial.azimuth_deg = std::fmod(radial.azimuth_deg + 0.5F, 360.0F);
+    });
     const auto turned = audit(grid.view(), of.volume, of.site, {});
     ASSERT_TRUE(straight && turned);
     for (const std::size_t range : {1U, 2U}) {

@@ -9,17 +9,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-__extension__ typedef __float128 Quad;
 
-// from libquadmath; declared here because clang does not have its header
-extern "C" {
-Quad acosq(Quad);
-Quad asinq(Quad);
-Quad cosq(Quad);
-Quad fabsq(Quad);
-Quad sinq(Quad);
-Quad sqrtq(Quad);
-}
+#include "tests/grid/quad.h"
 
 namespace stormcellar::grid {
 namespace {

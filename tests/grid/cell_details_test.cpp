@@ -12,11 +12,9 @@
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
-#include "stormcellar/level2/chunk_directory.h"
-#include "stormcellar/level2/decode.h"
+#include "tests/grid/real_volume.h"
 #include "tests/grid/slow_details.h"
 #include "tests/grid/volume_maker.h"
-#include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -49,10 +47,14 @@ Result<Grid> grid_of(const level2::Volume& volume, const SitePosition& site, con
     return make_grid(volume, site, **geometry, options);
 }
 
-SitePosition site_of(const level2::Volume& volume) {
-    const auto antenna = level2::antenna_position(volume);
-    return {volume.station, antenna->latitude_deg, antenna->longitude_deg, antenna->altitude_m};
+GridSpec square_about(const SitePosition& site, int side, double spacing_m) {
+    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
+    spec.nx = spec.ny = side;
+    spec.spacing_m = spacing_m;
+    return spec;
 }
+
+const SitePosition made_site{"XXXX", 44, 11, 300};
 
 struct Tally {
     int columns = 0, doubtful_columns = 0;
@@ -134,20 +136,19 @@ class RealDetails : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealDetails, AreWhatTheirDefinitionsSay) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_path(*testing::data_directory() / GetParam());
-    ASSERT_TRUE(decoded);
-    const SitePosition site = site_of(decoded->volume);
+    const level2::Volume volume = real_volume(GetParam());
+    const SitePosition site = site_of(volume);
     GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    const Tally near = compare(decoded->volume, site, spec, asking(everything()), 13);
+    const Tally near = compare(volume, site, spec, asking(everything()), 13);
     EXPECT_GT(near.compared, 3000);
     EXPECT_EQ(near.undated, 0);
     spec = default_spec(site.latitude_deg + 1.2, site.longitude_deg - 1.7);
     spec.spacing_m = 6000;
     spec.nx = spec.ny = 120;
     GridderOptions options = asking(everything(), Interpolation::nearest);
-    options.frame_time = *decoded->volume.start_time() + std::chrono::milliseconds(754321);
+    options.frame_time = *volume.start_time() + std::chrono::milliseconds(754321);
     options.threads = 2;
-    const Tally far = compare(decoded->volume, site, spec, options, 7);
+    const Tally far = compare(volume, site, spec, options, 7);
     EXPECT_GT(far.compared, 500);
 }
 
@@ -157,69 +158,57 @@ INSTANTIATE_TEST_SUITE_P(Volumes, RealDetails,
                                            "volumes/KOKX20080109_141449.gz",
                                            "volumes/KCCX20130112_070503_V06.gz", "chunks/L2D_230"));
 
+// Moves each radial off its elevation by up to this many hundredths of a degree.
+void shake_elevations(level2::Volume& volume, unsigned most, std::mt19937& random) {
+    change_radials(volume, [&](level2::Radial& radial) {
+        radial.elevation_deg +=
+            0.01F * (static_cast<float>(random() % (2 * most + 1)) - static_cast<float>(most));
+    });
+}
+
 // Sweeps of different reach, with a gap and some undated radials. All are off their elevation, but
 // by less than would make sweeps change places.
 level2::Volume made_volume() {
     std::mt19937 random(5);
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {-0.2, 0.5, 1.4, 2.4, 4.3, 9.9, 19.5}) {
-        SweepPlan plan;
-        plan.elevation_deg = elevation_deg;
-        plan.cut = static_cast<int>(plans.size()) + 1;
-        plan.gates = 400 - 45 * static_cast<int>(plans.size());
-        plan.first_gate_m = -375;
-        plan.radials = plan.cut == 3 ? 300 : 360;
-        plan.first_azimuth_deg = 200.5;
-        plans.push_back(plan);
-    }
+    SweepPlan like;
+    like.first_gate_m = -375;
+    like.first_azimuth_deg = 200.5;
+    std::vector<SweepPlan> plans = plans_at({-0.2, 0.5, 1.4, 2.4, 4.3, 9.9, 19.5}, like);
+    for (SweepPlan& plan : plans)
+        plan.gates = 445 - 45 * plan.cut;
+    plans[2].radials = 300;
     level2::Volume volume = make_volume(plans);
-    for (level2::Sweep& sweep : volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.elevation_deg += 0.01F * (static_cast<float>(random() % 61) - 30);
-    }
+    shake_elevations(volume, 30, random);
     for (std::size_t i = 100; i < 160; ++i)
         volume.sweeps[4].radials[i].time = UtcTime{} - std::chrono::hours(24);
     return volume;
 }
 
 TEST(CellDetails, OfMadeSweeps) {
-    const SitePosition site{"XXXX", 44, 11, 300};
-    GridSpec spec = default_spec(44, 11);
-    spec.spacing_m = 6100;
-    spec.nx = spec.ny = 150;
+    const GridSpec spec = square_about(made_site, 150, 6100);
     const level2::Volume volume = made_volume();
-    const Tally linear = compare(volume, site, spec, asking(everything()), 3);
+    const Tally linear = compare(volume, made_site, spec, asking(everything()), 3);
     EXPECT_GT(linear.partly_seen, 300);
     EXPECT_GT(linear.undated, 300);
-    compare(volume, site, spec, asking(everything(), Interpolation::nearest), 3);
+    compare(volume, made_site, spec, asking(everything(), Interpolation::nearest), 3);
     level2::Volume lost = volume;
     lost.vcp = 21;  // this pattern has 3.35 and 6 degrees too
-    compare(lost, site, spec, asking(everything()), 3);
+    compare(lost, made_site, spec, asking(everything()), 3);
 }
 
 // From high and low sites all over the earth, elevations from -5 to 60 degrees, ranges to 470 km.
 TEST(CellDetails, OfSweepsFromSitesAllOverTheEarth) {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {-5.0, -0.5, 0.0, 0.5, 1.5, 9.9, 19.5, 60.0}) {
-        SweepPlan plan;
-        plan.elevation_deg = elevation_deg;
-        plan.cut = static_cast<int>(plans.size()) + 1;
-        plan.first_gate_m = -1;
-        plan.gates = 471;
-        plans.push_back(plan);
-    }
-    level2::Volume volume = make_volume(plans);
+    SweepPlan like;
+    like.first_gate_m = -1;
+    like.gates = 471;
+    level2::Volume volume =
+        make_volume(plans_at({-5.0, -0.5, 0.0, 0.5, 1.5, 9.9, 19.5, 60.0}, like));
     std::mt19937 random(6);
-    for (level2::Sweep& sweep : volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.elevation_deg += 0.01F * (static_cast<float>(random() % 41) - 20);
-    }
+    shake_elevations(volume, 20, random);
     for (const SitePosition& site :
          {SitePosition{"XXXX", 78, 15.5, -100}, SitePosition{"XXXX", 0, 180, 4000},
           SitePosition{"XXXX", -71, -180, 300}}) {
-        GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-        spec.spacing_m = 13'700;
-        spec.nx = spec.ny = 68;
+        const GridSpec spec = square_about(site, 68, 13'700);
         const Tally tally = compare(volume, site, spec, asking(everything()), 4);
         EXPECT_GT(tally.compared, 1000) << site.latitude_deg;
     }
@@ -254,13 +243,10 @@ TEST(CellDetails, ACellAtAGatesCentreIsAtTheGate) {
 }
 
 TEST(CellDetails, OnlyWhatIsAskedForIsThere) {
-    const SitePosition site{"XXXX", 44, 11, 300};
-    GridSpec spec = default_spec(44, 11);
-    spec.spacing_m = 20e3;
-    spec.nx = spec.ny = 31;
+    const GridSpec spec = square_about(made_site, 31, 20e3);
     const level2::Volume volume = made_volume();
-    const auto nothing = grid_of(volume, site, spec, asking({}));
-    const auto all = grid_of(volume, site, spec, asking(everything()));
+    const auto nothing = grid_of(volume, made_site, spec, asking({}));
+    const auto all = grid_of(volume, made_site, spec, asking(everything()));
     ASSERT_TRUE(nothing && all);
     EXPECT_EQ(nothing->details.size(), 0U);
     EXPECT_FALSE(nothing->details.set().any());
@@ -270,7 +256,7 @@ TEST(CellDetails, OnlyWhatIsAskedForIsThere) {
     for (const Detail only : all_details) {
         DetailSet set;
         set.add(only);
-        const auto one = grid_of(volume, site, spec, asking(set));
+        const auto one = grid_of(volume, made_site, spec, asking(set));
         ASSERT_TRUE(one);
         ASSERT_EQ(one->details.size(), spec.cell_count());
         for (std::size_t cell = 0; cell < spec.cell_count(); ++cell) {
@@ -283,16 +269,11 @@ TEST(CellDetails, OnlyWhatIsAskedForIsThere) {
 }
 
 TEST(CellDetails, WithoutATimeThereAreNoAges) {
-    const SitePosition site{"XXXX", 44, 11, 300};
-    GridSpec spec = default_spec(44, 11);
-    spec.spacing_m = 20e3;
-    spec.nx = spec.ny = 21;
+    const GridSpec spec = square_about(made_site, 21, 20e3);
     level2::Volume volume = made_volume();
-    for (level2::Sweep& sweep : volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.time = UtcTime{} - std::chrono::hours(24);
-    }
-    const auto grid = grid_of(volume, site, spec, asking(everything()));
+    change_radials(
+        volume, [&](level2::Radial& radial) { radial.time = UtcTime{} - std::chrono::hours(24); });
+    const auto grid = grid_of(volume, made_site, spec, asking(everything()));
     ASSERT_TRUE(grid);
     int seen = 0;
     for (std::size_t cell = 0; cell < spec.cell_count(); ++cell) {
@@ -306,14 +287,11 @@ TEST(CellDetails, WithoutATimeThereAreNoAges) {
 class MixedWeights : public ::testing::TestWithParam<std::pair<Interpolation, CellExtent>> {};
 
 TEST_P(MixedWeights, AreTheShareThatWasSeen) {
-    const SitePosition site{"XXXX", 44, 11, 300};
-    GridSpec spec = default_spec(44, 11);
-    spec.spacing_m = 6100;
-    spec.nx = spec.ny = 130;
+    const GridSpec spec = square_about(made_site, 130, 6100);
     const level2::Volume volume = made_volume();
     GridderOptions options = asking(everything(), GetParam().first);
     options.method.cell = GetParam().second;
-    const auto grid = grid_of(volume, site, spec, options);
+    const auto grid = grid_of(volume, made_site, spec, options);
     ASSERT_TRUE(grid);
     const auto chosen = choose_sweeps(volume, level2::Moment::ref, 0.475);
     const OracleSetting setting{level2::Moment::ref, 0.95, false, options.method, {}};
@@ -321,7 +299,7 @@ TEST_P(MixedWeights, AreTheShareThatWasSeen) {
     int partly_seen = 0;
     for (int iy = 0; iy < spec.ny; iy += area ? 29 : 11) {
         for (int ix = iy % 3; ix < spec.nx; ix += 7) {
-            const OracleColumn slow(volume, chosen, setting, site, spec, ix, iy);
+            const OracleColumn slow(volume, chosen, setting, made_site, spec, ix, iy);
             if (slow.is_doubtful()) continue;
             for (std::size_t level = 0; level < spec.levels_m.size(); ++level) {
                 const std::size_t cell = spec.index(ix, iy, static_cast<int>(level));
@@ -358,12 +336,9 @@ TEST(CellDetails, HaveNames) {
 
 TEST(FrameTime, OfAGridNamesTheSweepsThatItIsMadeOf) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_path(*testing::data_directory() / "chunks" / "L2D_230");
-    ASSERT_TRUE(decoded);
-    const SitePosition site = site_of(decoded->volume);
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    spec.spacing_m = 4000;
-    spec.nx = spec.ny = 100;
+    const level2::Volume volume = real_volume("chunks/L2D_230");
+    const SitePosition site = site_of(volume);
+    const GridSpec spec = square_about(site, 100, 4000);
     DetailSet ages;
     ages.add(Detail::age);
     GridderOptions options = asking(ages);
@@ -372,13 +347,13 @@ TEST(FrameTime, OfAGridNamesTheSweepsThatItIsMadeOf) {
             grid.provenance.notes.begin(), grid.provenance.notes.end(),
             [&](const std::string& note) { return note.find(part) != std::string::npos; });
     };
-    const auto newest = grid_of(decoded->volume, site, spec, options);
+    const auto newest = grid_of(volume, site, spec, options);
     ASSERT_TRUE(newest);
     EXPECT_EQ(note_of(*newest, "2 sweeps at 0.5 degrees: the newest was taken, of 2021-07-29T"), 1);
     EXPECT_EQ(note_of(*newest, "2 sweeps at"), 2) << "0.5 and 0.9 degrees";
     options.repeats = GridderOptions::Repeats::nearest_in_time;
-    options.frame_time = *decoded->volume.start_time() + std::chrono::seconds(5);
-    const auto first = grid_of(decoded->volume, site, spec, options);
+    options.frame_time = *volume.start_time() + std::chrono::seconds(5);
+    const auto first = grid_of(volume, site, spec, options);
     ASSERT_TRUE(first);
     EXPECT_EQ(note_of(*first, "2 sweeps at 0.5 degrees: the nearest to " +
                                   format_utc(*options.frame_time) + " was taken"),
@@ -391,7 +366,7 @@ TEST(FrameTime, OfAGridNamesTheSweepsThatItIsMadeOf) {
     EXPECT_LT(*first->details.at(Detail::age, low), 40);
     EXPECT_GT(*newest->details.at(Detail::age, low), 100);
     options.frame_time = UtcTime{} - std::chrono::hours(1);
-    const auto never = grid_of(decoded->volume, site, spec, options);
+    const auto never = grid_of(volume, site, spec, options);
     ASSERT_FALSE(never);
     EXPECT_EQ(never.error().code, ErrorCode::bad_argument);
 }

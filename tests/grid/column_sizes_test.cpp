@@ -7,8 +7,7 @@
 #include "grid/plan/grid_effects.h"
 #include "stormcellar/accuracy/planner.h"
 #include "stormcellar/grid/gridder.h"
-#include "stormcellar/level2/decode.h"
-#include "tests/testing/data.h"
+#include "tests/grid/real_volume.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -34,12 +33,8 @@ class ColumnSizes : public ::testing::TestWithParam<std::size_t> {
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
         const SparseScene& sparse = sparse_scenes()[GetParam()];
-        auto decoded = level2::decode_file(*testing::data_directory() / sparse.file);
-        ASSERT_TRUE(decoded);
-        volume_ = std::move(decoded->volume);
-        const auto antenna = level2::antenna_position(volume_);
-        site_ = {volume_.station, antenna->latitude_deg, antenna->longitude_deg,
-                 antenna->altitude_m};
+        volume_ = real_volume(sparse.file);
+        site_ = site_of(volume_);
         spec_ = default_spec(site_.latitude_deg, site_.longitude_deg);
         spec_.spacing_m = sparse.spacing_m;
         spec_.nx = spec_.ny = static_cast<int>(300'000 / sparse.spacing_m);

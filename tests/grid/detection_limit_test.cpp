@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "stormcellar/grid/sweep_choice.h"
-#include "stormcellar/level2/decode.h"
-#include "tests/testing/data.h"
+#include "tests/grid/real_volume.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -55,10 +54,9 @@ TEST(DetectionLimit, IsFiniteAtRangeZero) {
 // (closer in, ground clutter and receiver limits dominate).
 void expect_limit(const char* name, bool is_tdwr) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / name);
-    ASSERT_TRUE(decoded);
+    const level2::Volume volume = real_volume(std::string("volumes/") + name);
     int rings = 0;
-    for (const level2::Sweep& sweep : decoded->volume.sweeps) {
+    for (const level2::Sweep& sweep : volume.sweeps) {
         const level2::SweepMoment* moment = sweep.find(level2::Moment::ref);
         if (moment == nullptr) continue;
         const DetectionLimit limit = detection_limit(sweep.radials.front(), *moment, is_tdwr);

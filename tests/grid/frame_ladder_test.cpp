@@ -10,18 +10,7 @@
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/projection.h"
-
-__extension__ typedef __float128 Quad;
-
-// from libquadmath; declared here because clang does not have its header
-extern "C" {
-Quad acosq(Quad);
-Quad asinq(Quad);
-Quad atan2q(Quad, Quad);
-Quad cosq(Quad);
-Quad sinq(Quad);
-Quad sqrtq(Quad);
-}
+#include "tests/grid/quad.h"
 
 namespace stormcellar::grid {
 namespace {

@@ -17,19 +17,13 @@ const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
 
 // Echo in the east, within 75 km and again beyond.
 level2::Volume half_volume(level2::Moment moment = level2::Moment::ref) {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {0.5, 1.5, 2.5, 3.5}) {
-        SweepPlan plan;
-        plan.elevation_deg = elevation_deg;
-        plan.cut = static_cast<int>(plans.size()) + 1;
-        plan.moment = moment;
-        plan.code = [](int radial, int gate) {
-            return radial < 180 ? static_cast<std::uint16_t>(90 + (radial * 7 + gate * 3) % 60)
-                                : below_threshold;
-        };
-        plans.push_back(plan);
-    }
-    return make_volume(plans);
+    SweepPlan plan;
+    plan.moment = moment;
+    plan.code = [](int radial, int gate) {
+        return radial < 180 ? static_cast<std::uint16_t>(90 + (radial * 7 + gate * 3) % 60)
+                            : below_threshold;
+    };
+    return make_volume(plans_at({0.5, 1.5, 2.5, 3.5}, plan));
 }
 
 GridScene scene_of(const level2::Volume& volume, int side, level2::Moment moment, int threads = 1) {

@@ -11,9 +11,9 @@
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/site_frame.h"
-#include "stormcellar/level2/decode.h"
+#include "tests/grid/method_of.h"
+#include "tests/grid/real_volume.h"
 #include "tests/grid/volume_maker.h"
-#include "tests/testing/data.h"
 #include "tests/testing/slow_down.h"
 
 namespace stormcellar::grid {
@@ -31,15 +31,6 @@ struct Tally {
     std::array<int, 4> states{};
     std::vector<double> differences;
 };
-
-Method method_of(Interpolation interpolation, CellExtent cell = CellExtent::point,
-                 Averaging averaging = Averaging::in_db) {
-    Method method;
-    method.interpolation = interpolation;
-    method.cell = cell;
-    method.averaging = averaging;
-    return method;
-}
 
 // A cell may be what the oracle finds anywhere within the stated accuracy of height. `slack` is
 // allowed in addition: a gate on the very edge of a cell's outline may count or not.
@@ -104,20 +95,14 @@ Tally compare(const level2::Volume& volume, const SitePosition& site, const Grid
     return tally;
 }
 
-SitePosition site_of(const level2::Volume& volume) {
-    const auto antenna = level2::antenna_position(volume);
-    return {volume.station, antenna->latitude_deg, antenna->longitude_deg, antenna->altitude_m};
-}
-
 class RealVolume : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealVolume, AgreesWithTheOracle) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / GetParam());
-    ASSERT_TRUE(decoded);
-    const SitePosition site = site_of(decoded->volume);
+    const level2::Volume volume = real_volume(std::string("volumes/") + GetParam());
+    const SitePosition site = site_of(volume);
     const GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    const Tally tally = compare(decoded->volume, site, spec, {});
+    const Tally tally = compare(volume, site, spec, {});
     EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::value)], 50);
     EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::no_echo)], 1000);
     EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::not_seen)], 1000);
@@ -125,21 +110,18 @@ TEST_P(RealVolume, AgreesWithTheOracle) {
 
 TEST_P(RealVolume, AgreesWithTheOracleFarFromTheSite) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / GetParam());
-    ASSERT_TRUE(decoded);
-    const SitePosition site = site_of(decoded->volume);
+    const level2::Volume volume = real_volume(std::string("volumes/") + GetParam());
+    const SitePosition site = site_of(volume);
     GridSpec spec = default_spec(site.latitude_deg + 1.2, site.longitude_deg - 1.7);
     spec.spacing_m = 5000;
     spec.nx = spec.ny = 100;
-    compare(decoded->volume, site, spec, {level2::Moment::ref, {}, 7});
+    compare(volume, site, spec, {level2::Moment::ref, {}, 7});
 }
 
 // A grid of one cell at the center of a gate must hold that gate.
 TEST_P(RealVolume, ACellAtAGatesCentreHoldsTheGate) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / GetParam());
-    ASSERT_TRUE(decoded);
-    const level2::Volume& volume = decoded->volume;
+    const level2::Volume volume = real_volume(std::string("volumes/") + GetParam());
     const SitePosition site = site_of(volume);
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     const BeamGeometry beam(site.latitude_deg, site.altitude_m);
@@ -187,10 +169,8 @@ class EveryMethod : public ::testing::TestWithParam<Method> {};
 
 TEST_P(EveryMethod, AgreesWithTheOracle) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded =
-        level2::decode_file(*testing::data_directory() / "volumes" / "KTLX19990503_235621.gz");
-    ASSERT_TRUE(decoded);
-    const SitePosition site = site_of(decoded->volume);
+    const level2::Volume volume = real_volume("volumes/KTLX19990503_235621.gz");
+    const SitePosition site = site_of(volume);
     GridSpec spec = default_spec(site.latitude_deg + 0.3, site.longitude_deg - 0.4);
     spec.spacing_m = GetParam().cell == CellExtent::area ? 4000 : 1700;
     spec.nx = spec.ny = GetParam().cell == CellExtent::area ? 80 : 200;
@@ -199,7 +179,7 @@ TEST_P(EveryMethod, AgreesWithTheOracle) {
                    (area ? 17 : 9) * (testing::slow_down > 1 ? 2 : 1)};
     how.most_doubtful_cells = area ? 0.06 : 0.02;
     if (area) how.slack = 0.8;
-    const Tally tally = compare(decoded->volume, site, spec, how);
+    const Tally tally = compare(volume, site, spec, how);
     EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::value)], 50 / testing::slow_down);
     std::vector<double> differences = tally.differences;
     std::sort(differences.begin(), differences.end());
@@ -207,7 +187,7 @@ TEST_P(EveryMethod, AgreesWithTheOracle) {
     if (GetParam().averaging == Averaging::in_z) return;
     how.moment = level2::Moment::vel;
     how.most_doubtful_cells = area ? 0.15 : 0.1;
-    compare(decoded->volume, site, spec, how);
+    compare(volume, site, spec, how);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -224,23 +204,17 @@ INSTANTIATE_TEST_SUITE_P(
 // States scattered at random, so that every pair of them occurs with every weight.
 level2::Volume scattered_volume(level2::Moment moment) {
     std::mt19937 random(23);
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {-0.2, 0.5, 1.4, 2.4, 4.3, 9.9, 19.5}) {
-        SweepPlan plan;
-        plan.elevation_deg = elevation_deg;
-        plan.cut = static_cast<int>(plans.size()) + 1;
-        plan.moment = moment;
-        plan.gates = 120;
-        plan.gate_spacing_m = 2000;
-        plan.radials = 300;  // a gap of 60 degrees
-        plan.first_azimuth_deg = 200.5;
-        plan.code = [&random](int, int) {
-            const auto drawn = random() % 6;
-            return static_cast<std::uint16_t>(drawn < 2 ? drawn : 2 + random() % 200);
-        };
-        plans.push_back(plan);
-    }
-    return make_volume(plans);
+    SweepPlan plan;
+    plan.moment = moment;
+    plan.gates = 120;
+    plan.gate_spacing_m = 2000;
+    plan.radials = 300;  // a gap of 60 degrees
+    plan.first_azimuth_deg = 200.5;
+    plan.code = [&random](int, int) {
+        const auto drawn = random() % 6;
+        return static_cast<std::uint16_t>(drawn < 2 ? drawn : 2 + random() % 200);
+    };
+    return make_volume(plans_at({-0.2, 0.5, 1.4, 2.4, 4.3, 9.9, 19.5}, plan));
 }
 
 TEST(GridderOracle, ScatteredStates) {

@@ -7,9 +7,8 @@
 
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/column_geometry.h"
-#include "stormcellar/level2/decode.h"
+#include "tests/grid/real_volume.h"
 #include "tests/grid/volume_maker.h"
-#include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -275,22 +274,18 @@ TEST(Gridder, SameBitsForAnyNumberOfThreads) {
 
 TEST(Gridder, SameBitsForAnyNumberOfThreadsOnARealVolume) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded =
-        level2::decode_file(*testing::data_directory() / "volumes" / "KTLX19990503_235621.gz");
-    ASSERT_TRUE(decoded);
-    const Grid one = make(decoded->volume, 1);
+    const level2::Volume volume = real_volume("volumes/KTLX19990503_235621.gz");
+    const Grid one = make(volume, 1);
     for (const int threads : {2, 5})
-        EXPECT_TRUE(same_bits(one, make(decoded->volume, threads))) << threads;
+        EXPECT_TRUE(same_bits(one, make(volume, threads))) << threads;
 }
 
 // The Oklahoma outbreak: the supercell that reached Moore half an hour later is some 40 km
 // west-southwest of the radar, its core above 50 dBZ up to at least 8 km.
 TEST(Gridder, StormsStandWhereTheyStood) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded =
-        level2::decode_file(*testing::data_directory() / "volumes" / "KTLX19990503_235621.gz");
-    ASSERT_TRUE(decoded);
-    const Grid grid = make(decoded->volume, 1);
+    const level2::Volume volume = real_volume("volumes/KTLX19990503_235621.gz");
+    const Grid grid = make(volume, 1);
     float core = -99;
     for (const double x_km : {-45.0, -40.0, -35.0, -30.0}) {
         for (const double y_km : {-20.0, -15.0, -10.0, -5.0, 0.0}) {

@@ -15,8 +15,7 @@
 #include "grid/plan/grid_effects.h"
 #include "stormcellar/accuracy/planner.h"
 #include "stormcellar/grid/gridder.h"
-#include "stormcellar/level2/decode.h"
-#include "tests/testing/data.h"
+#include "tests/grid/real_volume.h"
 #include "tests/testing/forced_choice.h"
 #include "tests/testing/slow_down.h"
 
@@ -67,13 +66,9 @@ struct PreparedScene {
 };
 
 std::unique_ptr<PreparedScene> prepare(const HonestScene& honest) {
-    auto decoded = level2::decode_file(*testing::data_directory() / honest.file);
-    EXPECT_TRUE(decoded);
     auto made = std::make_unique<PreparedScene>();
-    made->volume = std::move(decoded->volume);
-    const auto antenna = level2::antenna_position(made->volume);
-    made->site = {made->volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                  antenna->altitude_m};
+    made->volume = real_volume(honest.file);
+    made->site = site_of(made->volume);
     made->spec = default_spec(made->site.latitude_deg, made->site.longitude_deg + honest.east_deg);
     made->spec.nx = made->spec.ny = honest.side;
     made->spec.spacing_m = honest.spacing_m;

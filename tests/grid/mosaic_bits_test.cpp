@@ -38,6 +38,12 @@ TEST(MosaicBits, OrderOfArrivalAndThreadsChangeNoBit) {
     }
 }
 
+void expect_merges_to_the_first(Partials& partials, const MosaicOptions& options) {
+    const auto made = merge(partials.domain(), partials.all(), options);
+    ASSERT_TRUE(made);
+    expect_same_bits(made->cells.view(), partials.all()[0].view);
+}
+
 TEST(MosaicBits, OneSiteAloneIsItsPartial) {
     for (const Quantization& quantization : {one_byte, two_bytes}) {
         const GridSpec domain = small_domain();
@@ -47,9 +53,7 @@ TEST(MosaicBits, OneSiteAloneIsItsPartial) {
              {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
             MosaicOptions options;
             options.overlap = overlap;
-            const auto made = merge(domain, partials.all(), options);
-            ASSERT_TRUE(made);
-            expect_same_bits(made->cells.view(), partials.all()[0].view);
+            expect_merges_to_the_first(partials, options);
         }
     }
 }
@@ -68,9 +72,7 @@ TEST(MosaicBits, EqualValuesStayWhatTheyAre) {
         for (const Averaging averaging : {Averaging::in_db, Averaging::in_z}) {
             MosaicOptions options;
             options.averaging = averaging;
-            const auto made = merge(domain, partials.all(), options);
-            ASSERT_TRUE(made);
-            expect_same_bits(made->cells.view(), partials.all()[0].view);
+            expect_merges_to_the_first(partials, options);
         }
     }
 }

@@ -232,7 +232,7 @@ std::string why_refused(const GridSpec& spec) {
 }
 
 TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
-    const auto refused = [](Projection kind, GeoPoint center, auto change, std::string_view part) {
+    const auto refused = [](Projection kind, GeoPoint center, std::string_view part, auto change) {
         GridSpec spec = spec_of(kind, center);
         change(spec);
         const std::string why = why_refused(spec);
@@ -241,68 +241,31 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto same = [](GridSpec&) {};
     using enum Projection;
-    refused(latitude_longitude, {89.9, 0}, same, "ends at the poles");
-    refused(latitude_longitude, {-90, 0}, same, "ends at the poles");
-    refused(
-        latitude_longitude, {0, 0}, [](auto& s) { s.nx = 36001; }, "columns and rows");
-    refused(
-        latitude_longitude, {0, 0},
-        [](auto& s) {
-            s.nx = 36001 / 4;
-            s.spacing_deg = 0.041;
-        },
-        "360 degrees");
-    refused(
-        latitude_longitude, {0, 0}, [](auto& s) { s.spacing_deg = 10.1; }, "10 degrees");
-    refused(
-        latitude_longitude, {0, 0}, [](auto& s) { s.spacing_deg = 0; }, "above 0");
-    refused(
-        latitude_longitude, {0, 0}, [&](auto& s) { s.spacing_deg = nan; }, "above 0");
-    refused(
-        latitude_longitude, {0, 0}, [](auto& s) { s.spacing_m = 1; }, "no spacing in meters");
-    refused(
-        latitude_longitude, {0, 0},
-        [](auto& s) {
-            s.parallels_deg = {1, 1};
-        },
-        "parallels");
-    refused(
-        azimuthal_equidistant, {0, 0}, [](auto& s) { s.spacing_deg = 1; }, "no spacing in deg");
-    refused(
-        azimuthal_equidistant, {0, 0}, [](auto& s) { s.parallels_deg[1] = 1; }, "parallels");
-    refused(lambert_conformal, {0, 0}, same, "opposite");
-    refused(
-        lambert_conformal, {35, 0},
-        [](auto& s) {
-            s.parallels_deg = {35, -35};
-        },
-        "opposite");
-    refused(
-        lambert_conformal, {35, 0}, [](auto& s) { s.parallels_deg = {}; }, "opposite");
-    refused(
-        lambert_conformal, {35, 0},
-        [](auto& s) {
-            s.parallels_deg = {35, 90};
-        },
-        "not at 90");
-    refused(
-        lambert_conformal, {35, 0},
-        [&](auto& s) {
-            s.parallels_deg = {nan, 3};
-        },
-        "not at nan");
-    refused(
-        lambert_conformal, {89.5, 0},
-        [](auto& s) {
-            s.parallels_deg = {60, 60};
-        },
-        "center");
-    refused(
-        lambert_conformal, {88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "cannot hold a pole");
-    refused(
-        lambert_conformal, {-88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "cannot hold a pole");
-    refused(
-        lambert_conformal, {10, 0}, [](auto& s) { s.spacing_m = 1e6; }, "opposite its center");
+    refused(latitude_longitude, {89.9, 0}, "ends at the poles", same);
+    refused(latitude_longitude, {-90, 0}, "ends at the poles", same);
+    refused(latitude_longitude, {0, 0}, "columns and rows", [](auto& s) { s.nx = 36001; });
+    refused(latitude_longitude, {0, 0}, "360 degrees", [](auto& s) {
+        s.nx = 36001 / 4;
+        s.spacing_deg = 0.041;
+    });
+    refused(latitude_longitude, {0, 0}, "10 degrees", [](auto& s) { s.spacing_deg = 10.1; });
+    refused(latitude_longitude, {0, 0}, "above 0", [](auto& s) { s.spacing_deg = 0; });
+    refused(latitude_longitude, {0, 0}, "above 0", [&](auto& s) { s.spacing_deg = nan; });
+    refused(latitude_longitude, {0, 0}, "no spacing in meters", [](auto& s) { s.spacing_m = 1; });
+    refused(latitude_longitude, {0, 0}, "parallels", [](auto& s) { s.parallels_deg = {1, 1}; });
+    refused(azimuthal_equidistant, {0, 0}, "no spacing in deg", [](auto& s) { s.spacing_deg = 1; });
+    refused(azimuthal_equidistant, {0, 0}, "parallels", [](auto& s) { s.parallels_deg[1] = 1; });
+    refused(lambert_conformal, {0, 0}, "opposite", same);
+    refused(lambert_conformal, {35, 0}, "opposite", [](auto& s) { s.parallels_deg = {35, -35}; });
+    refused(lambert_conformal, {35, 0}, "opposite", [](auto& s) { s.parallels_deg = {}; });
+    refused(lambert_conformal, {35, 0}, "not at 90", [](auto& s) { s.parallels_deg = {35, 90}; });
+    refused(lambert_conformal, {35, 0}, "not at nan", [&](auto& s) { s.parallels_deg = {nan, 3}; });
+    refused(lambert_conformal, {89.5, 0}, "center", [](auto& s) { s.parallels_deg = {60, 60}; });
+    refused(lambert_conformal, {88.9, 0}, "cannot hold a pole",
+            [](auto& s) { s.spacing_m = 9000; });
+    refused(lambert_conformal, {-88.9, 0}, "cannot hold a pole",
+            [](auto& s) { s.spacing_m = 9000; });
+    refused(lambert_conformal, {10, 0}, "opposite its center", [](auto& s) { s.spacing_m = 1e6; });
     GridSpec bad = spec_of(azimuthal_equidistant, {35, 0});
     bad.projection = static_cast<Projection>(projection_facts.size());
     EXPECT_NE(why_refused(bad), "");

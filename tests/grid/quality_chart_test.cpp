@@ -7,13 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/grid/method_of.h"
+
 namespace stormcellar::grid {
 namespace {
-
-using grid::Averaging;
-using grid::CellExtent;
-using grid::Interpolation;
-using grid::Method;
 
 constexpr double cell_km = 1;
 constexpr double gate_km = 0.25;
@@ -25,13 +22,6 @@ double radials_apart_km(double range_km, double apart_deg = coarse_deg) {
     return range_km * apart_deg * M_PI / 180;
 }
 
-Method method_of(Interpolation interpolation, CellExtent cell, Averaging averaging) {
-    Method method;
-    method.interpolation = interpolation;
-    method.cell = cell;
-    method.averaging = averaging;
-    return method;
-}
 const Method nearest = method_of(Interpolation::nearest, CellExtent::point, Averaging::in_z);
 const Method linear = method_of(Interpolation::linear, CellExtent::point, Averaging::in_z);
 const Method eight = method_of(Interpolation::eight_point, CellExtent::point, Averaging::in_z);

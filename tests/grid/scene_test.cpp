@@ -6,9 +6,8 @@
 #include "grid/plan/grid_effects.h"
 #include "grid/plan/grid_scene.h"
 #include "stormcellar/grid/gridder.h"
-#include "stormcellar/level2/decode.h"
+#include "tests/grid/real_volume.h"
 #include "tests/grid/volume_maker.h"
-#include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -17,18 +16,12 @@ const SitePosition ktlx{"KTLX", 35.3333, -97.2778, 389};
 
 // Echo in the eastern half, changing from gate to gate.
 level2::Volume half_volume() {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {0.5, 1.5, 2.5, 3.5, 4.5}) {
-        SweepPlan plan;
-        plan.elevation_deg = elevation_deg;
-        plan.cut = static_cast<int>(plans.size()) + 1;
-        plan.code = [](int radial, int gate) {
-            return radial < 180 ? static_cast<std::uint16_t>(90 + (radial * 7 + gate * 3) % 60)
-                                : below_threshold;
-        };
-        plans.push_back(plan);
-    }
-    return make_volume(plans);
+    SweepPlan plan;
+    plan.code = [](int radial, int gate) {
+        return radial < 180 ? static_cast<std::uint16_t>(90 + (radial * 7 + gate * 3) % 60)
+                            : below_threshold;
+    };
+    return make_volume(plans_at({0.5, 1.5, 2.5, 3.5, 4.5}, plan));
 }
 
 GridSpec spec_of(int side, double spacing_m) {
@@ -71,13 +64,8 @@ TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
 
 TEST(GridScene, SampledCellsAreThoseOfTheWholeGrid) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_file(*::stormcellar::testing::data_directory() / "volumes" /
-                                             "KTLX19990503_235621.gz");
-    ASSERT_TRUE(decoded);
-    const level2::Volume& volume = decoded->volume;
-    const auto antenna = level2::antenna_position(volume);
-    const SitePosition here{volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                            antenna->altitude_m};
+    const level2::Volume volume = real_volume("volumes/KTLX19990503_235621.gz");
+    const SitePosition here = site_of(volume);
     GridSpec spec = default_spec(here.latitude_deg + 0.2, here.longitude_deg);
     spec.nx = spec.ny = 150;
     spec.spacing_m = 2500;
@@ -175,14 +163,7 @@ TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
 
 // Nothing changes from place to place, so interpolation matters only at the edge of the echo.
 TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {0.5, 1.5, 2.5}) {
-        SweepPlan plan;
-        plan.elevation_deg = elevation_deg;
-        plan.cut = static_cast<int>(plans.size()) + 1;
-        plans.push_back(plan);
-    }
-    const level2::Volume volume = make_volume(plans);
+    const level2::Volume volume = make_volume(plans_at({0.5, 1.5, 2.5}));
     auto scene = GridScene::make(volume, ktlx, spec_of(60, 2000), {});
     ASSERT_TRUE(scene);
     const auto planned = plan_grid(*scene, effects_of(level2::Moment::ref),

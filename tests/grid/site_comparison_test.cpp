@@ -11,6 +11,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
 #include "synth/observe.h"
+#include "tests/grid/volume_maker.h"
 #include "tests/testing/two_radars.h"
 
 namespace stormcellar::grid {
@@ -121,10 +122,9 @@ TEST_F(SiteComparisonTest, WithoutFaultsNoneIsNamed) {
 
 TEST_F(SiteComparisonTest, HalfADegreeOfAzimuthIsNamedAndNothingElse) {
     Radar b = *b_;
-    for (level2::Sweep& sweep : b.volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.azimuth_deg = std::fmod(radial.azimuth_deg + 0.5F, 360.0F);
-    }
+    change_radials(b.volume, [&](level2::Radial& radial) {
+        radial.azimuth_deg = std::fmod(radial.azimuth_deg + 0.5F, 360.0F);
+    });
     const SiteComparison found = compared(b);
     expect(found, 0, 0.5, 0, 0);
     EXPECT_THAT(faults(found), ElementsAre(HasSubstr("XSYB against XSYA: turned clockwise by 0.")));
@@ -132,10 +132,9 @@ TEST_F(SiteComparisonTest, HalfADegreeOfAzimuthIsNamedAndNothingElse) {
 
 TEST_F(SiteComparisonTest, HalfADegreeOfElevationIsNamedAndNothingElse) {
     Radar b = *b_;
+    change_radials(b.volume, [](level2::Radial& radial) { radial.elevation_deg += 0.5F; });
     for (level2::Sweep& sweep : b.volume.sweeps) {
         if (sweep.vcp_elevation_deg) *sweep.vcp_elevation_deg += 0.5F;
-        for (level2::Radial& radial : sweep.radials)
-            radial.elevation_deg += 0.5F;
     }
     for (level2::VcpCut& cut : b.volume.vcp_message->cuts)
         cut.elevation_deg += 0.5F;
@@ -157,10 +156,9 @@ TEST_F(SiteComparisonTest, TwoDecibelsAreNamedAndNothingElse) {
 
 TEST_F(SiteComparisonTest, ThirtySecondsAreNamedAndNothingElse) {
     Radar b = *b_;
-    for (level2::Sweep& sweep : b.volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.time -= std::chrono::seconds{seconds_of_fault};
-    }
+    change_radials(b.volume, [&](level2::Radial& radial) {
+        radial.time -= std::chrono::seconds{seconds_of_fault};
+    });
     const SiteComparison found = compared(b);
     expect(found, 0, 0, 0, seconds_of_fault);
     EXPECT_THAT(faults(found), ElementsAre(HasSubstr("XSYB against XSYA: clock late by ")));
@@ -180,10 +178,8 @@ TEST_F(SiteComparisonTest, WithoutAMotionThereIsNoTime) {
 // The same echo, seen five minutes later and 8 km farther: no fault of the antenna.
 TEST_F(SiteComparisonTest, LooksMinutesApartWithoutAMotionTellNoAngles) {
     Radar b = *b_;
-    for (level2::Sweep& sweep : b.volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.time += std::chrono::minutes{5};
-    }
+    change_radials(b.volume,
+                   [&](level2::Radial& radial) { radial.time += std::chrono::minutes{5}; });
     const SiteComparison found = compared(b, std::nullopt);
     EXPECT_NE(found.azimuth_deg.untold, "");
     EXPECT_NE(found.elevation_deg.untold, "");
@@ -194,10 +190,9 @@ TEST_F(SiteComparisonTest, LooksMinutesApartWithoutAMotionTellNoAngles) {
 // Other weather at the same places.
 TEST_F(SiteComparisonTest, SitesThatHardlySeeTheSameTellNothing) {
     Radar b = *b_;
-    for (level2::Sweep& sweep : b.volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.azimuth_deg = std::fmod(radial.azimuth_deg + 40.0F, 360.0F);
-    }
+    change_radials(b.volume, [&](level2::Radial& radial) {
+        radial.azimuth_deg = std::fmod(radial.azimuth_deg + 40.0F, 360.0F);
+    });
     const SiteComparison found = compared(b);
     EXPECT_EQ(untold(found).size(), 4U);
     EXPECT_THAT(faults(found), IsEmpty());

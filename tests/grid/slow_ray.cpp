@@ -5,18 +5,7 @@
 #include <limits>
 #include <vector>
 
-__extension__ typedef __float128 Quad;
-
-// from libquadmath; declared here because clang does not have its header
-extern "C" {
-Quad acosq(Quad);
-Quad coshq(Quad);
-Quad cosq(Quad);
-Quad expq(Quad);
-Quad sinhq(Quad);
-Quad sinq(Quad);
-Quad sqrtq(Quad);
-}
+#include "tests/grid/quad.h"
 
 namespace stormcellar::grid::testing {
 namespace {

@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "stormcellar/level2/chunk_directory.h"
-#include "stormcellar/level2/decode.h"
+#include "tests/grid/real_volume.h"
 #include "tests/grid/volume_maker.h"
-#include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -140,11 +138,9 @@ TEST(ChooseSweeps, EachMomentOfRealSplitCutsComesFromItsSweep) {
     for (const auto& [name, split_cuts, elevations] :
          {Case{"KLOT20220317_000842_V06", 3, 9}, Case{"KDMX20250101_225441_V06", 3, 5},
           Case{"KCCX20130112_070503_V06.gz", 3, 5}, Case{"KTLX19990503_235621.gz", 2, 14}}) {
-        const auto decoded =
-            level2::decode_file(*::stormcellar::testing::data_directory() / "volumes" / name);
-        ASSERT_TRUE(decoded) << name;
-        const RealChoice ref = choose_of(decoded->volume, level2::Moment::ref);
-        const RealChoice vel = choose_of(decoded->volume, level2::Moment::vel);
+        const level2::Volume volume = real_volume(std::string("volumes/") + name);
+        const RealChoice ref = choose_of(volume, level2::Moment::ref);
+        const RealChoice vel = choose_of(volume, level2::Moment::vel);
         ASSERT_EQ(ref.sweeps.size(), elevations) << name;
         ASSERT_EQ(vel.sweeps.size(), elevations) << name;
         for (std::size_t at = 0; at < elevations; ++at) {
@@ -158,10 +154,7 @@ TEST(ChooseSweeps, EachMomentOfRealSplitCutsComesFromItsSweep) {
 // VCP 212 with MRLE: 0.5 and 0.9 degrees again in the middle of the volume.
 TEST(ChooseSweeps, RepeatedCutsOfARealVolume) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded =
-        level2::decode_path(*::stormcellar::testing::data_directory() / "chunks" / "L2D_230");
-    ASSERT_TRUE(decoded);
-    const level2::Volume& volume = decoded->volume;
+    const level2::Volume volume = real_volume("chunks/L2D_230");
     const auto first = [](const std::vector<std::size_t>& sweeps) {
         return std::vector<std::size_t>(sweeps.begin(), sweeps.begin() + 3);
     };

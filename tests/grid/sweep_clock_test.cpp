@@ -8,10 +8,8 @@
 
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
-#include "stormcellar/level2/chunk_directory.h"
-#include "stormcellar/level2/decode.h"
+#include "tests/grid/real_volume.h"
 #include "tests/grid/volume_maker.h"
-#include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -33,12 +31,8 @@ class RealClock : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealClock, IsThatOfTheGates) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_path(*stormcellar::testing::data_directory() / GetParam());
-    ASSERT_TRUE(decoded);
-    const level2::Volume& volume = decoded->volume;
-    const auto antenna = level2::antenna_position(volume);
-    const SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                            antenna->altitude_m};
+    const level2::Volume volume = real_volume(GetParam());
+    const SitePosition site = site_of(volume);
     GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
     spec.nx = spec.ny = 115;
     spec.spacing_m = 4000;

@@ -12,8 +12,7 @@
 
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/gridder.h"
-#include "stormcellar/level2/decode.h"
-#include "tests/testing/data.h"
+#include "tests/grid/real_volume.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -30,13 +29,8 @@ struct RealVolume {
 };
 
 RealVolume volume_of(const std::string& name) {
-    auto decoded = level2::decode_file(*stormcellar::testing::data_directory() / "volumes" / name);
-    EXPECT_TRUE(decoded) << name;
-    auto volume = std::make_shared<level2::Volume>(std::move(decoded->volume));
-    const auto antenna = level2::antenna_position(*volume);
-    EXPECT_TRUE(antenna) << name;
-    const SitePosition site{volume->station, antenna->latitude_deg, antenna->longitude_deg,
-                            antenna->altitude_m};
+    auto volume = std::make_shared<level2::Volume>(real_volume("volumes/" + name));
+    const SitePosition site = site_of(*volume);
     return {std::move(volume), site};
 }
 
@@ -177,26 +171,9 @@ const std::vector<Case>& cases() {
     return all;
 }
 
-// Numbers of places of each state that were compared.
 struct Compared {
-    int value = 0, no_echo = 0, range_folded = 0, not_seen = 0, skipped = 0;
-
-    void count(CellStatus status) {
-        switch (status) {
-            case CellStatus::value:
-                ++value;
-                return;
-            case CellStatus::no_echo:
-                ++no_echo;
-                return;
-            case CellStatus::range_folded:
-                ++range_folded;
-                return;
-            case CellStatus::not_seen:
-                ++not_seen;
-                return;
-        }
-    }
+    std::map<CellStatus, int> places;  // of each state
+    int skipped = 0;
 };
 
 // Compares the lookup with the slow search at random places, some of them beyond the last gate.
@@ -213,7 +190,7 @@ void compare(const SweepLookup& lookup, const level2::Sweep& sweep, const SlowSw
         }
         const GateValue found = lookup.at(place);
         ASSERT_EQ(found.status, wanted.value.status) << place.azimuth_deg << " " << place.arc_m;
-        compared.count(found.status);
+        ++compared.places[found.status];
         if (found.status == CellStatus::value) {
             ASSERT_EQ(found.value, wanted.value.value);
         }
@@ -229,7 +206,7 @@ void compare(const SweepLookup& lookup, const level2::Sweep& sweep, const SlowSw
 TEST(SweepLookup, EqualsTheGatesValueForValue) {
     STORMCELLAR_NEED_DATA();
     std::mt19937 random(20250312);
-    std::map<std::string, Compared> by_file;
+    std::map<std::string, std::map<CellStatus, int>> by_file;
     for (const Case& one : cases()) {
         SCOPED_TRACE(std::string(one.file) + " sweep " + std::to_string(one.sweep));
         const RealVolume real = volume_of(one.file);
@@ -245,20 +222,17 @@ TEST(SweepLookup, EqualsTheGatesValueForValue) {
             Compared compared;
             compare(*lookup, sweep, slow, random, compared);
             if (HasFatalFailure()) return;
-            EXPECT_GT(compared.value, 40);
+            EXPECT_GT(compared.places[CellStatus::value], 40);
             EXPECT_LT(compared.skipped, 80) << "places beside borders are few";
-            Compared& all = by_file[one.file];
-            all.value += compared.value;
-            all.no_echo += compared.no_echo;
-            all.range_folded += compared.range_folded;
-            all.not_seen += compared.not_seen;
+            for (const auto& [status, places] : compared.places)
+                by_file[one.file][status] += places;
         }
     }
-    for (const auto& [file, all] : by_file) {
-        EXPECT_GT(all.value, 1000) << file;
-        EXPECT_GT(all.no_echo, 1000) << file;
-        EXPECT_GT(all.range_folded, 100) << file;
-        EXPECT_GT(all.not_seen, 100) << file << ": beyond the last gate";
+    for (auto& [file, places] : by_file) {
+        EXPECT_GT(places[CellStatus::value], 1000) << file;
+        EXPECT_GT(places[CellStatus::no_echo], 1000) << file;
+        EXPECT_GT(places[CellStatus::range_folded], 100) << file;
+        EXPECT_GT(places[CellStatus::not_seen], 100) << file << ": beyond the last gate";
     }
 }
 

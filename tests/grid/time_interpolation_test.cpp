@@ -104,13 +104,13 @@ TEST(GridAt, AdvectedBeatsBlendBeatsNearest) {
 
 TEST(GridAt, NearestIsTheNearerVolumeUntouched) {
     const Pair pair(moving);
-    EXPECT_EQ(pair.at(options_at(149, TimeMethod::nearest)).values,
-              to_dense(pair.before.view()).values);
-    EXPECT_EQ(pair.at(options_at(151, TimeMethod::nearest)).values,
-              to_dense(pair.after.view()).values);
-    EXPECT_EQ(pair.at(options_at(150, TimeMethod::nearest)).values,
-              to_dense(pair.before.view()).values)
-        << "the earlier of two that are as near";
+    const auto values_at = [&](double t_s) {
+        return pair.at(options_at(t_s, TimeMethod::nearest)).values;
+    };
+    const std::vector<float> before = to_dense(pair.before.view()).values;
+    EXPECT_EQ(values_at(149), before);
+    EXPECT_EQ(values_at(151), to_dense(pair.after.view()).values);
+    EXPECT_EQ(values_at(150), before) << "the earlier of two that are as near";
 }
 
 TEST(GridAt, BlendAtEitherEndIsThatVolume) {

@@ -30,6 +30,18 @@ struct SweepPlan {
     std::function<std::uint16_t(int radial, int gate)> code = [](int, int) { return ref_code(20); };
 };
 
+// Returns plans like this one at each of the elevations, for cuts 1, 2, 3 ...
+[[nodiscard]] inline std::vector<SweepPlan> plans_at(const std::vector<double>& elevations_deg,
+                                                     SweepPlan like = {}) {
+    std::vector<SweepPlan> plans;
+    for (const double elevation_deg : elevations_deg) {
+        like.elevation_deg = elevation_deg;
+        like.cut = static_cast<int>(plans.size()) + 1;
+        plans.push_back(like);
+    }
+    return plans;
+}
+
 [[nodiscard]] inline level2::Sweep make_sweep(const SweepPlan& plan) {
     level2::Sweep sweep;
     sweep.elevation_number = plan.cut;
@@ -71,6 +83,15 @@ struct SweepPlan {
     for (const SweepPlan& plan : plans)
         volume.sweeps.push_back(make_sweep(plan));
     return volume;
+}
+
+// Calls change(radial) for each radial of the volume.
+template <class Change>
+void change_radials(level2::Volume& volume, Change change) {
+    for (level2::Sweep& sweep : volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            change(radial);
+    }
 }
 
 }  // namespace stormcellar::grid

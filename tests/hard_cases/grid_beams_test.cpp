@@ -6,15 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "stormcellar/grid/beam_geometry.h"
+#include "tests/grid/quad.h"
 #include "tests/hard_cases/grid_case.h"
-__extension__ typedef __float128 Quad;
-
-// from libquadmath; declared here because clang does not have its header
-extern "C" {
-Quad acosq(Quad);
-Quad sinq(Quad);
-Quad sqrtq(Quad);
-}
 
 namespace stormcellar::grid {
 namespace {
@@ -68,12 +61,9 @@ TEST(CancellationInBeamHeight, OursKeepsAllDigitsWhereTheTextbooksFormLosesThem)
 
 // No method sees places above the upper edge of the highest beam.
 TEST(ConeOfSilence, IsNotSeenByAnyMethod) {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {0.5, 2.4, 6.0, 12.0, 19.5}) {
-        plans.push_back(patchy_plan(elevation_deg, static_cast<int>(plans.size()) + 1));
-        plans.back().code = [](int, int) { return ref_code(30); };
-    }
-    GridCase given = about(plains, plans, 81, 1000);
+    SweepPlan even = patchy_plan();
+    even.code = [](int, int) { return ref_code(30); };
+    GridCase given = about(plains, plans_at({0.5, 2.4, 6.0, 12.0, 19.5}, even), 81, 1000);
     const BeamGeometry beam(plains.latitude_deg, plains.altitude_m);
     expect_sound_by_every_method(given, {}, [&](const Method& method, const Grid& grid) {
         const GridSpec& spec = grid.spec;
@@ -161,12 +151,9 @@ TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
 // Some beams have a lower edge that comes down to earth, others an upper one, and edges cross the
 // center of their beam. Each sweep has one strength, so that values show weights.
 TEST(BeamsInADuct, ABeamThatLostAnEdgeIsAsWideAsTheHalfThatIsThere) {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {-0.3, 0.2, 0.5, 1.5, 2.4}) {
-        plans.push_back(patchy_plan(elevation_deg, static_cast<int>(plans.size()) + 1));
-        const double dbz = 10.0 * static_cast<double>(plans.size());
-        plans.back().code = [dbz](int, int) { return ref_code(dbz); };
-    }
+    std::vector<SweepPlan> plans = plans_at({-0.3, 0.2, 0.5, 1.5, 2.4}, patchy_plan());
+    for (SweepPlan& plan : plans)
+        plan.code = [cut = plan.cut](int, int) { return ref_code(10.0 * cut); };
     GridCase given = about(plains, plans);
     given.site.altitude_m = 20;
     given.spec.levels_m = {-300, 0, 50, 100, 150, 250, 400, 700, 1000, 1500, 2000, 3000};

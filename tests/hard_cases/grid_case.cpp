@@ -83,14 +83,6 @@ std::string label(const Method& method) {
     return method.name() + (method.averaging == Averaging::in_z ? " in Z" : "");
 }
 
-Method method_of(Interpolation interpolation, CellExtent cell, Averaging averaging) {
-    Method method;
-    method.interpolation = interpolation;
-    method.cell = cell;
-    method.averaging = averaging;
-    return method;
-}
-
 std::vector<Method> all_methods(level2::Moment moment) {
     std::vector<Method> methods;
     for (const Interpolation interpolation :

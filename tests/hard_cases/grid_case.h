@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stormcellar/grid/gridder.h"
+#include "tests/grid/method_of.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {
@@ -24,8 +25,6 @@ struct GridCase {
 
 // Returns every interpolation with points and areas, reflectivity averaged in dB and in Z.
 [[nodiscard]] std::vector<Method> all_methods(level2::Moment moment = level2::Moment::ref);
-[[nodiscard]] Method method_of(Interpolation interpolation, CellExtent cell = CellExtent::point,
-                               Averaging averaging = Averaging::in_db);
 // Returns for example "area, beam-weighted in Z".
 [[nodiscard]] std::string label(const Method& method);
 
@@ -66,6 +65,6 @@ void expect_sound_by_every_method(const GridCase& given, const Agreement& agreem
 // Echo of smooth strength with patches of no echo and of range folding, equal at all elevations.
 [[nodiscard]] std::uint16_t patchy_code(double azimuth_deg, double range_m);
 // Sweeps of 360 radials and 1 km gates to 150 km with that echo.
-[[nodiscard]] SweepPlan patchy_plan(double elevation_deg, int cut);
+[[nodiscard]] SweepPlan patchy_plan(double elevation_deg = 0.5, int cut = 1);
 
 }  // namespace stormcellar::grid

@@ -285,11 +285,10 @@ TEST(LevelsBelowAndAboveEverything, AreNotSeen) {
 
 // A level exactly as high as a beam, where brackets begin and end.
 TEST(LevelsAtABeamsHeight, HoldThatBeamAndDivideByNothing) {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : {0.5, 1.5, 2.5}) {
-        plans.push_back(patchy_plan(elevation_deg, static_cast<int>(plans.size()) + 1));
-        const double dbz = 10 + 10 * elevation_deg;
-        plans.back().code = [dbz](int, int) { return ref_code(dbz); };
+    std::vector<SweepPlan> plans = plans_at({0.5, 1.5, 2.5}, patchy_plan());
+    for (SweepPlan& plan : plans) {
+        const double dbz = 10 + 10 * plan.elevation_deg;
+        plan.code = [dbz](int, int) { return ref_code(dbz); };
     }
     const BeamGeometry beam(plains.latitude_deg, plains.altitude_m);
     GridCase given;

@@ -82,12 +82,10 @@ TEST(ReversedElevations, AmongSweepsOfNoEcho) {
 
 // Little echo, quiet over whole tiles and sweeps, and shorter sweeps above.
 GridCase mostly_quiet(const std::vector<double>& elevations_deg) {
-    std::vector<SweepPlan> plans;
-    for (const double elevation_deg : elevations_deg) {
-        const int cut = static_cast<int>(plans.size()) + 1;
-        plans.push_back(patchy_plan(elevation_deg, cut));
-        plans.back().gates = 150 - 10 * cut;
-        plans.back().code = [cut](int radial, int gate) {
+    std::vector<SweepPlan> plans = plans_at(elevations_deg, patchy_plan());
+    for (SweepPlan& plan : plans) {
+        plan.gates = 150 - 10 * plan.cut;
+        plan.code = [cut = plan.cut](int radial, int gate) {
             const bool busy = (radial / 40 + cut) % 5 == 0 && gate % 60 > 40;
             return busy ? patchy_code(radial, 1000.0 * gate + 7000) : below_threshold;
         };

@@ -1,0 +1,18 @@
+// tests/grid/method_of.h -- a method by what most tests vary in it.
+#pragma once
+
+#include "stormcellar/grid/method.h"
+
+namespace stormcellar::grid {
+
+[[nodiscard]] inline Method method_of(Interpolation interpolation,
+                                      CellExtent cell = CellExtent::point,
+                                      Averaging averaging = Averaging::in_db) {
+    Method method;
+    method.interpolation = interpolation;
+    method.cell = cell;
+    method.averaging = averaging;
+    return method;
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,19 @@
+// tests/grid/quad.h -- floats of 113 bits, for closed forms that cancel in double.
+//
+// The functions are those of libquadmath. They are declared here because clang lacks its header.
+#pragma once
+
+__extension__ typedef __float128 Quad;
+
+extern "C" {
+Quad acosq(Quad);
+Quad asinq(Quad);
+Quad atan2q(Quad, Quad);
+Quad coshq(Quad);
+Quad cosq(Quad);
+Quad expq(Quad);
+Quad fabsq(Quad);
+Quad sinhq(Quad);
+Quad sinq(Quad);
+Quad sqrtq(Quad);
+}
