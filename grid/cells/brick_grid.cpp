@@ -9,6 +9,7 @@
 #include "base/checksum.h"
 #include "base/floating_point.h"
 #include "base/parallel.h"
+#include "grid/cells/nearest_code.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -19,13 +20,7 @@ constexpr int pieces_a_thread = 4;
 // Returns the nearest code. A value beyond the range of codes gets the code at that end and is
 // counted.
 std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
-    const double steps =
-        (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
-        static_cast<double>(quantization.step);
-    // Adding 2^52 rounds to the nearest whole number (halves to the even one), because numbers
-    // above 2^52 have no fraction.
-    constexpr double no_fraction = 0x1.8p52;
-    const double code = steps + no_fraction - no_fraction + first_value_code;
+    const double code = nearest_code(value, quantization);
     if (is_within<double>(code, first_value_code, quantization.largest_code())) {
         return static_cast<std::uint16_t>(code);
     }
@@ -362,8 +357,7 @@ void BricksWriter::add_states(std::size_t brick, std::span<const std::byte> stat
 }
 
 Grid to_dense(const BrickView& view) {
-    Grid grid;
-    grid.spec = *view.spec;
+    Grid grid{.spec = *view.spec};
     grid.values.resize(grid.spec.cell_count());
     grid.status.resize(grid.spec.cell_count());
     for (int iy = 0; iy < grid.spec.ny; ++iy) {

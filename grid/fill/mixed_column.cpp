@@ -17,12 +17,6 @@ Mixture of_one(const BeamMixture& beam, Blending blending) {
     return mixture;
 }
 
-Mixture unseen() {
-    Mixture mixture;
-    mixture.add_unseen(1);
-    return mixture;
-}
-
 // The beams [first, end), which have no lost cut between them.
 struct Run {
     std::size_t first, end;
@@ -166,7 +160,7 @@ Mixture MixedColumn::outside(float height_m) {
     const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
     const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;
     const BeamMixture* const alone = beam_alone(below, above, height_m);
-    if (alone == nullptr) return unseen();
+    if (alone == nullptr) return Mixture::of_unseen();
     const std::size_t nearest = alone == below ? above_ - 1 : above_;
     if (interpolation_ == Interpolation::beam_weighted)
         return by_pattern(nearest, height_m, beam_width_deg_);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/cells/nearest_code.h"
 #include "grid/sweep/sweep_stack.h"
 
 namespace stormcellar::grid {
@@ -20,14 +21,8 @@ std::size_t cell_in_brick(int x, int y, int z) {
 }
 
 // Returns the nearest code. A value beyond the range of codes gets the code at that end.
-std::uint16_t nearest_code(float value, const Quantization& quantization) {
-    const double steps =
-        (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
-        static_cast<double>(quantization.step);
-    // Adding 2^52 rounds to the nearest whole number (halves to the even one), because numbers
-    // above 2^52 have no fraction.
-    constexpr double no_fraction = 0x1.8p52;
-    const double code = steps + no_fraction - no_fraction + first_value_code;
+std::uint16_t clamped_code(float value, const Quantization& quantization) {
+    const double code = nearest_code(value, quantization);
     return static_cast<std::uint16_t>(std::clamp(code, static_cast<double>(first_value_code),
                                                  static_cast<double>(quantization.largest_code())));
 }
@@ -231,7 +226,7 @@ float InstantBrick::weight_of_after(std::size_t cell) const {
 
 std::uint16_t InstantBrick::code_of(const CellResult& cell) const {
     if (cell.status != CellStatus::value) return static_cast<std::uint16_t>(cell.status);
-    return nearest_code(cell.value, maker_.ends_[0].timed.view.quantization);
+    return clamped_code(cell.value, maker_.ends_[0].timed.view.quantization);
 }
 
 void InstantBrick::write(int bz, BricksWriter& writer) {

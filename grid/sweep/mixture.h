@@ -70,6 +70,11 @@ template <bool circular>
 // are taken.
 class Mixture {
   public:
+    [[nodiscard]] static Mixture of_unseen() {
+        Mixture mixture;
+        mixture.add_unseen(1);
+        return mixture;
+    }
     void refer_to(const Sample& sample) {
         reference_ = sample.value;
         half_period_ = sample.half_period;

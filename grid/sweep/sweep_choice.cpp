@@ -64,7 +64,8 @@ bool has_angles(const level2::Radial& radial) {
            is_within(radial.elevation_deg, lowest_elevation_deg, highest_elevation_deg);
 }
 
-float median(std::vector<float> values) {
+template <class T>
+T median(std::vector<T> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -100,9 +101,7 @@ std::optional<UtcTime> median_time(const level2::Sweep& sweep,
         if (level2::is_plausible(time)) times.push_back(time);
     }
     if (times.empty()) return std::nullopt;
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    return *middle;
+    return median(std::move(times));
 }
 
 double covered_by(const level2::Sweep& sweep, std::span<const std::uint32_t> radials) {

@@ -12,12 +12,6 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-Mixture unseen() {
-    Mixture mixture;
-    mixture.add_unseen(1);
-    return mixture;
-}
-
 // Narrows [from, to] to the part where |at_zero + slope * t| is at most one half.
 void narrow(float at_zero, float slope, float& from, float& to) {
     if (slope == 0) {
@@ -40,7 +34,7 @@ Mixture nearest_gate(const PolarSweep& sweep, float azimuth_deg, ArcPlace place)
 
 Mixture four_gates(const PolarSweep& sweep, float azimuth_deg, ArcPlace place) {
     const AzimuthTable::Bracket radials = sweep.azimuths().bracket(azimuth_deg);
-    if (radials.nearest == AzimuthTable::none) return unseen();
+    if (radials.nearest == AzimuthTable::none) return Mixture::of_unseen();
     Mixture mixture;
     sweep.gates().add_along_radial(radials.nearest, place, 1 - radials.other_weight, mixture);
     if (radials.other != AzimuthTable::none) {
@@ -69,7 +63,7 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
         radials[count++] = {position, weight};
         total += weight;
     });
-    if (count == 0) return unseen();
+    if (count == 0) return Mixture::of_unseen();
     Mixture mixture;
     // All radials may be where the pattern is 0. Then only the first one counts, which is the
     // nearest.
