@@ -24,56 +24,47 @@ Bytes mutate_bytes(const Bytes& bytes, std::size_t most, Random&, const MutateBy
     return mutate(bytes, most);
 }
 
+struct FuzzCase {
+    const char* name;
+    std::vector<Seed> (*seeds)();
+    int changes = 0;
+    void (*check)(std::span<const std::byte> bytes);
+    Bytes (*mutate)(const Bytes& bytes, std::size_t most, Random& random,
+                    const MutateBytes& mutate) = mutate_bytes;
+};
+class Fuzz : public ::testing::TestWithParam<FuzzCase> {};
+
 // Checks each seed, and then mutates it more and more.
-template <class Check, class Mutate>
-void check_seeds(const std::vector<Seed>& seeds, int changes, Check check, Mutate mutate) {
-    for (const Seed& seed : seeds) {
-        ASSERT_NO_THROW(check(seed.bytes)) << seed.name;
+TEST_P(Fuzz, PropertyHolds) {
+    const FuzzCase& fuzzed = GetParam();
+    for (const Seed& seed : fuzzed.seeds()) {
+        ASSERT_NO_THROW(fuzzed.check(seed.bytes)) << seed.name;
         Random random(7);
         const MutateBytes byte = [&](Bytes bytes, std::size_t most) {
             return change_a_byte(std::move(bytes), most, random);
         };
         Bytes changed = seed.bytes;
-        for (int i = 0; i < changes; ++i) {
+        for (int i = 0; i < fuzzed.changes; ++i) {
             if (i % 10 == 0) changed = seed.bytes;
-            changed = mutate(changed, most_bytes, random, byte);
+            changed = fuzzed.mutate(changed, most_bytes, random, byte);
             ASSERT_LE(changed.size(), most_bytes);
-            ASSERT_NO_THROW(check(changed)) << seed.name << ", change " << i;
+            ASSERT_NO_THROW(fuzzed.check(changed)) << seed.name << ", change " << i;
         }
     }
 }
 
-TEST(Fuzz, Container) {
-    check_seeds(container_seeds(), 50, check_container, mutate_container);
-}
-
-TEST(Fuzz, Live) {
-    check_seeds(live_seeds(), 100, check_live, mutate_live);
-}
-
-TEST(Fuzz, Messages) {
-    check_seeds(messages_seeds(), 200, check_messages, mutate_messages);
-}
-
-TEST(Fuzz, Compress) {
-    check_seeds(compress_seeds(), 200, check_compress, mutate_bytes);
-}
-
-TEST(Fuzz, Archive) {
-    check_seeds(archive_seeds(), 200, check_archive, mutate_bytes);
-}
-
-TEST(Fuzz, Bunzip) {
-    check_seeds(bunzip_seeds(), 50, check_bunzip, mutate_bytes);
-}
-
-TEST(Fuzz, GridFile) {
-    check_seeds(grid_file_seeds(), 300, check_grid_file, mutate_grid_file);
-}
-
-TEST(Fuzz, Request) {
-    check_seeds(request_seeds(), 2000, check_request, mutate_bytes);
-}
+constexpr FuzzCase cases[] = {
+    {"Container", container_seeds, 50, check_container, mutate_container},
+    {"Live", live_seeds, 100, check_live, mutate_live},
+    {"Messages", messages_seeds, 200, check_messages, mutate_messages},
+    {"Compress", compress_seeds, 200, check_compress},
+    {"Archive", archive_seeds, 200, check_archive},
+    {"Bunzip", bunzip_seeds, 50, check_bunzip},
+    {"GridFile", grid_file_seeds, 300, check_grid_file, mutate_grid_file},
+    {"Request", request_seeds, 2000, check_request},
+};
+INSTANTIATE_TEST_SUITE_P(Each, Fuzz, ::testing::ValuesIn(cases),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace stormcellar::fuzz

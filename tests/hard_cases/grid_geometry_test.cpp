@@ -37,9 +37,7 @@ TEST_P(EveryStratum, ACellAtAGatesCentreHoldsTheGate) {
     plan.code = [](int radial, int gate) {
         return static_cast<std::uint16_t>(100 + radial % 25 * 2000 + gate);
     };
-    GridCase given;
-    given.volume = make_volume({plan});
-    given.site = site;
+    GridCase given{.volume = make_volume({plan}), .site = site};
     const BeamGeometry beam(site.latitude_deg, site.altitude_m);
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     int compared = 0;

@@ -238,8 +238,7 @@ TEST(GateSpacingZeroOrLess, IsNoSweep) {
         given.volume.sweeps[0].moments[0].gate_spacing_m = spacing_m;
         for (const Method& method : all_methods()) {
             const auto geometry = make_column_geometry(given.site, given.spec);
-            GridderOptions options;
-            options.method = method;
+            GridderOptions options{.method = method};
             const auto grid = make_grid(given.volume, given.site, **geometry, options);
             if (!grid) continue;  // no sweep is left, which is allowed
             EXPECT_EQ(count_of(*grid, CellStatus::not_seen),

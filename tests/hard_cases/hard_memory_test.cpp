@@ -121,9 +121,7 @@ Bytes file_of(const Bytes& record, unsigned records) {
 }
 
 DecodeOptions with_threads(int threads) {
-    DecodeOptions options;
-    options.threads = threads;
-    return options;
+    return DecodeOptions{.threads = threads};
 }
 
 class MemoryByThreads : public ::testing::TestWithParam<int> {};

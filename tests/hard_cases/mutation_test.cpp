@@ -121,7 +121,10 @@ class MutationTest : public ::testing::TestWithParam<std::string> {
     void TearDown() override { alarm(0); }
 
     template <class Make>
-    void check(Oracle& oracle, std::uint64_t mutants, Make make) {
+    void check(const UnpackedVolume& part, const wire::Bytes& file, std::uint64_t mutants,
+               Make make) {
+        Oracle oracle(file);
+        ASSERT_EQ(oracle.radials(), part.radials);
         // Every volume has mutants of its own.
         const std::string& name = GetParam();
         const std::uint64_t first = crc32(std::as_bytes(std::span{name})) % 1000;
@@ -147,27 +150,20 @@ class MutationTest : public ::testing::TestWithParam<std::string> {
 TEST_P(MutationTest, Containers) {
     if (volume_.records.empty()) {
         const UnpackedVolume part = short_stream(volume_, size_.stream_bytes);
-        Oracle oracle(part.plain_file());
-        ASSERT_EQ(oracle.radials(), part.radials);
-        check(oracle, size_.container_mutants,
+        check(part, part.plain_file(), size_.container_mutants,
               [&](std::uint64_t number) { return gzip_mutant(part, number); });
         return;
     }
     const UnpackedVolume part = short_records(volume_, size_.record_bytes);
-    const ContainerMutants mutants(part);
-    Oracle oracle(part.ldm_file());
-    ASSERT_EQ(oracle.radials(), part.radials);
-    check(oracle, size_.container_mutants,
-          [&](std::uint64_t number) { return mutants.make(number); });
+    check(
+        part, part.ldm_file(), size_.container_mutants,
+        [mutants = ContainerMutants(part)](std::uint64_t number) { return mutants.make(number); });
 }
 
 TEST_P(MutationTest, Messages) {
     const UnpackedVolume part = short_stream(volume_, size_.stream_bytes);
-    const MessageMutants mutants(part);
-    Oracle oracle(part.plain_file());
-    ASSERT_EQ(oracle.radials(), part.radials);
-    check(oracle, size_.message_mutants,
-          [&](std::uint64_t number) { return mutants.make(number); });
+    check(part, part.plain_file(), size_.message_mutants,
+          [mutants = MessageMutants(part)](std::uint64_t number) { return mutants.make(number); });
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MutationTest, ::testing::ValuesIn(names()),

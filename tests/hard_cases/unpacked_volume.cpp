@@ -4,7 +4,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include <bzlib.h>
 #include <zlib.h>
 
 #include "base/byte_reader.h"
@@ -50,23 +49,6 @@ Bytes gunzip(std::span<const std::byte> bytes) {
     return out;
 }
 
-Bytes bunzip(std::span<const std::byte> stream) {
-    Bytes out(std::size_t{4} << 20);
-    Bytes in{stream.begin(), stream.end()};
-    for (;;) {
-        auto size = static_cast<unsigned>(out.size());
-        const int code = BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(out.data()), &size,
-                                                    reinterpret_cast<char*>(in.data()),
-                                                    static_cast<unsigned>(in.size()), 0, 0);
-        if (code == BZ_OK) {
-            out.resize(size);
-            return out;
-        }
-        if (code != BZ_OUTBUFF_FULL) throw std::runtime_error("not a bzip2 stream");
-        out.resize(2 * out.size());
-    }
-}
-
 std::size_t length_of(std::span<const std::byte> message) {
     if (is_header(message)) return header_bytes;
     if (message.size() < message_header_bytes) return message.size();
@@ -100,7 +82,7 @@ std::size_t append_messages(UnpackedVolume& volume, std::size_t from) {
 void append_record(UnpackedVolume& volume, std::span<const std::byte> record) {
     const std::size_t from = volume.stream.size();
     const bool further_header = is_header(record);
-    const Bytes messages = further_header ? Bytes{} : bunzip(record.subspan(4));
+    const Bytes messages = further_header ? Bytes{} : wire::unpack_bzip2(record.subspan(4));
     volume.stream.insert(volume.stream.end(), messages.begin(), messages.end());
     volume.records.emplace_back(record.begin(), record.end());
     volume.radials_of_record.push_back(append_messages(volume, from));
@@ -143,7 +125,7 @@ Bytes UnpackedVolume::plain_file() const {
 
 UnpackedVolume unpack(std::span<const std::byte> file, std::optional<std::uint64_t> stream_limit) {
     if (begins_with(file, "\x1F\x8B")) return unpack(gunzip(file), stream_limit);
-    if (begins_with(file, "BZh")) return unpack(bunzip(file), stream_limit);
+    if (begins_with(file, "BZh")) return unpack(wire::unpack_bzip2(file), stream_limit);
     UnpackedVolume volume;
     if (is_header(file)) {
         volume.header.assign(file.begin(), file.begin() + header_bytes);
@@ -160,8 +142,7 @@ UnpackedVolume unpack(std::span<const std::byte> file, std::optional<std::uint64
 }
 
 UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes) {
-    UnpackedVolume part;
-    part.header = whole.header;
+    UnpackedVolume part{.header = whole.header};
     const Bytes& last = whole.records.back();
     std::size_t bytes = last.size();
     for (std::size_t i = 0; i + 1 < whole.records.size(); ++i) {
@@ -175,8 +156,7 @@ UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes
 
 UnpackedVolume short_stream(const UnpackedVolume& whole, std::size_t most_bytes) {
     constexpr std::size_t last_messages = 10;
-    UnpackedVolume part;
-    part.header = whole.header;
+    UnpackedVolume part{.header = whole.header};
     const std::size_t count = whole.messages.size();
     const std::size_t tail = count - std::min(count, last_messages);
     for (std::size_t i = 0; i < count; ++i) {

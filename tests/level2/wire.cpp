@@ -183,16 +183,20 @@ Bytes bzip2(std::span<const std::byte> bytes, int level) {
 }
 
 Bytes unpack_bzip2(std::span<const std::byte> bytes) {
-    unsigned size = 64U << 20U;
-    Bytes out(size);
+    Bytes out(std::size_t{4} << 20);
     Bytes in{bytes.begin(), bytes.end()};
-    if (BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(out.data()), &size,
-                                   reinterpret_cast<char*>(in.data()),
-                                   static_cast<unsigned>(in.size()), 0, 0) != BZ_OK) {
-        throw std::runtime_error("not a bzip2 stream");
+    for (;;) {
+        auto size = static_cast<unsigned>(out.size());
+        const int code = BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(out.data()), &size,
+                                                    reinterpret_cast<char*>(in.data()),
+                                                    static_cast<unsigned>(in.size()), 0, 0);
+        if (code == BZ_OK) {
+            out.resize(size);
+            return out;
+        }
+        if (code != BZ_OUTBUFF_FULL) throw std::runtime_error("not a bzip2 stream");
+        out.resize(2 * out.size());
     }
-    out.resize(size);
-    return out;
 }
 
 Bytes ldm_record(std::span<const std::byte> messages, bool last, int level) {

@@ -65,7 +65,7 @@ Bytes message_1(const Ray& ray);
 Bytes vcp_frame(unsigned pattern, std::span<const float> elevations_deg);
 
 Bytes bzip2(std::span<const std::byte> bytes, int level = 9);
-Bytes unpack_bzip2(std::span<const std::byte> bytes);  // one stream of at most 64 MiB
+Bytes unpack_bzip2(std::span<const std::byte> bytes);  // one stream
 Bytes ldm_record(std::span<const std::byte> messages, bool last = false, int level = 9);
 Bytes gzip(std::span<const std::byte> bytes);
 // Compresses with Unix compress: codes of at most `most_width` bits; the table is cleared after
