@@ -35,9 +35,7 @@ std::optional<ErrorSummary> summarize_weighted(std::vector<Weighted> list) {
     if (list.empty()) return std::nullopt;
     std::sort(list.begin(), list.end(),
               [](const Weighted& a, const Weighted& b) { return a.magnitude < b.magnitude; });
-    ErrorSummary summary;
-    summary.count = list.size();
-    summary.max = list.back().magnitude;
+    ErrorSummary summary{.count = list.size(), .max = list.back().magnitude};
     double total = 0;
     double squares = 0;
     for (const Weighted& entry : list) {

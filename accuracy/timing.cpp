@@ -8,8 +8,7 @@ namespace stormcellar::accuracy {
 namespace {
 
 Timing summarize_runs(const std::vector<double>& runs) {
-    Timing timing;
-    timing.first_s = runs.front();
+    Timing timing{.first_s = runs.front()};
     std::vector<double> later(runs.begin() + (runs.size() > 1 ? 1 : 0), runs.end());
     std::sort(later.begin(), later.end());
     timing.least_s = later.front();

@@ -24,8 +24,7 @@ double DetectionLimit::at(double range_m) const {
 
 DetectionLimit detection_limit(const level2::Radial& radial, const level2::SweepMoment& moment,
                                bool is_tdwr) {
-    DetectionLimit limit;
-    limit.at_1km_dbz = is_tdwr ? tdwr_limit_at_1km_dbz : wsr88d_limit_at_1km_dbz;
+    DetectionLimit limit{.at_1km_dbz = is_tdwr ? tdwr_limit_at_1km_dbz : wsr88d_limit_at_1km_dbz};
     const bool calibrated =
         radial.calibration_dbz &&
         is_within(*radial.calibration_dbz, weakest_calibration_dbz, strongest_calibration_dbz);

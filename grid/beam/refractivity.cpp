@@ -51,8 +51,7 @@ RefractivityProfile RefractivityProfile::standard(double latitude_deg) {
     air.n_units = reference_n_units;
     air.gradient_per_m = -fall_per_m;
     air.top_m = reference_n_units / fall_per_m;
-    RefractivityLayer vacuum;
-    vacuum.from_m = air.top_m;
+    RefractivityLayer vacuum{.from_m = air.top_m};
     return {{air, vacuum}, "standard gradient"};
 }
 
@@ -68,9 +67,7 @@ Result<RefractivityProfile> RefractivityProfile::exponential(double n_units, dou
     if (!is_within(scale_m, 1000.0, 100'000.0)) {
         return fail(ErrorCode::bad_argument, "scale height {} m is not from 1 to 100 km", scale_m);
     }
-    RefractivityLayer layer;
-    layer.n_units = n_units;
-    layer.rate_per_m = -1 / scale_m;
+    RefractivityLayer layer{.n_units = n_units, .rate_per_m = -1 / scale_m};
     return RefractivityProfile({layer},
                                fmt::format("exponential N0 {:g} H {:g} m", n_units, scale_m));
 }
@@ -88,9 +85,7 @@ Result<RefractivityProfile> RefractivityProfile::from_levels(
     std::vector<RefractivityLayer> layers;
     layers.reserve(levels.size() + 1);
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        RefractivityLayer layer;
-        layer.from_m = levels[i].height_m;
-        layer.n_units = levels[i].n_units;
+        RefractivityLayer layer{.from_m = levels[i].height_m, .n_units = levels[i].n_units};
         if (i + 1 < levels.size()) {
             layer.top_m = levels[i + 1].height_m;
             layer.rate_per_m =

@@ -357,7 +357,8 @@ void BricksWriter::add_states(std::size_t brick, std::span<const std::byte> stat
 }
 
 Grid to_dense(const BrickView& view) {
-    Grid grid{.spec = *view.spec};
+    Grid grid;
+    grid.spec = *view.spec;
     grid.values.resize(grid.spec.cell_count());
     grid.status.resize(grid.spec.cell_count());
     for (int iy = 0; iy < grid.spec.ny; ++iy) {

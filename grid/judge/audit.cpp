@@ -128,8 +128,7 @@ class KindScan {
         const double cosine = std::cos(azimuth);
         const double offset_deg = static_cast<double>(pointing.elevation_deg) - elevation_deg_;
         const DetectionLimit limit = detection_limit(pointing, moment_, scan_.is_tdwr);
-        Gate gate;
-        gate.period = 2 * half_period_of(scan_.moment, pointing.nyquist_mps);
+        Gate gate{.period = 2 * half_period_of(scan_.moment, pointing.nyquist_mps)};
         GridSampler::Corners corners;
         for (std::int32_t number = 0; number < moment_.gate_counts[radial]; number += gate_step_) {
             const double range_m = moment_.range_m(number);

@@ -97,17 +97,14 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
     for (const TimeMethodFacts& facts : time_method_facts) {
         const TimeMethod method = facts.method;
         const auto start = Clock::now();
-        InstantOptions options;
-        options.instant = held_out.middle;
-        options.method = method;
+        InstantOptions options{.instant = held_out.middle, .method = method};
         // The held-out volume also took minutes, so its cells are compared without sweep times:
         // they are as late in their volume as the cells of the other two.
         options.sweep_times = false;
         options.threads = threads;
         std::optional<MotionField> motion;
         if (method == TimeMethod::advected) {
-            MotionOptions motion_options;
-            motion_options.threads = threads;
+            MotionOptions motion_options{.threads = threads};
             auto found =
                 estimate_motion(before.view, after.view,
                                 seconds_between(before.middle, after.middle), motion_options);

@@ -290,9 +290,7 @@ OracleCell OracleColumn::decide(const std::vector<WeightedGate>& gates) const {
     for (const WeightedGate& gate : gates)
         weight[static_cast<std::size_t>(gate.status)] += gate.weight;
     const auto [u, n, f, v] = weight;
-    OracleCell cell;
-    cell.unseen = u;
-    cell.margin = std::abs(u - 0.5);
+    OracleCell cell{.unseen = u, .margin = std::abs(u - 0.5)};
     if (u > 0.5) return cell;
     cell.margin = std::min({cell.margin, std::abs(f - std::max(v, n))});
     if (f > v && f > n) {

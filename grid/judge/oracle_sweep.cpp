@@ -106,8 +106,7 @@ double OracleSweep::elevation_deg(double azimuth_deg, bool& doubtful) const {
 
 WeightedGate OracleSweep::gate(const Radial& radial, std::int32_t number, double weight) const {
     const level2::SweepMoment& kind = *radial.kind;
-    WeightedGate gate;
-    gate.weight = weight;
+    WeightedGate gate{.weight = weight};
     if (number < 0 || kind.range_m(number) < 0) return gate;
     const level2::Radial& header = sweep_.radials[radial.index];
     switch (kind.status(radial.index, number)) {

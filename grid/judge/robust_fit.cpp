@@ -128,8 +128,7 @@ std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought, std::size
         if (unclear != nullptr) *unclear = 0;
         return std::nullopt;
     }
-    Fit made;
-    made.deviation = deviation_of(rows);
+    Fit made{.deviation = deviation_of(rows)};
     // If half the residuals are exact, all others count as outliers; the smallest deviation keeps
     // them.
     const double deviation = std::max(made.deviation, 1e-9);

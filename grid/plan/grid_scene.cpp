@@ -211,8 +211,8 @@ Result<SampledCells> GridScene::evaluate(const SceneChoice& choice, const Column
 SampledErrors GridScene::compare(const SampledCells& cells, const SampledCells& exact,
                                  const ColumnSample& sample) const {
     SampledErrors errors;
-    errors.is_census = sample.is_census;
     errors.most_weight = sample.most_weight;
+    errors.is_census = sample.is_census;
     const std::size_t nz = spec_.levels_m.size();
     const ColumnGeometry& geometry = *geometries_.at(FrameKind::table);
     CellCircles circles(*volume_, chosen_, site_, spec_, options_.moment);

@@ -79,7 +79,8 @@ SweepStack make_stack(const level2::Volume& volume, const SitePosition& site,
         farthest_m = std::max(farthest_m, greatest_arc_m(volume.sweeps[sweep.sweep_index], sweep,
                                                          options.moment, beam));
     }
-    SweepStack stack{.beam_width_deg = static_cast<float>(options.beam_width_deg)};
+    SweepStack stack;
+    stack.beam_width_deg = static_cast<float>(options.beam_width_deg);
     stack.table_size =
         3 + static_cast<std::size_t>(std::min(farthest_m, farthest_arc_m) / ArcTable::step_m);
     const PolarSweepOptions sweep_options{

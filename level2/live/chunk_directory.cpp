@@ -81,8 +81,7 @@ Result<std::vector<ChunkSet>> chunk_sets(const fs::path& directory) {
 Result<Decoded> decode_chunks(const std::vector<fs::path>& chunks, const DecodeOptions& options) {
     if (chunks.empty()) return fail(ErrorCode::empty, "no chunk is named");
     const fs::path directory = chunks.front().parent_path();
-    LiveOptions live;
-    live.decode = options;
+    LiveOptions live{.decode = options};
     if (live.decode.fallback_station.empty()) live.decode.fallback_station = station_of(directory);
     LiveVolume volume{live};
     for (const fs::path& path : chunks) {

@@ -51,8 +51,7 @@ level2::wire::Bytes bytes_of(const grid::Grid& grid, int code_bytes,
                              cache::Packing packing = cache::Packing::none) {
     const fs::path path =
         fs::temp_directory_path() / ("stormcellar-seed-" + std::to_string(::getpid()) + ".scg");
-    grid::Quantization quantization;
-    quantization.code_bytes = code_bytes;
+    grid::Quantization quantization{.code_bytes = code_bytes};
     const auto bricks = grid::BrickGrid::from(grid, quantization);
     const auto written = cache::write_grid_file(real_file_system(), path, cache::describe(grid),
                                                 bricks.view(), packing);

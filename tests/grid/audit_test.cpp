@@ -10,6 +10,7 @@
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/column_geometry.h"
 #include "tests/grid/real_volume.h"
+#include "tests/grid/square_spec.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {
@@ -25,8 +26,7 @@ double field_dbz(double x_m, double y_m, double z_m) {
 }
 
 GridSpec small_spec() {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    spec.nx = spec.ny = 160;
+    GridSpec spec = square_spec(site.latitude_deg, site.longitude_deg, 160);
     spec.levels_m.resize(20);
     return spec;
 }
@@ -154,8 +154,7 @@ TEST(Audit, VelocitiesDifferByTheShorterWayRound) {
 TEST(Audit, WhatItCannotDoIsAnError) {
     const BrickGrid grid = grid_of_field(small_spec());
     const level2::Volume volume = observed();
-    AuditOptions options;
-    options.range_step_m = 0;
+    AuditOptions options{.range_step_m = 0};
     EXPECT_EQ(audit(grid.view(), volume, site, {}, options).error().code, ErrorCode::bad_argument);
     options = {};
     options.azimuth_step_deg = std::numeric_limits<double>::quiet_NaN();
@@ -234,9 +233,7 @@ TEST(Audit, ARealVolumeTurnedByHalfADegreeShowsIt) {
     const GridSpec spec = default_spec(of.site.latitude_deg, of.site.longitude_deg);
     const BrickGrid grid = gridded(of, spec, {});
     const auto straight = audit(grid.view(), of.volume, of.site, {});
-    change_radials(of.volume, [&](level2::Radial& radial) {
-        radial.azimuth_deg = std::fmod(radial.azimuth_deg + 0.5F, 360.0F);
-    });
+    turn_clockwise(of.volume, 0.5F);
     const auto turned = audit(grid.view(), of.volume, of.site, {});
     ASSERT_TRUE(straight && turned);
     for (const std::size_t range : {1U, 2U}) {

@@ -11,8 +11,7 @@ const SitePosition centre{"KTLX", 35, -97, 0};
 
 // Sweeps at 0.5 and 2.5 degrees, whose heights 60 km away are about 0.7 and 2.8 km.
 level2::Volume volume_of(level2::Moment moment, float lower_mps, float upper_mps) {
-    SweepPlan lower;
-    lower.moment = moment;
+    SweepPlan lower{.moment = moment};
     SweepPlan upper = lower;
     upper.elevation_deg = 2.5;
     auto volume = make_volume({lower, upper});

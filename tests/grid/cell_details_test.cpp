@@ -14,6 +14,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "tests/grid/real_volume.h"
 #include "tests/grid/slow_details.h"
+#include "tests/grid/square_spec.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {
@@ -45,13 +46,6 @@ Result<Grid> grid_of(const level2::Volume& volume, const SitePosition& site, con
     const auto geometry = make_column_geometry(site, spec);
     if (!geometry) return pass_on(geometry);
     return make_grid(volume, site, **geometry, options);
-}
-
-GridSpec square_about(const SitePosition& site, int side, double spacing_m) {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    spec.nx = spec.ny = side;
-    spec.spacing_m = spacing_m;
-    return spec;
 }
 
 const SitePosition made_site{"XXXX", 44, 11, 300};
@@ -142,9 +136,7 @@ TEST_P(RealDetails, AreWhatTheirDefinitionsSay) {
     const Tally near = compare(volume, site, spec, asking(everything()), 13);
     EXPECT_GT(near.compared, 3000);
     EXPECT_EQ(near.undated, 0);
-    spec = default_spec(site.latitude_deg + 1.2, site.longitude_deg - 1.7);
-    spec.spacing_m = 6000;
-    spec.nx = spec.ny = 120;
+    spec = square_spec(site.latitude_deg + 1.2, site.longitude_deg - 1.7, 120, 6000);
     GridderOptions options = asking(everything(), Interpolation::nearest);
     options.frame_time = *volume.start_time() + std::chrono::milliseconds(754321);
     options.threads = 2;
@@ -170,9 +162,7 @@ void shake_elevations(level2::Volume& volume, unsigned most, std::mt19937& rando
 // by less than would make sweeps change places.
 level2::Volume made_volume() {
     std::mt19937 random(5);
-    SweepPlan like;
-    like.first_gate_m = -375;
-    like.first_azimuth_deg = 200.5;
+    SweepPlan like{.first_azimuth_deg = 200.5, .first_gate_m = -375};
     std::vector<SweepPlan> plans = plans_at({-0.2, 0.5, 1.4, 2.4, 4.3, 9.9, 19.5}, like);
     for (SweepPlan& plan : plans)
         plan.gates = 445 - 45 * plan.cut;
@@ -185,7 +175,7 @@ level2::Volume made_volume() {
 }
 
 TEST(CellDetails, OfMadeSweeps) {
-    const GridSpec spec = square_about(made_site, 150, 6100);
+    const GridSpec spec = square_spec(made_site.latitude_deg, made_site.longitude_deg, 150, 6100);
     const level2::Volume volume = made_volume();
     const Tally linear = compare(volume, made_site, spec, asking(everything()), 3);
     EXPECT_GT(linear.partly_seen, 300);
@@ -198,9 +188,7 @@ TEST(CellDetails, OfMadeSweeps) {
 
 // From high and low sites all over the earth, elevations from -5 to 60 degrees, ranges to 470 km.
 TEST(CellDetails, OfSweepsFromSitesAllOverTheEarth) {
-    SweepPlan like;
-    like.first_gate_m = -1;
-    like.gates = 471;
+    SweepPlan like{.gates = 471, .first_gate_m = -1};
     level2::Volume volume =
         make_volume(plans_at({-5.0, -0.5, 0.0, 0.5, 1.5, 9.9, 19.5, 60.0}, like));
     std::mt19937 random(6);
@@ -208,7 +196,7 @@ TEST(CellDetails, OfSweepsFromSitesAllOverTheEarth) {
     for (const SitePosition& site :
          {SitePosition{"XXXX", 78, 15.5, -100}, SitePosition{"XXXX", 0, 180, 4000},
           SitePosition{"XXXX", -71, -180, 300}}) {
-        const GridSpec spec = square_about(site, 68, 13'700);
+        const GridSpec spec = square_spec(site.latitude_deg, site.longitude_deg, 68, 13'700);
         const Tally tally = compare(volume, site, spec, asking(everything()), 4);
         EXPECT_GT(tally.compared, 1000) << site.latitude_deg;
     }
@@ -243,7 +231,7 @@ TEST(CellDetails, ACellAtAGatesCentreIsAtTheGate) {
 }
 
 TEST(CellDetails, OnlyWhatIsAskedForIsThere) {
-    const GridSpec spec = square_about(made_site, 31, 20e3);
+    const GridSpec spec = square_spec(made_site.latitude_deg, made_site.longitude_deg, 31, 20e3);
     const level2::Volume volume = made_volume();
     const auto nothing = grid_of(volume, made_site, spec, asking({}));
     const auto all = grid_of(volume, made_site, spec, asking(everything()));
@@ -269,7 +257,7 @@ TEST(CellDetails, OnlyWhatIsAskedForIsThere) {
 }
 
 TEST(CellDetails, WithoutATimeThereAreNoAges) {
-    const GridSpec spec = square_about(made_site, 21, 20e3);
+    const GridSpec spec = square_spec(made_site.latitude_deg, made_site.longitude_deg, 21, 20e3);
     level2::Volume volume = made_volume();
     change_radials(
         volume, [&](level2::Radial& radial) { radial.time = UtcTime{} - std::chrono::hours(24); });
@@ -287,7 +275,7 @@ TEST(CellDetails, WithoutATimeThereAreNoAges) {
 class MixedWeights : public ::testing::TestWithParam<std::pair<Interpolation, CellExtent>> {};
 
 TEST_P(MixedWeights, AreTheShareThatWasSeen) {
-    const GridSpec spec = square_about(made_site, 130, 6100);
+    const GridSpec spec = square_spec(made_site.latitude_deg, made_site.longitude_deg, 130, 6100);
     const level2::Volume volume = made_volume();
     GridderOptions options = asking(everything(), GetParam().first);
     options.method.cell = GetParam().second;
@@ -338,7 +326,7 @@ TEST(FrameTime, OfAGridNamesTheSweepsThatItIsMadeOf) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume("chunks/L2D_230");
     const SitePosition site = site_of(volume);
-    const GridSpec spec = square_about(site, 100, 4000);
+    const GridSpec spec = square_spec(site.latitude_deg, site.longitude_deg, 100, 4000);
     DetailSet ages;
     ages.add(Detail::age);
     GridderOptions options = asking(ages);

@@ -8,6 +8,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/projection.h"
 #include "stormcellar/grid/site_frame.h"
+#include "tests/grid/square_spec.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -58,18 +59,14 @@ TEST(ColumnGeometry, CentredAtTheSite) {
 }
 
 TEST(ColumnGeometry, CentredElsewhere) {
-    GridSpec spec = default_spec(36.1, -96.2);
-    spec.nx = spec.ny = 100;
-    spec.spacing_m = 4000;
+    GridSpec spec = square_spec(36.1, -96.2, 100, 4000);
     expect_places(ktlx, spec);
 }
 
 TEST(ColumnGeometry, AtThePoleAndAcrossTheAntimeridian) {
-    GridSpec spec = default_spec(89.9, 10);
-    spec.nx = spec.ny = 40;
+    GridSpec spec = square_spec(89.9, 10, 40);
     expect_places({"XPOL", 89.5, 100, 0}, spec);
-    spec = default_spec(13.45, -179.9);
-    spec.nx = spec.ny = 40;
+    spec = square_spec(13.45, -179.9, 40);
     expect_places({"XANT", 13.45, 179.95, 80}, spec);
 }
 
@@ -79,11 +76,10 @@ TEST(ColumnGeometry, FromSitesAllOverTheEarth) {
          {SitePosition{"AA", 78, 15, -100}, SitePosition{"BB", 0, 180, 4000},
           SitePosition{"CC", 0.1, -180, 0}, SitePosition{"DD", -71, -179.99, 0}}) {
         for (const double spacing_m : {20.0, 9900.0}) {
-            GridSpec spec = default_spec(
+            GridSpec spec = square_spec(
                 from.latitude_deg + spacing_m / 20e3,
-                from.longitude_deg + (from.longitude_deg > 0 ? -1 : 1) * spacing_m / 20e3);
-            spec.nx = spec.ny = 60;
-            spec.spacing_m = spacing_m;
+                from.longitude_deg + (from.longitude_deg > 0 ? -1 : 1) * spacing_m / 20e3, 60,
+                spacing_m);
             expect_places(from, spec);
         }
     }

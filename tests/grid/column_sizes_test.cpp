@@ -8,6 +8,7 @@
 #include "stormcellar/accuracy/planner.h"
 #include "stormcellar/grid/gridder.h"
 #include "tests/grid/real_volume.h"
+#include "tests/grid/square_spec.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -35,9 +36,8 @@ class ColumnSizes : public ::testing::TestWithParam<std::size_t> {
         const SparseScene& sparse = sparse_scenes()[GetParam()];
         volume_ = real_volume(sparse.file);
         site_ = site_of(volume_);
-        spec_ = default_spec(site_.latitude_deg, site_.longitude_deg);
-        spec_.spacing_m = sparse.spacing_m;
-        spec_.nx = spec_.ny = static_cast<int>(300'000 / sparse.spacing_m);
+        spec_ = square_spec(site_.latitude_deg, site_.longitude_deg,
+                            static_cast<int>(300'000 / sparse.spacing_m), sparse.spacing_m);
         spec_.levels_m.clear();
         for (int level = 1; level <= 24; ++level)
             spec_.levels_m.push_back(500.0 * level);

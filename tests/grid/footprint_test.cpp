@@ -9,6 +9,7 @@
 
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/site_frame.h"
+#include "tests/grid/square_spec.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -131,9 +132,7 @@ TEST(Footprint, NeighboursLeaveAndShareLessThanAThousandthOfACell) {
 // The cell of a grid of one column is a square of its spacing, turned as the site sees it.
 TEST(Footprint, OfASingleColumnIsASquareOfItsSpacing) {
     const SitePosition site{"AA", 35, -97, 0};
-    GridSpec spec = default_spec(35.5, -96.2);
-    spec.nx = spec.ny = 1;
-    spec.spacing_m = 2000;
+    GridSpec spec = square_spec(35.5, -96.2, 1, 2000);
     const auto geometry = make_column_geometry(site, spec);
     ASSERT_TRUE(geometry);
     const Outline outline = outline_of(footprint_of(**geometry, 0, 0));

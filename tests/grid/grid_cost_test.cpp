@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "grid/plan/grid_effects.h"
+#include "tests/grid/square_spec.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {
@@ -27,9 +28,7 @@ level2::Volume half_volume(level2::Moment moment = level2::Moment::ref) {
 }
 
 GridScene scene_of(const level2::Volume& volume, int side, level2::Moment moment, int threads = 1) {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    spec.nx = spec.ny = side;
-    spec.spacing_m = 1000;
+    GridSpec spec = square_spec(site.latitude_deg, site.longitude_deg, side);
     SceneOptions options;
     options.moment = moment;
     options.threads = threads;

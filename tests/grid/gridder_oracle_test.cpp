@@ -13,6 +13,7 @@
 #include "stormcellar/grid/site_frame.h"
 #include "tests/grid/method_of.h"
 #include "tests/grid/real_volume.h"
+#include "tests/grid/square_spec.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/slow_down.h"
 
@@ -112,9 +113,7 @@ TEST_P(RealVolume, AgreesWithTheOracleFarFromTheSite) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume(std::string("volumes/") + GetParam());
     const SitePosition site = site_of(volume);
-    GridSpec spec = default_spec(site.latitude_deg + 1.2, site.longitude_deg - 1.7);
-    spec.spacing_m = 5000;
-    spec.nx = spec.ny = 100;
+    GridSpec spec = square_spec(site.latitude_deg + 1.2, site.longitude_deg - 1.7, 100, 5000);
     compare(volume, site, spec, {level2::Moment::ref, {}, 7});
 }
 
@@ -140,8 +139,7 @@ TEST_P(RealVolume, ACellAtAGatesCentreHoldsTheGate) {
         if (status == level2::GateStatus::no_data || point.height_m > 50e3) continue;
         const double azimuth_deg = header.azimuth_deg;
         const GeoPoint place = frame.to_geo({azimuth_deg, point.arc_m});
-        GridSpec spec = default_spec(place.latitude_deg, place.longitude_deg);
-        spec.nx = spec.ny = 1;
+        GridSpec spec = square_spec(place.latitude_deg, place.longitude_deg, 1);
         spec.levels_m = {point.height_m};
         const auto geometry = make_column_geometry(site, spec);
         const auto grid = make_grid(volume, site, **geometry, {});
@@ -171,9 +169,9 @@ TEST_P(EveryMethod, AgreesWithTheOracle) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume("volumes/KTLX19990503_235621.gz");
     const SitePosition site = site_of(volume);
-    GridSpec spec = default_spec(site.latitude_deg + 0.3, site.longitude_deg - 0.4);
-    spec.spacing_m = GetParam().cell == CellExtent::area ? 4000 : 1700;
-    spec.nx = spec.ny = GetParam().cell == CellExtent::area ? 80 : 200;
+    GridSpec spec = square_spec(site.latitude_deg + 0.3, site.longitude_deg - 0.4,
+                                GetParam().cell == CellExtent::area ? 80 : 200,
+                                GetParam().cell == CellExtent::area ? 4000 : 1700);
     const bool area = GetParam().cell == CellExtent::area;
     Comparison how{level2::Moment::ref, GetParam(),
                    (area ? 17 : 9) * (testing::slow_down > 1 ? 2 : 1)};
@@ -219,9 +217,7 @@ level2::Volume scattered_volume(level2::Moment moment) {
 
 TEST(GridderOracle, ScatteredStates) {
     const SitePosition site{"XXXX", 44, 11, 300};
-    GridSpec spec = default_spec(44, 11);
-    spec.spacing_m = 4100;
-    spec.nx = spec.ny = 130;
+    GridSpec spec = square_spec(44, 11, 130, 4100);
     for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::rho}) {
         const Tally tally = compare(scattered_volume(moment), site, spec, {moment, {}, 3});
         for (const int count : tally.states)
@@ -233,16 +229,13 @@ TEST(GridderOracle, ALostCut) {
     level2::Volume volume = scattered_volume(level2::Moment::ref);
     volume.vcp = 21;  // this pattern has 3.35 degrees too
     const SitePosition site{"XXXX", -33, 151, 10};
-    GridSpec spec = default_spec(-33, 151);
-    spec.spacing_m = 4100;
-    spec.nx = spec.ny = 100;
+    GridSpec spec = square_spec(-33, 151, 100, 4100);
     compare(volume, site, spec, {level2::Moment::ref, {}, 3});
 }
 
 TEST(GridderOracle, EveryProjectionOffItsSiteAndAcrossTheAntimeridian) {
     const SitePosition site{"XXXX", 52, 179.9, 300};
-    GridSpec spec = default_spec(52.5, -179.7);
-    spec.nx = spec.ny = 110;
+    GridSpec spec = square_spec(52.5, -179.7, 110);
     spec.projection = Projection::latitude_longitude;
     spec.spacing_m = 0;
     spec.spacing_deg = 0.041;

@@ -16,6 +16,7 @@
 #include "stormcellar/accuracy/planner.h"
 #include "stormcellar/grid/gridder.h"
 #include "tests/grid/real_volume.h"
+#include "tests/grid/square_spec.h"
 #include "tests/testing/forced_choice.h"
 #include "tests/testing/slow_down.h"
 
@@ -69,9 +70,8 @@ std::unique_ptr<PreparedScene> prepare(const HonestScene& honest) {
     auto made = std::make_unique<PreparedScene>();
     made->volume = real_volume(honest.file);
     made->site = site_of(made->volume);
-    made->spec = default_spec(made->site.latitude_deg, made->site.longitude_deg + honest.east_deg);
-    made->spec.nx = made->spec.ny = honest.side;
-    made->spec.spacing_m = honest.spacing_m;
+    made->spec = square_spec(made->site.latitude_deg, made->site.longitude_deg + honest.east_deg,
+                             honest.side, honest.spacing_m);
     made->budget = accuracy::parse_budget(honest.budget).value();
     made->chain = effects_of(honest.moment);
     auto scene = GridScene::make(made->volume, made->site, made->spec, {honest.moment});

@@ -8,11 +8,7 @@ namespace stormcellar::grid {
 [[nodiscard]] inline Method method_of(Interpolation interpolation,
                                       CellExtent cell = CellExtent::point,
                                       Averaging averaging = Averaging::in_db) {
-    Method method;
-    method.interpolation = interpolation;
-    method.cell = cell;
-    method.averaging = averaging;
-    return method;
+    return Method{.interpolation = interpolation, .cell = cell, .averaging = averaging};
 }
 
 }  // namespace stormcellar::grid

@@ -70,8 +70,7 @@ TEST(MosaicBits, EqualValuesStayWhatTheyAre) {
                          });
         }
         for (const Averaging averaging : {Averaging::in_db, Averaging::in_z}) {
-            MosaicOptions options;
-            options.averaging = averaging;
+            MosaicOptions options{.averaging = averaging};
             expect_merges_to_the_first(partials, options);
         }
     }

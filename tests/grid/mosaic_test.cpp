@@ -12,6 +12,7 @@
 #include "stormcellar/grid/beam_geometry.h"
 #include "tests/grid/made_partials.h"
 #include "tests/grid/slow_mosaic.h"
+#include "tests/grid/square_spec.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -80,9 +81,7 @@ TEST(Mosaic, EveryRuleIsThatOfTheOracle) {
         for (const Overlap overlap :
              {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
             for (const Averaging averaging : {Averaging::in_db, Averaging::in_z}) {
-                MosaicOptions options;
-                options.overlap = overlap;
-                options.averaging = averaging;
+                MosaicOptions options{.overlap = overlap, .averaging = averaging};
                 SCOPED_TRACE(fmt::format("{} bytes, {}, {}", quantization.code_bytes,
                                          overlap_name(overlap),
                                          averaging == Averaging::in_z ? "Z" : "dB"));
@@ -99,14 +98,11 @@ TEST(Mosaic, EveryRuleIsThatOfTheOracle) {
 TEST(Mosaic, OtherMomentsTakeNoDetectionLimit) {
     Partials partials = random_partials(one_byte, 2);
     for (const Moment moment : {Moment::zdr, Moment::rho, Moment::sw}) {
-        MosaicOptions options;
-        options.moment = moment;
+        MosaicOptions options{.moment = moment};
         expect_as_the_oracle(partials.domain(), partials.all(), options);
     }
     for (const Moment moment : {Moment::vel, Moment::phi}) {
-        MosaicOptions options;
-        options.moment = moment;
-        options.overlap = default_overlap(moment);
+        MosaicOptions options{.moment = moment, .overlap = default_overlap(moment)};
         expect_as_the_oracle(partials.domain(), partials.all(), options);
     }
 }
@@ -114,8 +110,7 @@ TEST(Mosaic, OtherMomentsTakeNoDetectionLimit) {
 TEST(Mosaic, ShortAndLongWeightsLoseNoSite) {
     Partials partials = random_partials(one_byte, 3);
     for (const double length_m : {1000.0, 20e3, 60e3, 1e7}) {
-        MosaicOptions options;
-        options.length_m = length_m;
+        MosaicOptions options{.length_m = length_m};
         SCOPED_TRACE(length_m);
         expect_as_the_oracle(partials.domain(), partials.all(), options);
     }
@@ -123,8 +118,7 @@ TEST(Mosaic, ShortAndLongWeightsLoseNoSite) {
 
 // Two sites at one place, so that their weights are equal: every pair of states by hand.
 TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
-    GridSpec domain = default_spec(41, -75);
-    domain.nx = domain.ny = 16;
+    GridSpec domain = square_spec(41, -75, 16);
     domain.levels_m = {1000};
     enum State { unseen, nothing, folded, weak, strong };
     const auto put = [](int state, auto& status, float& value) {
@@ -138,9 +132,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, one_byte,
                  [&](int, int iy, int, auto& status, float& value) { put(iy % 5, status, value); });
     const auto state_of = [&](Overlap overlap, Moment moment, int a, int b) -> double {
-        MosaicOptions options;
-        options.overlap = overlap;
-        options.moment = moment;
+        MosaicOptions options{.moment = moment, .overlap = overlap};
         const auto made = merge(domain, partials.all(), options);
         const BrickView view = made->cells.view();
         const CellStatus status = view.status(a, b, 0);
@@ -227,8 +219,7 @@ TEST(Mosaic, NoSeamWhereAWindowEnds) {
 }
 
 TEST(Mosaic, MeansBelowTheCodesAreClampedAndCounted) {
-    GridSpec domain = default_spec(41, -75);
-    domain.nx = domain.ny = 16;
+    GridSpec domain = square_spec(41, -75, 16);
     domain.levels_m = {1000};
     Partials partials(domain);
     const auto fill_with = [](CellStatus state) {
@@ -310,8 +301,7 @@ TEST(Mosaic, WhatCannotBeMergedIsABadArgument) {
     refused(with_one([&](Partial& p) { p.distance = elsewhere; }), {}, "another place");
 
     const auto previous = merge(domain, good, {});
-    MosaicOptions counted;
-    counted.counts = true;
+    MosaicOptions counted{.counts = true};
     EXPECT_FALSE(update(previous->view(), good, {}, counted)) << "it has no counts";
 }
 

@@ -8,6 +8,7 @@
 
 #include "grid/mosaic/echo_image.h"
 #include "tests/grid/moving_blobs.h"
+#include "tests/grid/square_spec.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -16,9 +17,7 @@ constexpr double accuracy_mps = 1.5;  // grid/mosaic/motion.h
 constexpr double apart_s = 300;
 
 GridSpec spec_of(int cells, double spacing_m) {
-    GridSpec spec = default_spec(35, -97);
-    spec.nx = spec.ny = cells;
-    spec.spacing_m = spacing_m;
+    GridSpec spec = square_spec(35, -97, cells, spacing_m);
     spec.levels_m = {1000, 2000, 4000};
     return spec;
 }

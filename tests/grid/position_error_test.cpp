@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/grid/square_spec.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {
@@ -13,10 +14,7 @@ namespace {
 const SitePosition site{"KTLX", 35, -97, 390};
 
 GridSpec small_spec() {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    spec.nx = spec.ny = 101;
-    spec.spacing_m = 1000;
-    return spec;
+    return square_spec(site.latitude_deg, site.longitude_deg, 101);
 }
 
 // Two sweeps at one elevation. The first has one radial 0.3 degrees off.

@@ -80,8 +80,7 @@ grid::Grid grid_about(const Observed& given, const grid::Method& method, double 
     spec.spacing_m = cell_m;
     const auto geometry = grid::make_column_geometry(site, spec);
     if (!geometry) return {};
-    grid::GridderOptions options;
-    options.method = method;
+    grid::GridderOptions options{.method = method};
     auto made = grid::make_grid(given.volume, site, **geometry, options);
     return made ? std::move(*made) : grid::Grid{};
 }

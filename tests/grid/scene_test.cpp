@@ -7,6 +7,7 @@
 #include "grid/plan/grid_scene.h"
 #include "stormcellar/grid/gridder.h"
 #include "tests/grid/real_volume.h"
+#include "tests/grid/square_spec.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {
@@ -25,10 +26,7 @@ level2::Volume half_volume() {
 }
 
 GridSpec spec_of(int side, double spacing_m) {
-    GridSpec spec = default_spec(ktlx.latitude_deg, ktlx.longitude_deg);
-    spec.nx = spec.ny = side;
-    spec.spacing_m = spacing_m;
-    return spec;
+    return square_spec(ktlx.latitude_deg, ktlx.longitude_deg, side, spacing_m);
 }
 
 TEST(GridScene, ACensusHoldsEveryColumnWithEcho) {
@@ -66,9 +64,7 @@ TEST(GridScene, SampledCellsAreThoseOfTheWholeGrid) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume("volumes/KTLX19990503_235621.gz");
     const SitePosition here = site_of(volume);
-    GridSpec spec = default_spec(here.latitude_deg + 0.2, here.longitude_deg);
-    spec.nx = spec.ny = 150;
-    spec.spacing_m = 2500;
+    GridSpec spec = square_spec(here.latitude_deg + 0.2, here.longitude_deg, 150, 2500);
     auto scene = GridScene::make(volume, here, spec, {});
     ASSERT_TRUE(scene);
     const ColumnSample sample = scene->draw(500, 4);
@@ -138,6 +134,12 @@ TEST(Effects, ErrorsAreInTheUnitOfTheMoment) {
     EXPECT_EQ(value_unit_of(level2::Moment::rho), accuracy::ValueUnit::ratio);
 }
 
+GridPlan planned_for(const level2::Volume& volume, const GridSpec& spec, const char* budget) {
+    auto scene = GridScene::make(volume, ktlx, spec, {}).value();
+    return plan_grid(scene, effects_of(level2::Moment::ref), accuracy::parse_budget(budget).value())
+        .value();
+}
+
 // Thin echo: a column has few of the cells that it could have, so a bound needs many columns.
 TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     SweepPlan low;
@@ -149,31 +151,23 @@ TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     empty.cut = 2;
     empty.code = [](int, int) { return below_threshold; };
     const level2::Volume volume = make_volume({low, empty});
-    auto scene = GridScene::make(volume, ktlx, spec_of(300, 1000), {});
-    ASSERT_TRUE(scene);
-    const auto planned = plan_grid(*scene, effects_of(level2::Moment::ref),
-                                   accuracy::parse_budget("20 km, 60 dB").value());
-    ASSERT_TRUE(planned);
-    ASSERT_TRUE(planned->plan.meets_budget);
-    ASSERT_TRUE(planned->plan.measured);
-    EXPECT_TRUE(planned->plan.measured->value) << "the sample was too small";
-    EXPECT_EQ(planned->choice.method.interpolation, Interpolation::nearest);
-    EXPECT_EQ(planned->choice.method.cell, CellExtent::point);
+    const GridPlan planned = planned_for(volume, spec_of(300, 1000), "20 km, 60 dB");
+    ASSERT_TRUE(planned.plan.meets_budget);
+    ASSERT_TRUE(planned.plan.measured);
+    EXPECT_TRUE(planned.plan.measured->value) << "the sample was too small";
+    EXPECT_EQ(planned.choice.method.interpolation, Interpolation::nearest);
+    EXPECT_EQ(planned.choice.method.cell, CellExtent::point);
 }
 
 // Nothing changes from place to place, so interpolation matters only at the edge of the echo.
 TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
     const level2::Volume volume = make_volume(plans_at({0.5, 1.5, 2.5}));
-    auto scene = GridScene::make(volume, ktlx, spec_of(60, 2000), {});
-    ASSERT_TRUE(scene);
-    const auto planned = plan_grid(*scene, effects_of(level2::Moment::ref),
-                                   accuracy::parse_budget("20 km, 1 dB").value());
-    ASSERT_TRUE(planned);
-    EXPECT_TRUE(planned->plan.meets_budget);
+    const GridPlan planned = planned_for(volume, spec_of(60, 2000), "20 km, 1 dB");
+    EXPECT_TRUE(planned.plan.meets_budget);
     // Linear may cost no more than nearest.
-    EXPECT_LE(planned->choice.method.interpolation, Interpolation::linear);
-    EXPECT_EQ(planned->choice.method.cell, CellExtent::point);
-    EXPECT_EQ(planned->choice.method.averaging, Averaging::in_db);
+    EXPECT_LE(planned.choice.method.interpolation, Interpolation::linear);
+    EXPECT_EQ(planned.choice.method.cell, CellExtent::point);
+    EXPECT_EQ(planned.choice.method.averaging, Averaging::in_db);
 }
 
 TEST(Plan, ABudgetOutOfReachNamesTheBest) {

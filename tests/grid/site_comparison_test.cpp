@@ -80,8 +80,7 @@ class SiteComparisonTest : public ::testing::Test {
 
     static SiteComparison compared(const Radar& b, std::optional<UniformMotion> moves = motion) {
         const Gridded other = gridded(b, domain(), instant_);
-        ComparisonOptions options;
-        options.motion = moves;
+        ComparisonOptions options{.motion = moves};
         const auto found = compare_sites(good_->as_site(), other.as_site(), options);
         EXPECT_TRUE(found);
         if (found) print(*found);
@@ -122,9 +121,7 @@ TEST_F(SiteComparisonTest, WithoutFaultsNoneIsNamed) {
 
 TEST_F(SiteComparisonTest, HalfADegreeOfAzimuthIsNamedAndNothingElse) {
     Radar b = *b_;
-    change_radials(b.volume, [&](level2::Radial& radial) {
-        radial.azimuth_deg = std::fmod(radial.azimuth_deg + 0.5F, 360.0F);
-    });
+    turn_clockwise(b.volume, 0.5F);
     const SiteComparison found = compared(b);
     expect(found, 0, 0.5, 0, 0);
     EXPECT_THAT(faults(found), ElementsAre(HasSubstr("XSYB against XSYA: turned clockwise by 0.")));
@@ -190,9 +187,7 @@ TEST_F(SiteComparisonTest, LooksMinutesApartWithoutAMotionTellNoAngles) {
 // Other weather at the same places.
 TEST_F(SiteComparisonTest, SitesThatHardlySeeTheSameTellNothing) {
     Radar b = *b_;
-    change_radials(b.volume, [&](level2::Radial& radial) {
-        radial.azimuth_deg = std::fmod(radial.azimuth_deg + 40.0F, 360.0F);
-    });
+    turn_clockwise(b.volume, 40.0F);
     const SiteComparison found = compared(b);
     EXPECT_EQ(untold(found).size(), 4U);
     EXPECT_THAT(faults(found), IsEmpty());
@@ -229,8 +224,7 @@ TEST_F(SiteComparisonTest, GridsNeedNotBeTheSame) {
     for (double& level_m : spec.levels_m)
         level_m += 100;
     const Gridded other = gridded(*b_, spec, instant_);
-    ComparisonOptions options;
-    options.motion = motion;
+    ComparisonOptions options{.motion = motion};
     const auto found = compare_sites(good_->as_site(), other.as_site(), options);
     ASSERT_TRUE(found);
     print(*found);
@@ -255,8 +249,7 @@ TEST_F(SiteComparisonTest, BadOptionsAreErrors) {
 
 // A grid compared with itself has no differences.
 TEST_F(SiteComparisonTest, AGridAgreesWithItself) {
-    ComparisonOptions options;
-    options.motion = motion;
+    ComparisonOptions options{.motion = motion};
     const auto found = compare_sites(good_->as_site(), good_->as_site(), options);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->bias_db.value, 0, 1e-9);

@@ -128,8 +128,7 @@ std::vector<Seen> all_seen(const GridSpec& domain, const std::vector<const Parti
 }
 
 SlowCell cell_of(const std::vector<Seen>& seen, const MosaicOptions& options) {
-    SlowCell cell;
-    cell.count = static_cast<int>(seen.size());
+    SlowCell cell{.count = static_cast<int>(seen.size())};
     for (const Seen& site : seen)
         cell.weight += site.weight;
     if (seen.empty()) return cell;

@@ -23,18 +23,13 @@ std::vector<ChosenSweep> choose(const level2::Volume& volume) {
 }
 
 SweepPlan plan(double elevation_deg, int gates = 300, int radials = 360) {
-    SweepPlan made;
-    made.elevation_deg = elevation_deg;
-    made.gates = gates;
-    made.radials = radials;
-    return made;
+    return SweepPlan{.elevation_deg = elevation_deg, .radials = radials, .gates = gates};
 }
 
 void set_vcp(level2::Volume& volume, const std::vector<float>& angles_deg) {
     level2::Vcp vcp;
     for (const float angle_deg : angles_deg) {
-        level2::VcpCut cut;
-        cut.elevation_deg = angle_deg;
+        level2::VcpCut cut{.elevation_deg = angle_deg};
         vcp.cuts.push_back(cut);
     }
     volume.vcp_message = vcp;

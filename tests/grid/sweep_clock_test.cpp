@@ -9,6 +9,7 @@
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 #include "tests/grid/real_volume.h"
+#include "tests/grid/square_spec.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {
@@ -33,9 +34,7 @@ TEST_P(RealClock, IsThatOfTheGates) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume(GetParam());
     const SitePosition site = site_of(volume);
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    spec.nx = spec.ny = 115;
-    spec.spacing_m = 4000;
+    GridSpec spec = square_spec(site.latitude_deg, site.longitude_deg, 115, 4000);
     const auto geometry = make_column_geometry(site, spec);
     ASSERT_TRUE(geometry);
     GridderOptions options;

@@ -45,9 +45,7 @@ TEST(ArcTable, ErrsByHalfTheSecondDerivativeTimes250MetresSquared) {
 // outlines of 20 km.
 double worst_off_plane_m(double elevation_deg, double farthest_m, double latitude_deg,
                          double altitude_m) {
-    SweepPlan plan;
-    plan.elevation_deg = elevation_deg;
-    plan.gate_spacing_m = 1000;
+    SweepPlan plan{.elevation_deg = elevation_deg, .gate_spacing_m = 1000};
     const level2::Volume volume = make_volume({plan});
     const auto chosen = choose_sweeps(volume, level2::Moment::ref, 0.475);
     const BeamGeometry beam(latitude_deg, altitude_m);

@@ -7,6 +7,7 @@
 
 #include "stormcellar/grid/gridder.h"
 #include "tests/grid/moving_blobs.h"
+#include "tests/grid/square_spec.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -19,8 +20,7 @@ UtcTime at_second(double seconds) {
 }
 
 GridSpec spec_of(int cells = 120) {
-    GridSpec spec = default_spec(35, -97);
-    spec.nx = spec.ny = cells;
+    GridSpec spec = square_spec(35, -97, cells);
     spec.levels_m = {1000, 2000, 4000};
     return spec;
 }
@@ -51,11 +51,7 @@ struct Pair {
 };
 
 InstantOptions options_at(double seconds, TimeMethod method, const MotionField* motion = nullptr) {
-    InstantOptions options;
-    options.instant = at_second(seconds);
-    options.method = method;
-    options.motion = motion;
-    return options;
+    return InstantOptions{.instant = at_second(seconds), .method = method, .motion = motion};
 }
 
 // RMS of values where the truth is above 5 dBZ; cells without a value count as 0 dBZ.

@@ -1,6 +1,7 @@
 // tests/grid/volume_maker.h -- small volumes in which every gate is known.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -92,6 +93,12 @@ void change_radials(level2::Volume& volume, Change change) {
         for (level2::Radial& radial : sweep.radials)
             change(radial);
     }
+}
+
+inline void turn_clockwise(level2::Volume& volume, float by_deg) {
+    change_radials(volume, [by_deg](level2::Radial& radial) {
+        radial.azimuth_deg = std::fmod(radial.azimuth_deg + by_deg, 360.0F);
+    });
 }
 
 }  // namespace stormcellar::grid

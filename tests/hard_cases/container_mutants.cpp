@@ -204,7 +204,8 @@ Mutant ContainerMutants::overwritten(Random& random) const {
 
 // Records that are unpacked before the gzip damage are kept; bzip2 guards the others.
 Mutant ContainerMutants::gzip(Random& random) const {
-    Mutant mutant{.kind = "gzip around records"};
+    Mutant mutant;
+    mutant.kind = "gzip around records";
     const Bytes plain = volume_.ldm_file();
     mutant.file = wire::gzip(plain);
     mutant.what = damage_gzip(mutant.file, random);
@@ -238,7 +239,8 @@ Mutant ContainerMutants::make(std::uint64_t number) const {
 
 Mutant gzip_mutant(const UnpackedVolume& volume, std::uint64_t number) {
     Random random(number);
-    Mutant mutant{.kind = "gzip around messages"};
+    Mutant mutant;
+    mutant.kind = "gzip around messages";
     const Bytes plain = volume.plain_file();
     mutant.file = wire::gzip(plain);
     mutant.what = fmt::format("gzip mutant {}: {}", number, damage_gzip(mutant.file, random));

@@ -37,7 +37,9 @@ TEST_P(EveryStratum, ACellAtAGatesCentreHoldsTheGate) {
     plan.code = [](int radial, int gate) {
         return static_cast<std::uint16_t>(100 + radial % 25 * 2000 + gate);
     };
-    GridCase given{.volume = make_volume({plan}), .site = site};
+    GridCase given;
+    given.volume = make_volume({plan});
+    given.site = site;
     const BeamGeometry beam(site.latitude_deg, site.altitude_m);
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     int compared = 0;

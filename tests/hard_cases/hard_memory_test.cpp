@@ -121,7 +121,9 @@ Bytes file_of(const Bytes& record, unsigned records) {
 }
 
 DecodeOptions with_threads(int threads) {
-    return DecodeOptions{.threads = threads};
+    DecodeOptions options;
+    options.threads = threads;
+    return options;
 }
 
 class MemoryByThreads : public ::testing::TestWithParam<int> {};

@@ -142,7 +142,8 @@ UnpackedVolume unpack(std::span<const std::byte> file, std::optional<std::uint64
 }
 
 UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes) {
-    UnpackedVolume part{.header = whole.header};
+    UnpackedVolume part;
+    part.header = whole.header;
     const Bytes& last = whole.records.back();
     std::size_t bytes = last.size();
     for (std::size_t i = 0; i + 1 < whole.records.size(); ++i) {
@@ -156,7 +157,8 @@ UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes
 
 UnpackedVolume short_stream(const UnpackedVolume& whole, std::size_t most_bytes) {
     constexpr std::size_t last_messages = 10;
-    UnpackedVolume part{.header = whole.header};
+    UnpackedVolume part;
+    part.header = whole.header;
     const std::size_t count = whole.messages.size();
     const std::size_t tail = count - std::min(count, last_messages);
     for (std::size_t i = 0; i < count; ++i) {

@@ -149,9 +149,7 @@ TEST(EncodeRefusals, NamesMomentsThatWouldNotComeBack) {
 Volume volume_of_message_1() {
     wire::Bytes file = wire::archive_header("ARCHIVE2.031");
     for (unsigned i = 1; i <= 10; ++i) {
-        wire::Ray ray;
-        ray.azimuth_number = i;
-        ray.status = i == 1 ? 3 : (i == 10 ? 4 : 1);
+        wire::Ray ray{.azimuth_number = i, .status = i == 1 ? 3U : (i == 10 ? 4U : 1U)};
         file = wire::join({file, wire::message_1(ray)});
     }
     return decode(file).value().volume;

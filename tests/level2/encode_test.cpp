@@ -148,8 +148,7 @@ TEST_P(EncodeReal, ComesBackToTheBit) {
     EXPECT_EQ(difference(decoded->volume, again->volume), "");
     EXPECT_EQ(again->report.bytes_dropped, 0U);
 
-    LiveOptions live_options;
-    live_options.decode = options;
+    LiveOptions live_options{.decode = options};
     LiveVolume live{live_options};
     for (const EncodedChunk& chunk : encoded->chunks())
         EXPECT_TRUE(live.add(chunk.name.number, chunk.name.kind, chunk.bytes, {}));

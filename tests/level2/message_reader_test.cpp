@@ -57,14 +57,12 @@ std::vector<int> azimuth_numbers(const Volume& volume) {
 }
 
 wire::Bytes ray_1(unsigned number) {
-    wire::Ray ray;
-    ray.azimuth_number = number;
+    wire::Ray ray{.azimuth_number = number};
     return wire::message_1(ray);
 }
 
 wire::Bytes ray_31(unsigned number) {
-    wire::Ray ray;
-    ray.azimuth_number = number;
+    wire::Ray ray{.azimuth_number = number};
     return wire::message_31(ray);
 }
 
@@ -121,9 +119,7 @@ TEST(MessageReader, ARadialThatLostBytesIsDropped) {
 
 // In clear air, a radial is mostly zeros, which look like a fill frame.
 TEST(MessageReader, ZerosOfALostRadialAreNoFillFrames) {
-    wire::Ray clear;
-    clear.gates = 1800;
-    clear.fill = 0;
+    wire::Ray clear{.gates = 1800, .fill = 0};
     wire::Bytes second = wire::message_31(clear);
     second.erase(second.begin() + 400, second.begin() + 2000);
     const Outcome outcome =
@@ -149,9 +145,7 @@ TEST(MessageReader, AMessageCutByTheEndIsDropped) {
 // A radial that has lost bytes ends by its length a few bytes before the end of the data. What is
 // left is no message, so nothing shows that the radial ends where its length says.
 TEST(MessageReader, AFewBytesBehindARadialDoNotProveItsEnd) {
-    wire::Ray large;
-    large.azimuth_number = 2;
-    large.gates = 600;
+    wire::Ray large{.azimuth_number = 2, .gates = 600};
     const wire::Bytes third = ray_31(3);
     for (const std::size_t behind : {1U, 10U, 27U}) {
         wire::Bytes second = wire::message_31(large);

@@ -15,9 +15,7 @@ std::span<const std::byte> body_of(const wire::Bytes& message) {
 }
 
 TEST(Message31, IsReadFieldByField) {
-    wire::Ray ray;
-    ray.status = 3;
-    ray.elevation_deg = -0.25F;
+    wire::Ray ray{.elevation_deg = -0.25F, .status = 3};
     const wire::Bytes bytes = wire::message_31(ray);
     const auto message = read_message_31(body_of(bytes));
     ASSERT_TRUE(message) << message.error();
@@ -127,10 +125,7 @@ TEST(Message31, AMomentThatComesTwiceIsRefused) {
 }
 
 TEST(Message1, IsReadFieldByField) {
-    wire::Ray ray;
-    ray.azimuth_deg = 180;
-    ray.elevation_deg = 1.40625F;
-    ray.status = 2;
+    wire::Ray ray{.azimuth_deg = 180, .elevation_deg = 1.40625F, .status = 2};
     const wire::Bytes bytes = wire::message_1(ray);
     const auto message = read_message_1(body_of(bytes));
     ASSERT_TRUE(message) << message.error();

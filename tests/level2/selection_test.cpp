@@ -43,8 +43,8 @@ class SelectionReal : public ::testing::TestWithParam<Case> {
     }
     DecodeReport expect_selected(const Selection& selection, int threads) const {
         DecodeOptions options;
-        options.selection = selection;
         options.threads = threads;
+        options.selection = selection;
         const auto decoded = decode(bytes_, options).value();
         EXPECT_EQ(difference(decoded.volume, selected(whole_.volume, selection)), "");
         return decoded.report;

@@ -93,8 +93,7 @@ TEST_F(VolumeBuilderTest, RowsHaveTheLengthOfTheLongestRadial) {
 }
 
 TEST_F(VolumeBuilderTest, CodesOf16BitsAreBigEndian) {
-    Spec spec;
-    spec.word_size_bits = 16;
+    Spec spec{.word_size_bits = 16};
     EXPECT_TRUE(add(spec));
     const Volume volume = finish();
     EXPECT_EQ(volume.sweeps[0].moments[0].code(0, 3), 256 + 13);
@@ -115,8 +114,7 @@ TEST_F(VolumeBuilderTest, ADifferentGeometryIsAnotherKindOfTheMoment) {
 }
 
 TEST_F(VolumeBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
-    Spec without;
-    without.has_ref = false;
+    Spec without{.has_ref = false};
     EXPECT_TRUE(add({}));
     EXPECT_TRUE(add(without));
     const Volume volume = finish();
@@ -235,11 +233,7 @@ TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
 TEST(FragmentBuilderLimit, RowsOfManyKindsStopAtTheLimitOfASweep) {
     const std::vector<std::byte> codes(1000);
     const int taken = radials_taken(ample, 1000, [&](int number) {
-        MomentBlock block;
-        block.gates = 1000;
-        block.scale = static_cast<float>(1 + number);
-        block.codes = codes;
-        return block;
+        return MomentBlock{.gates = 1000, .scale = static_cast<float>(1 + number), .codes = codes};
     });
     EXPECT_GT(taken, 200) << "radials of as many kinds: 200 x 200 x 1000 bytes";
     EXPECT_LT(taken, 270);
