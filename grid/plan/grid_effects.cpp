@@ -1,7 +1,9 @@
 #include "grid/plan/grid_effects.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
+#include <utility>
 
 #include "base/degree.h"
 #include "grid/cells/moment_rules.h"
@@ -9,81 +11,70 @@
 namespace stormcellar::grid {
 namespace {
 
-using accuracy::Effect;
-using accuracy::make_effect;
 using accuracy::Step;
 
-// The last argument of each effect is its time for 460 x 460 x 32 cells over a convective volume,
-// relative to nearest gates (docs/accuracy.md).
+struct EffectFacts {
+    std::string_view step, name, rung, what;
+    // The time for 460 x 460 x 32 cells over a convective volume, relative to nearest gates
+    // (docs/accuracy.md).
+    double effort = 0;
+};
+constexpr auto effect_facts = std::to_array<EffectFacts>({
+    {step::frame, "ellipsoid", "WGS84 table", "The earth is an ellipsoid, not a sphere of 6371 km.",
+     0.1},
+    {step::frame, "exact_geodesic", "WGS84 geodesic",
+     "Each column has its own geodesic, not one from polynomials.", 28},
+    {step::beam, "earth_curvature", "4/3 earth",
+     "The earth falls away below the beam, which air bends down a little."},
+    {step::beam, "refraction", "ray traced",
+     "Air bends the beam more or less than over a 4/3 earth, and delays it.", 0.15},
+    {step::elevation, "antenna_jitter", "each radial's",
+     "Each radial was measured at an elevation of its own.", 0.1},
+    {step::interpolation, "column_interpolation", "linear up the column",
+     "Between two sweeps a value lies between theirs.", 0.02},
+    {step::interpolation, "horizontal_interpolation", "eight-point",
+     "Between radials and gates a value lies between theirs.", 4.5},
+    {step::interpolation, "beam_width", "beam-weighted",
+     "A gate counts as the antenna's pattern does off its axis.", 2.7},
+    {step::cell, "cell_size", "area", "A cell is the mean of all gates inside, not a point.", 29},
+    {step::circle, "velocity_folding", "on the Nyquist circle",
+     "Velocities beyond the Nyquist velocity come back on the other side.", 0.05},
+    {step::circle, "phase_folding", "on the circle", "A phase of 360 degrees is 0.", 0.05},
+});
 
-Step frame_step() {
-    return {std::string{step::frame},
-            "sphere",
-            {make_effect("ellipsoid", "WGS84 table",
-                         "The earth is an ellipsoid, not a sphere of 6371 km.", 0.1),
-             make_effect("exact_geodesic", "WGS84 geodesic",
-                         "Each column has its own geodesic, not one from polynomials.", 28)}};
-}
-
-Step beam_step() {
-    return {std::string{step::beam},
-            "flat earth",
-            {make_effect("earth_curvature", "4/3 earth",
-                         "The earth falls away below the beam, which air bends down a little."),
-             make_effect("refraction", "ray traced",
-                         "Air bends the beam more or less than over a 4/3 earth, and delays it.",
-                         0.15)}};
-}
-
-Step elevation_step() {
-    return {std::string{step::elevation},
-            "one a sweep",
-            {make_effect("antenna_jitter", "each radial's",
-                         "Each radial was measured at an elevation of its own.", 0.1)}};
-}
-
-Step interpolation_step() {
-    return {std::string{step::interpolation},
-            "nearest",
-            {make_effect("column_interpolation", "linear up the column",
-                         "Between two sweeps a value lies between theirs.", 0.02),
-             make_effect("horizontal_interpolation", "eight-point",
-                         "Between radials and gates a value lies between theirs.", 4.5),
-             make_effect("beam_width", "beam-weighted",
-                         "A gate counts as the antenna's pattern does off its axis.", 2.7)}};
-}
-
-Step cell_step() {
-    return {std::string{step::cell},
-            "point",
-            {make_effect("cell_size", "area",
-                         "A cell is the mean of all gates inside, not a point.", 29)}};
+// Returns a step with its effects, cheapest first.
+Step make_step(std::string_view name, std::string cheapest) {
+    Step made{std::string{name}, std::move(cheapest), {}};
+    for (const EffectFacts& facts : effect_facts) {
+        if (facts.step != name) continue;
+        made.effects.push_back(accuracy::make_effect(std::string{facts.name},
+                                                     std::string{facts.rung},
+                                                     std::string{facts.what}, facts.effort));
+    }
+    return made;
 }
 
 constexpr const char* in_z = "in Z";
 
-Step averaging_step(Averaging averaging) {
-    return {
-        std::string{step::averaging}, averaging == Averaging::in_z ? in_z : "in its own unit", {}};
-}
-
 Step circle_step(level2::Moment moment) {
-    Effect wrap =
-        make_effect("phase_folding", "on the circle", "A phase of 360 degrees is 0.", 0.05);
-    if (level2::facts_of(moment).circle == level2::Circle::nyquist) {
-        wrap = make_effect("velocity_folding", "on the Nyquist circle",
-                           "Velocities beyond the Nyquist velocity come back on the other side.",
-                           0.05);
-    }
-    return {std::string{step::circle}, "as numbers", {wrap}};
+    Step made = make_step(step::circle, "as numbers");
+    const bool folds = level2::facts_of(moment).circle == level2::Circle::nyquist;
+    made.effects = {made.effects[folds ? 0 : 1]};
+    return made;
 }
 
 }  // namespace
 
 accuracy::Chain effects_of(level2::Moment moment, Averaging averaging) {
     accuracy::Chain chain;
-    chain.steps = {frame_step(),         beam_step(), elevation_step(),
-                   interpolation_step(), cell_step(), averaging_step(averaging)};
+    chain.steps = {
+        make_step(step::frame, "sphere"),
+        make_step(step::beam, "flat earth"),
+        make_step(step::elevation, "one a sweep"),
+        make_step(step::interpolation, "nearest"),
+        make_step(step::cell, "point"),
+        make_step(step::averaging, averaging == Averaging::in_z ? in_z : "in its own unit"),
+    };
     if (is_circular(blending_of(moment))) chain.steps.push_back(circle_step(moment));
     chain.value_unit = value_unit_of(moment);
     return chain;
