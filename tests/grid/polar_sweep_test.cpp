@@ -55,8 +55,7 @@ PolarSweep sweep_of(const Prepared& prepared, const BeamModel& other) {
 void expect_tables_of(const BeamModel& other, double elevation_deg, double ceiling_m) {
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> arc(0, 499e3);
-    SweepPlan plan{.elevation_deg = elevation_deg, .gate_spacing_m = 250};
-    const Prepared prepared(plan);
+    const Prepared prepared({.elevation_deg = elevation_deg, .gate_spacing_m = 250});
     const PolarSweep sweep = sweep_of(prepared, other);
     const double center_deg = prepared.chosen[0].elevation_deg;
     const BeamPath center = other.path(center_deg);
@@ -102,8 +101,7 @@ TEST(PolarSweep, ARadialsOwnElevationIsWithin25CentimetresOfTheModel) {
     for (const auto& [latitude_deg, altitude_m] : strata) {
         const BeamGeometry exact(latitude_deg, altitude_m);
         for (const double elevation_deg : {-5.0, -0.5, 0.0, 0.5, 4.3, 10.0, 20.0, 45.0, 60.0}) {
-            SweepPlan plan{.elevation_deg = elevation_deg};
-            const Prepared prepared(plan);
+            const Prepared prepared({.elevation_deg = elevation_deg});
             const PolarSweep sweep =
                 sweep_of(prepared, BeamModel::four_thirds(latitude_deg, altitude_m));
             // No gate is higher than 21 km or farther than 470 km.
@@ -289,8 +287,7 @@ TEST(PolarSweep, ABeamThatLostAnEdgeRisesAsTheHalfThatIsThere) {
         BeamModel::traced(35, 20, RefractivityProfile::from_levels(levels, "duct").value());
     int both = 0, lower_alone = 0, upper_alone = 0, neither = 0, gone = 0;
     for (const double elevation_deg : {-1.0, -0.3, 0.2, 0.5, 1.5}) {
-        SweepPlan plan{.elevation_deg = elevation_deg};
-        const Prepared prepared(plan);
+        const Prepared prepared({.elevation_deg = elevation_deg});
         const PolarSweep sweep = sweep_of(prepared, traced);
         const double center_deg = prepared.chosen[0].elevation_deg;
         const BeamPath center = traced.path(center_deg);

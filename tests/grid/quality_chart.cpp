@@ -168,6 +168,16 @@ void add_truth(const Observed& given, const std::vector<Place>& column, double h
     }
 }
 
+// Calls visit(ix, iy, place) for each column of the grid.
+template <class Visit>
+void for_each_column(const Observed& given, const grid::Grid& made, Visit visit) {
+    const Places places(given, made);
+    for (int iy = 0; iy < made.spec.ny; ++iy) {
+        for (int ix = 0; ix < made.spec.nx; ++ix)
+            visit(ix, iy, places.at(ix, iy));
+    }
+}
+
 PointSums point_sums(const Observed& given, const grid::Method& method, double shift_m) {
     const grid::Grid made = grid_about(given, method, 0, 25, shift_m);
     const Places places(given, made);
@@ -260,22 +270,18 @@ EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
     std::array<double, bins> sums{}, counts{};
     for (const double shift_m : shifts_m) {
         const grid::Grid made = grid_about(given, method, 0, 41, shift_m);
-        const Places places(given, made);
-        for (int iy = 0; iy < made.spec.ny; ++iy) {
-            for (int ix = 0; ix < made.spec.nx; ++ix) {
-                const Place place = places.at(ix, iy);
-                if (std::abs(place.along_m) >= reach_m || std::abs(place.across_m) > 12e3) continue;
-                const auto bin = static_cast<std::size_t>((place.along_m + reach_m) / bin_m);
-                // 4 to 8 km: seen at every range, and far from the top of the plateau.
-                for (int level = 7; level < 16; ++level) {
-                    const std::size_t cell = made.spec.index(ix, iy, level);
-                    if (made.status[cell] == CellStatus::not_seen) continue;
-                    ++counts[bin];
-                    if (made.status[cell] != CellStatus::value) continue;
-                    sums[bin] += z_of(static_cast<double>(made.values[cell]) - plateau_dbz);
-                }
+        for_each_column(given, made, [&](int ix, int iy, const Place& place) {
+            if (std::abs(place.along_m) >= reach_m || std::abs(place.across_m) > 12e3) return;
+            const auto bin = static_cast<std::size_t>((place.along_m + reach_m) / bin_m);
+            // 4 to 8 km: seen at every range, and far from the top of the plateau.
+            for (int level = 7; level < 16; ++level) {
+                const std::size_t cell = made.spec.index(ix, iy, level);
+                if (made.status[cell] == CellStatus::not_seen) continue;
+                ++counts[bin];
+                if (made.status[cell] != CellStatus::value) continue;
+                sums[bin] += z_of(static_cast<double>(made.values[cell]) - plateau_dbz);
             }
-        }
+        });
     }
     // Returns where the share first passes a limit, linear between bins.
     const auto passes_m = [&](double limit) {
@@ -299,26 +305,22 @@ WaveChart wave_chart(const Observed& given, const grid::Method& method) {
     std::array<std::array<double, 4>, 3> rows{};
     for (const double shift_m : shifts_m) {
         const grid::Grid made = grid_about(given, method, 0, 33, shift_m);
-        const Places places(given, made);
-        for (int iy = 0; iy < made.spec.ny; ++iy) {
-            for (int ix = 0; ix < made.spec.nx; ++ix) {
-                const Place place = places.at(ix, iy);
-                if (std::hypot(place.along_m, place.across_m) > 15e3) continue;
-                const double s_m = across ? place.across_m : place.along_m;
-                const double phase = 2 * std::numbers::pi * s_m / wave.length_m;
-                const std::array<double, 3> basis = {1, std::sin(phase), std::cos(phase)};
-                for (int level = 7; level < 16; ++level) {
-                    const std::size_t cell = made.spec.index(ix, iy, level);
-                    if (made.status[cell] != CellStatus::value) continue;
-                    const auto dbz = static_cast<double>(made.values[cell]);
-                    for (std::size_t i = 0; i < 3; ++i) {
-                        for (std::size_t j = 0; j < 3; ++j)
-                            rows[i][j] += basis[i] * basis[j];
-                        rows[i][3] += basis[i] * dbz;
-                    }
+        for_each_column(given, made, [&](int ix, int iy, const Place& place) {
+            if (std::hypot(place.along_m, place.across_m) > 15e3) return;
+            const double s_m = across ? place.across_m : place.along_m;
+            const double phase = 2 * std::numbers::pi * s_m / wave.length_m;
+            const std::array<double, 3> basis = {1, std::sin(phase), std::cos(phase)};
+            for (int level = 7; level < 16; ++level) {
+                const std::size_t cell = made.spec.index(ix, iy, level);
+                if (made.status[cell] != CellStatus::value) continue;
+                const auto dbz = static_cast<double>(made.values[cell]);
+                for (std::size_t i = 0; i < 3; ++i) {
+                    for (std::size_t j = 0; j < 3; ++j)
+                        rows[i][j] += basis[i] * basis[j];
+                    rows[i][3] += basis[i] * dbz;
                 }
             }
-        }
+        });
     }
     for (std::size_t pivot = 0; pivot < 3; ++pivot) {
         for (std::size_t row = 0; row < 3; ++row) {
