@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <string>
-#include <utility>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/printable.h"
@@ -23,11 +23,8 @@ constexpr std::array<LevelFacts, 4> facts_of_levels = {
 
 std::atomic<LogLevel> least_level{LogLevel::info};
 
-// Returns true if the journal takes stderr. systemd sets this variable if it takes stdout or
-// stderr.
-bool journal_takes_stderr() {
-    static const bool takes = std::getenv("JOURNAL_STREAM") != nullptr && ::isatty(2) == 0;
-    return takes;
+const LevelFacts& facts_of(LogLevel level) {
+    return facts_of_levels[static_cast<std::size_t>(level)];
 }
 
 }  // namespace
@@ -41,12 +38,22 @@ bool is_logged(LogLevel level) {
     return level >= least_level.load();
 }
 
+char priority_of(LogLevel level) {
+    return facts_of(level).priority;
+}
+
+bool stderr_is_journal() {
+    const char* stream = std::getenv("JOURNAL_STREAM");
+    struct stat facts {};
+    if (stream == nullptr || ::fstat(STDERR_FILENO, &facts) != 0) return false;
+    return fmt::format("{}:{}", facts.st_dev, facts.st_ino) == stream;
+}
+
 void write_log(LogLevel level, std::string_view text) {
-    const LevelFacts& facts = facts_of_levels[static_cast<std::size_t>(level)];
-    const std::string line =
-        journal_takes_stderr()
-            ? fmt::format("<{}>{}\n", facts.priority, printable(text))
-            : fmt::format("{} {}: {}\n", format_utc(now_utc()), facts.name, printable(text));
+    const std::string line = stderr_is_journal()
+                                 ? fmt::format("<{}>{}\n", priority_of(level), printable(text))
+                                 : fmt::format("{} {}: {}\n", format_utc(now_utc()),
+                                               facts_of(level).name, printable(text));
     // Use one write, so that lines of several threads do not mix. A failure cannot be reported.
     (void)!::write(STDERR_FILENO, line.data(), line.size());
 }

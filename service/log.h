@@ -1,8 +1,8 @@
 // service/log.h -- the lines that a service writes to stderr: start, stop, trouble.
-// Only programs and their services call it.
+// Only programs and their services call it; the daemon does through daemon/log/log.h.
 //
-// Under systemd, lines carry the "<N>" prefix by which the journal knows their level; otherwise the
-// time and the level. Control characters are escaped.
+// If stderr is the journal, lines carry the "<N>" prefix by which the journal knows their level;
+// otherwise the time and the level. Control characters are escaped.
 //
 // Threads   Any thread may call every function.
 #pragma once
@@ -20,6 +20,11 @@ enum class LogLevel { debug, info, warning, error };
 // Sets the lowest level that is written: `name` is debug, info, warning or error.
 void set_log_level(std::string_view name);
 [[nodiscard]] bool is_logged(LogLevel level);
+// Returns the priority of syslog(3), a digit.
+[[nodiscard]] char priority_of(LogLevel level);
+// Returns true if stderr is the stream that JOURNAL_STREAM=device:inode names.
+[[nodiscard]] bool stderr_is_journal();
+// Writes a line of any level.
 void write_log(LogLevel level, std::string_view text);
 
 template <class... Arguments>

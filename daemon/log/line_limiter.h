@@ -22,10 +22,9 @@
 #include "base/rate_limit.h"
 #include "base/steady_time.h"
 #include "daemon/log/log_event.h"
+#include "service/log.h"
 
 namespace stormcellar::daemon {
-
-enum class Severity { debug, info, warning, error };
 
 class LineLimiter {
   public:
@@ -40,12 +39,12 @@ class LineLimiter {
     }
 
     // Returns true if the line may be logged.
-    bool allow(Event event, std::string_view subject, Severity severity, SteadyTime now);
+    bool allow(Event event, std::string_view subject, LogLevel level, SteadyTime now);
 
     struct HeldBack {
         Event event;
         std::string subject;  // empty: several subjects, or none
-        Severity severity;    // the most severe one
+        LogLevel level;       // the most severe one
         std::uint64_t lines;
     };
     // Returns the lines held back in minutes that are over.
@@ -56,7 +55,7 @@ class LineLimiter {
   private:
     struct Kind {
         RateLimit limit;
-        Severity gravest = Severity::debug;  // most severe of the lines held back
+        LogLevel gravest = LogLevel::debug;  // most severe of the lines held back
     };
     static void take(Kind& kind, Event event, const std::string& subject, SteadyTime now,
                      std::vector<HeldBack>& held);

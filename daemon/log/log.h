@@ -34,6 +34,7 @@
 #include "base/steady_time.h"
 #include "daemon/log/line_limiter.h"
 #include "daemon/log/log_event.h"
+#include "service/log.h"
 #include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::daemon {
@@ -42,12 +43,9 @@ struct LogOutlet {
     std::filesystem::path journal;      // the journal's socket; empty: lines go to stderr
     std::function<SteadyTime()> clock;  // empty: the steady clock
 };
-// `level` is one of debug, info, warning, error.
-void set_up_logging(const std::string& level, LogOutlet outlet = {});
-void set_log_level(const std::string& level);
+// `level` is one of debug, info, warning, error; set_log_level() of service/log.h changes it.
+void set_up_logging(std::string_view level, LogOutlet outlet = {});
 
-// Returns true if stderr is the stream that JOURNAL_STREAM=device:inode names.
-[[nodiscard]] bool stderr_is_journal();
 // Returns the journal with its usual socket if stderr is the journal, else stderr.
 [[nodiscard]] LogOutlet usual_outlet();
 
@@ -64,24 +62,20 @@ struct About {
     std::string_view reason{};
 };
 
-void log_line(Severity severity, const About& about, std::string_view message);
+void log_line(LogLevel level, const About& about, std::string_view message);
 
-template <class... Arguments>
-void log_debug(const About& about, fmt::format_string<Arguments...> text, Arguments&&... values) {
-    log_line(Severity::debug, about, fmt::format(text, std::forward<Arguments>(values)...));
-}
-template <class... Arguments>
-void log_info(const About& about, fmt::format_string<Arguments...> text, Arguments&&... values) {
-    log_line(Severity::info, about, fmt::format(text, std::forward<Arguments>(values)...));
-}
-template <class... Arguments>
-void log_warning(const About& about, fmt::format_string<Arguments...> text, Arguments&&... values) {
-    log_line(Severity::warning, about, fmt::format(text, std::forward<Arguments>(values)...));
-}
-template <class... Arguments>
-void log_error(const About& about, fmt::format_string<Arguments...> text, Arguments&&... values) {
-    log_line(Severity::error, about, fmt::format(text, std::forward<Arguments>(values)...));
-}
+template <LogLevel level>
+struct LogAt {
+    template <class... Arguments>
+    void operator()(const About& about, fmt::format_string<Arguments...> text,
+                    Arguments&&... values) const {
+        log_line(level, about, fmt::format(text, std::forward<Arguments>(values)...));
+    }
+};
+inline constexpr LogAt<LogLevel::debug> log_debug;
+inline constexpr LogAt<LogLevel::info> log_info;
+inline constexpr LogAt<LogLevel::warning> log_warning;
+inline constexpr LogAt<LogLevel::error> log_error;
 
 // For each kind with lines held back in a minute that is over, logs one line. Call it every few
 // seconds. At the end of the program it also covers the current minute.

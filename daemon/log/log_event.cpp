@@ -75,28 +75,11 @@ std::string_view name_of(Event event) {
 }
 
 Event event_of(pipeline::IngestResult result) {
-    using pipeline::IngestResult;
-    switch (result) {
-        case IngestResult::gridded:
-            return Event::gridded;
-        case IngestResult::no_moment:
-            return Event::no_moment;
-        case IngestResult::no_position:
-            return Event::no_position;
-        case IngestResult::other_station:
-            return Event::other_station;
-        case IngestResult::incomplete:
-            return Event::incomplete;
-        case IngestResult::rejected:
-            return Event::rejected;
-        case IngestResult::unchanged:
-            return Event::unchanged;
-        case IngestResult::vanished:
-            return Event::vanished;
-        case IngestResult::registered:
-            return Event::registered;
-    }
-    return Event::rejected;
+    // in the order of the enumeration
+    constexpr std::array events = {Event::gridded,       Event::no_moment,  Event::no_position,
+                                   Event::other_station, Event::incomplete, Event::rejected,
+                                   Event::unchanged,     Event::vanished,   Event::registered};
+    return events.at(static_cast<std::size_t>(result));
 }
 
 }  // namespace stormcellar::daemon

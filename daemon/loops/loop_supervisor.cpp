@@ -202,7 +202,7 @@ void LoopSupervisor::note_line(Slot& slot, const std::string& line) {
     constexpr std::string_view speaker = "stormcellar: ";
     slot.last_line = printable(line.starts_with(speaker) ? line.substr(speaker.size()) : line);
     const bool is_note = slot.last_line.starts_with("note: ");
-    log_line(is_note ? Severity::info : Severity::warning,
+    log_line(is_note ? LogLevel::info : LogLevel::warning,
              {.event = Event::loop_said, .loop = slot.state.name},
              fmt::format("loop {}: {}", slot.state.name, slot.last_line));
 }

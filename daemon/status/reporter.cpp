@@ -113,26 +113,22 @@ About about(const Finished& finished) {
 }
 
 void Reporter::report(const Finished& finished, Named named) {
-    const auto severity = [&] {
-        if (!finished.taken) return named == Named::before ? Severity::debug : Severity::error;
+    const auto level = [&] {
+        if (!finished.taken) return named == Named::before ? LogLevel::debug : LogLevel::error;
         switch (finished.taken->ingest.result()) {
             case IngestResult::gridded:
-                return finished.taken->ingest.no_room ? Severity::warning : Severity::info;
+                return finished.taken->ingest.no_room ? LogLevel::warning : LogLevel::info;
             case IngestResult::no_moment:
-                return Severity::info;
+                return LogLevel::info;
             case IngestResult::rejected:
             case IngestResult::no_position:
             case IngestResult::other_station:
-                return Severity::warning;
-            case IngestResult::incomplete:
-            case IngestResult::unchanged:
-            case IngestResult::vanished:
-            case IngestResult::registered:
-                return Severity::debug;
+                return LogLevel::warning;
+            default:
+                return LogLevel::debug;
         }
-        return Severity::debug;
     };
-    log_line(severity(), about(finished), describe(finished));
+    log_line(level(), about(finished), describe(finished));
 }
 
 void Reporter::report_directory(const Error& error) {
@@ -148,7 +144,7 @@ void Reporter::report_directory(const Error& error) {
 void Reporter::report_sites(const pipeline::PairReport& report) {
     const About compared{
         .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};
-    log_line(pipeline::tells_anything(report.found) ? Severity::info : Severity::debug, compared,
+    log_line(pipeline::tells_anything(report.found) ? LogLevel::info : LogLevel::debug, compared,
              fmt::format("compared sites of {} at {}: {}", printable(report.domain),
                          format_utc(report.instant), pipeline::describe(report.found)));
     About faulty = compared;

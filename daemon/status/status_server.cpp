@@ -141,7 +141,7 @@ void StatusServer::Worker::open(Address& address) {
     } else if (!address.failing) {
         address.hopeless = opened.error().code == ErrorCode::bad_argument;
         log_line(
-            address.may_lack ? Severity::debug : Severity::error,
+            address.may_lack ? LogLevel::debug : Severity::error,
             {.event = Event::status_unanswered, .reason = name_of(opened.error().code)},
             fmt::format(
                 "the status cannot be served: {}; {}", printable(opened.error().message),

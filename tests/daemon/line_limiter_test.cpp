@@ -39,7 +39,7 @@ int allowed_of(LineLimiter& limiter, Event event, const std::string& subject, in
                SteadyTime now) {
     int allowed = 0;
     for (int i = 0; i < lines; ++i)
-        allowed += limiter.allow(event, subject, Severity::warning, now) ? 1 : 0;
+        allowed += limiter.allow(event, subject, LogLevel::warning, now) ? 1 : 0;
     return allowed;
 }
 
@@ -53,7 +53,7 @@ TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
     ASSERT_EQ(held.size(), 1U);
     EXPECT_EQ(held[0].event, Event::rejected);
     EXPECT_EQ(held[0].subject, "KTLX");
-    EXPECT_EQ(held[0].severity, Severity::warning);
+    EXPECT_EQ(held[0].level, LogLevel::warning);
     EXPECT_EQ(held[0].lines, 1234U);
     EXPECT_TRUE(limiter.take_held_back(t0 + seconds{61}).empty()) << "said once";
     EXPECT_EQ(allowed_of(limiter, Event::rejected, "KTLX", 30, t0 + seconds{62}), 20)
@@ -94,7 +94,7 @@ TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
 TEST(LineLimiter, InventedSubjectsTakeNoLinesFromOthers) {
     LineLimiter limiter;
     for (std::size_t i = 0; i < 2 * LineLimiter::most_subjects; ++i)
-        (void)limiter.allow(Event::rejected, fmt::format("{}", i), Severity::warning, t0);
+        (void)limiter.allow(Event::rejected, fmt::format("{}", i), LogLevel::warning, t0);
     for (const char* station : {"KTLX", "KINX", "KVNX"})
         EXPECT_EQ(allowed_of(limiter, Event::gridded, station, 60, t0), 60) << station;
     EXPECT_EQ(limiter.subjects(), LineLimiter::most_subjects);
@@ -103,12 +103,12 @@ TEST(LineLimiter, InventedSubjectsTakeNoLinesFromOthers) {
 TEST(LineLimiter, TheGravestOfWhatIsHeldBackCounts) {
     LineLimiter limiter;
     for (int i = 0; i < 30; ++i) {
-        (void)limiter.allow(Event::loop_said, "a", i == 25 ? Severity::warning : Severity::info,
+        (void)limiter.allow(Event::loop_said, "a", i == 25 ? LogLevel::warning : LogLevel::info,
                             t0);
     }
     const auto held = limiter.take_held_back(t0 + seconds{60});
     ASSERT_EQ(held.size(), 1U);
-    EXPECT_EQ(held[0].severity, Severity::warning);
+    EXPECT_EQ(held[0].level, LogLevel::warning);
 }
 
 // The heaviest feed possible: 160 sites with a volume every four minutes each, and a backlog of one
@@ -121,7 +121,7 @@ TEST(LineLimiter, AFeedAsItShouldBeIsNotHeldBack) {
         for (int site = 0; site < 160; ++site) {
             if ((second + site) % 240 != 0) continue;
             EXPECT_TRUE(
-                limiter.allow(Event::gridded, fmt::format("K{}", site), Severity::info, now));
+                limiter.allow(Event::gridded, fmt::format("K{}", site), LogLevel::info, now));
         }
     }
 }
