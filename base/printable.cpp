@@ -8,34 +8,6 @@
 namespace stormcellar {
 namespace {
 
-// Returns the length of the well-formed UTF-8 character at the start of `text`; 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text.front());
-    std::size_t length = 0;
-    if (lead < 0x80) {
-        length = 1;
-    } else if (lead >= 0xC2 && lead < 0xE0) {
-        length = 2;
-    } else if (lead >= 0xE0 && lead < 0xF0) {
-        length = 3;
-    } else if (lead >= 0xF0 && lead < 0xF5) {
-        length = 4;
-    }
-    if (length == 0 || length > text.size()) return 0;
-    // It must not be overlong, a surrogate, or beyond U+10FFFF (RFC 3629 section 4).
-    if (length > 1) {
-        const auto second = static_cast<unsigned char>(text[1]);
-        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
-            (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second >= 0x90)) {
-            return 0;
-        }
-    }
-    for (const char c : text.substr(1, length - 1)) {
-        if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U) return 0;
-    }
-    return length;
-}
-
 // Returns the code point of one well-formed character.
 char32_t code_point(std::string_view character) {
     const auto lead = static_cast<unsigned char>(character.front());
@@ -68,6 +40,33 @@ bool is_seen(char32_t code) {
 }
 
 }  // namespace
+
+std::size_t utf8_length(std::string_view text) {
+    const auto lead = static_cast<unsigned char>(text.front());
+    std::size_t length = 0;
+    if (lead < 0x80) {
+        length = 1;
+    } else if (lead >= 0xC2 && lead < 0xE0) {
+        length = 2;
+    } else if (lead >= 0xE0 && lead < 0xF0) {
+        length = 3;
+    } else if (lead >= 0xF0 && lead < 0xF5) {
+        length = 4;
+    }
+    if (length == 0 || length > text.size()) return 0;
+    // It must not be overlong, a surrogate, or beyond U+10FFFF (RFC 3629 section 4).
+    if (length > 1) {
+        const auto second = static_cast<unsigned char>(text[1]);
+        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
+            (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second >= 0x90)) {
+            return 0;
+        }
+    }
+    for (const char c : text.substr(1, length - 1)) {
+        if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U) return 0;
+    }
+    return length;
+}
 
 std::string printable(std::string_view text) {
     std::string safe;

@@ -9,7 +9,7 @@
 
 namespace stormcellar {
 
-// Returns not_found, permission, no_space or exhausted for the numbers that mean so, else io.
+// Returns not_found, permission, no_space, exhausted or busy for the numbers that mean so, else io.
 [[nodiscard]] ErrorCode error_code_of(int error_number);
 
 // Returns an error with that code and the message "WHAT: REASON", with the system's reason.

@@ -35,6 +35,14 @@ std::optional<int> Signals::next(std::chrono::milliseconds most) const {
     return static_cast<int>(facts.ssi_signo);
 }
 
+BlockedSignals::BlockedSignals(std::span<const int> numbers) {
+    sigset_t set;
+    ::sigemptyset(&set);
+    for (const int number : numbers)
+        ::sigaddset(&set, number);
+    ::pthread_sigmask(SIG_BLOCK, &set, &before_);
+}
+
 std::string_view name_of_ending(int signal) {
     return signal == SIGTERM ? "SIGTERM" : "SIGINT";
 }

@@ -1,13 +1,17 @@
-// service/signals.h -- turns signals into events that a thread waits for.
+// service/signals.h -- turns signals into events that a thread waits for, or blocks them.
 //
-// Make one object before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for this thread
-// and the threads that it starts, and ignores SIGPIPE. A signal that arrives waits for next().
+// Make one object of Signals before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for
+// this thread and the threads that it starts, and ignores SIGPIPE. A signal that arrives waits for
+// next().
 //
-// Threads   One thread at a time.
+// Threads   Signals: one thread at a time.
 #pragma once
 
 #include <chrono>
+#include <csignal>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -30,6 +34,20 @@ class Signals {
   private:
     explicit Signals(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
     Descriptor descriptor_;
+};
+
+// Blocks signals in this thread, and in those that it starts, while the object exists.
+class BlockedSignals {
+  public:
+    explicit BlockedSignals(std::span<const int> numbers);
+    explicit BlockedSignals(std::initializer_list<int> numbers)
+        : BlockedSignals(std::span(numbers.begin(), numbers.size())) {}
+    BlockedSignals(const BlockedSignals&) = delete;
+    BlockedSignals& operator=(const BlockedSignals&) = delete;
+    ~BlockedSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+  private:
+    sigset_t before_{};
 };
 
 // Returns "SIGTERM" or "SIGINT", for the log.

@@ -13,6 +13,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "service/signals.h"
+
 namespace stormcellar::cli {
 namespace {
 
@@ -73,24 +75,6 @@ void leave_signals() {
     }
 }
 
-// Blocks signals that would end the program, in this thread, while the object exists.
-class BlockedSignals {
-  public:
-    BlockedSignals() {
-        sigset_t ending;
-        ::sigemptyset(&ending);
-        for (const int number : ending_signals)
-            ::sigaddset(&ending, number);
-        ::pthread_sigmask(SIG_BLOCK, &ending, &before_);
-    }
-    BlockedSignals(const BlockedSignals&) = delete;
-    BlockedSignals& operator=(const BlockedSignals&) = delete;
-    ~BlockedSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
-  private:
-    sigset_t before_{};
-};
-
 }  // namespace
 
 ScratchDirectory::ScratchDirectory(fs::path path) : path_(std::move(path)) {
@@ -118,7 +102,7 @@ Result<ScratchDirectory> ScratchDirectory::make() {
     }
     place.fill('\0');
     // A signal in between must find the directory both made and watched, or neither.
-    const BlockedSignals blocked;
+    const BlockedSignals blocked(ending_signals);
     if (::mkdtemp(name.data()) == nullptr) {
         return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));
     }

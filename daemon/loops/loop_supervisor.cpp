@@ -6,13 +6,13 @@
 #include <utility>
 
 #include <nlohmann/json.hpp>
-#include <poll.h>
 #include <unistd.h>
 
 #include "base/counted.h"
 #include "base/printable.h"
 #include "base/spawn.h"
 #include "daemon/log/log.h"
+#include "daemon/process/main_loop.h"
 #include "daemon/queue/schedule.h"
 
 namespace stormcellar::daemon {
@@ -246,10 +246,7 @@ void LoopSupervisor::sleep(SteadyTime now) {
             until = std::min(until, std::max(now, slot.not_before));
         }
     }
-    const auto left =
-        std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-    ::poll(sources.data(), sources.size(),
-           static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    poll_until(sources, std::chrono::steady_clock::now(), until);
 }
 
 void LoopSupervisor::publish() {

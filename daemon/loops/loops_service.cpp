@@ -5,11 +5,10 @@
 #include <span>
 #include <utility>
 
-#include <poll.h>
-
 #include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log/log.h"
+#include "daemon/process/main_loop.h"
 #include "daemon/status/status.h"
 #include "service/program.h"
 
@@ -75,9 +74,7 @@ void LoopsService::wait(SteadyTime now) {
     std::array<pollfd, 2> sources = {
         pollfd{wake_up_.descriptor(), POLLIN, 0},
         {parts_.signals == nullptr ? -1 : parts_.signals->descriptor(), POLLIN, 0}};
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - now);
-    ::poll(sources.data(), sources.size(),
-           static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    poll_until(sources, now, until);
 }
 
 void LoopsService::handle_signals() {

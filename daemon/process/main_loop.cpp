@@ -1,6 +1,8 @@
 #include "daemon/process/main_loop.h"
 
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 
 #include "base/printable.h"
 #include "daemon/log/log.h"
@@ -19,6 +21,12 @@ bool take_signals(const Signals* signals, const std::function<void()>& reload) {
         is_asked_to_end = true;
     }
     return is_asked_to_end;
+}
+
+void poll_until(std::span<pollfd> sources, SteadyTime now, SteadyTime until) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - now);
+    ::poll(sources.data(), sources.size(),
+           static_cast<int>(std::max<std::int64_t>(0, left.count())));
 }
 
 void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,

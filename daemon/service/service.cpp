@@ -5,12 +5,11 @@
 #include <system_error>
 #include <utility>
 
-#include <poll.h>
-
 #include "base/counted.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "daemon/log/log.h"
+#include "daemon/process/main_loop.h"
 #include "service/program.h"
 
 namespace stormcellar::daemon {
@@ -170,11 +169,7 @@ void Service::wait() {
         pollfd{wake_up_.descriptor(), POLLIN, 0},
         {parts_.events.descriptor(), POLLIN, 0},
         {parts_.signals == nullptr ? -1 : parts_.signals->descriptor(), POLLIN, 0}};
-    const auto left =
-        std::chrono::ceil<std::chrono::milliseconds>(next_time() - parts_.clock.steady());
-    // An interrupted poll is only a short sleep; negative descriptors are ignored.
-    ::poll(sources.data(), sources.size(),
-           static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    poll_until(sources, parts_.clock.steady(), next_time());
 }
 
 void Service::handle_signals() {

@@ -1,31 +1,19 @@
 #include "daemon/status/http_listener.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include <fcntl.h>
-#include <microhttpd.h>
 #include <strings.h>
 #include <sys/socket.h>
-#include <unistd.h>
+
+#include "base/host_field.h"
+#include "service/http_daemon.h"
 
 namespace stormcellar::daemon {
 namespace {
 
 // for the request line and all headers, and for the headers of the answer
 constexpr std::size_t request_memory = 8192;
-
-constexpr std::array<std::string_view, 3> loopback_names = {"127.0.0.1", "localhost", "[::1]"};
-
-bool begins_with(std::string_view text, std::string_view name) noexcept {
-    return text.size() >= name.size() && ::strncasecmp(text.data(), name.data(), name.size()) == 0;
-}
-
-bool is_port(std::string_view text) noexcept {
-    return !text.empty() && text.size() <= 5 &&
-           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
 
 // Checks every Host field, because a client that sends two may mean either.
 MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
@@ -44,15 +32,6 @@ bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
 }
 
 }  // namespace
-
-bool is_loopback_host(std::string_view host) noexcept {
-    for (const std::string_view name : loopback_names) {
-        if (!begins_with(host, name)) continue;
-        const std::string_view rest = host.substr(name.size());
-        if (rest.empty() || (rest.front() == ':' && is_port(rest.substr(1)))) return true;
-    }
-    return false;
-}
 
 // The callbacks of libmicrohttpd, which are always called from within turn() or the destructor.
 struct HttpListener::Callbacks {
@@ -90,15 +69,15 @@ Result<std::unique_ptr<HttpListener>> HttpListener::open(ListeningSocket socket,
                                                          Answerer answerer) {
     std::unique_ptr<HttpListener> made(
         new HttpListener(std::move(socket), limits, std::move(answerer)));
-    // libmicrohttpd gets a copy of the descriptor, which it closes.
-    const int copy = ::fcntl(made->socket_.descriptor(), F_DUPFD_CLOEXEC, 3);
-    if (copy < 0) return fail(ErrorCode::io, "no descriptor is left");
-    made->daemon_ = MHD_start_daemon(
-        MHD_USE_EPOLL, 0, nullptr, nullptr, &Callbacks::answer, made.get(),
-        MHD_OPTION_LISTEN_SOCKET, copy, MHD_OPTION_CONNECTION_LIMIT, limits.most_connections,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, request_memory, MHD_OPTION_NOTIFY_CONNECTION,
-        &Callbacks::connection, made.get(), MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_END);
-    if (made->daemon_ == nullptr) return fail(ErrorCode::io, "libmicrohttpd cannot begin");
+    Result<MHD_Daemon*> daemon =
+        start_http_daemon(made->socket_.descriptor(), {.flags = MHD_USE_EPOLL,
+                                                       .most_connections = limits.most_connections,
+                                                       .header_bytes = request_memory,
+                                                       .self = made.get(),
+                                                       .answer = &Callbacks::answer,
+                                                       .connection = &Callbacks::connection});
+    if (!daemon) return pass_on(daemon);
+    made->daemon_ = *daemon;
     const auto* info = MHD_get_daemon_info(made->daemon_, MHD_DAEMON_INFO_EPOLL_FD);
     if (info == nullptr) return fail(ErrorCode::internal, "libmicrohttpd gives no descriptor");
     made->epoll_ = info->epoll_fd;

@@ -23,23 +23,14 @@ struct MHD_Response;
 
 namespace stormcellar::daemon {
 
-// Returns true if `host`, the value of a Host field, is 127.0.0.1, localhost (in any case) or
-// [::1], alone or with ":" and a port. Any port is accepted, because a tunnel may have another port
-// at its other end and a web page cannot use the names of loopback addresses for itself.
-//
-// A page of the web may give its own name the address 127.0.0.1 (DNS rebinding). A browser then
-// takes the answers for that page's own data and hands them over. It sends the page's name as Host,
-// so a server that answers only the names of loopback addresses tells such a page nothing.
-[[nodiscard]] bool is_loopback_host(std::string_view host) noexcept;
-
 class HttpListener {
   public:
     struct Request {
         const char* method;
         const char* url;
-        // True if, on a port, a Host field is not a name of is_loopback_host(). A request without
-        // the field is accepted: HTTP/1.0 allows it, and browsers, against whose pages this check
-        // is made, always send it.
+        // True if, on a port, a Host field is not a name of a loopback address (base/host_field.h).
+        // A request without the field is accepted: HTTP/1.0 allows it, and browsers, against whose
+        // pages this check is made, always send it.
         bool names_another_host;
     };
     // The answer to a request, and its HTTP status.

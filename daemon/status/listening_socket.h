@@ -8,14 +8,16 @@
 //
 // Threads   One thread at a time.
 // Errors    bad_argument (a path of more than 107 bytes), permission, not_found (no such
-//           directory), io (in use, or any other reason of the system).
+//           directory), busy (in use), io.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include <sys/types.h>
 
+#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::daemon {
@@ -28,13 +30,13 @@ class ListeningSocket {
     static Result<ListeningSocket> at_path(const std::filesystem::path& path);
     // 127.0.0.1 or [::1]
     static Result<ListeningSocket> at_port(Loopback loopback, int port);
-    ListeningSocket(ListeningSocket&& other) noexcept;
+    ListeningSocket(ListeningSocket&& other) = default;
     ListeningSocket& operator=(ListeningSocket&&) = delete;
     ListeningSocket(const ListeningSocket&) = delete;
     ListeningSocket& operator=(const ListeningSocket&) = delete;
     ~ListeningSocket();
 
-    [[nodiscard]] int descriptor() const { return descriptor_; }
+    [[nodiscard]] int descriptor() const { return socket_.number(); }
     // none for a Unix socket
     [[nodiscard]] std::optional<int> port() const { return port_; }
     // for a Unix socket: the permissions that it has
@@ -43,9 +45,9 @@ class ListeningSocket {
     [[nodiscard]] bool still_stands() const;
 
   private:
-    explicit ListeningSocket(int descriptor) : descriptor_(descriptor) {}
+    explicit ListeningSocket(Descriptor socket) : socket_(std::move(socket)) {}
 
-    int descriptor_ = -1;
+    Descriptor socket_;
     std::optional<int> port_;
     std::filesystem::path path_;
     dev_t device_ = 0;

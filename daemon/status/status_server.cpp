@@ -2,35 +2,32 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <exception>
 #include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <microhttpd.h>
-#include <poll.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "base/printable.h"
 #include "daemon/log/log.h"
+#include "daemon/process/main_loop.h"
 #include "daemon/status/http_listener.h"
 #include "daemon/status/metrics_text.h"
 #include "daemon/status/status_json.h"
+#include "service/http_daemon.h"
+#include "service/signals.h"
 
 namespace stormcellar::daemon {
 namespace {
 
-using ResponsePointer = std::unique_ptr<MHD_Response, void (*)(MHD_Response*)>;
-
-ResponsePointer response_of(std::string_view text, const char* type) {
+HttpResponse response_of(std::string_view text, const char* type) {
     std::string copy{text};
-    ResponsePointer response(
-        MHD_create_response_from_buffer(copy.size(), copy.data(), MHD_RESPMEM_MUST_COPY),
-        &MHD_destroy_response);
+    HttpResponse response(
+        MHD_create_response_from_buffer(copy.size(), copy.data(), MHD_RESPMEM_MUST_COPY));
     if (response) {
         MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONTENT_TYPE, type);
         MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONNECTION, "close");
@@ -83,7 +80,7 @@ class StatusServer::Worker {
         std::string problem = {};
     };
     struct Page {
-        ResponsePointer response{nullptr, &MHD_destroy_response};
+        HttpResponse response;
         SteadyTime made{};
     };
     void open(Address& address);
@@ -93,11 +90,11 @@ class StatusServer::Worker {
     StatusServerOptions options_;
     Render render_;
     std::array<Page, 2> pages_;
-    ResponsePointer not_found_ = response_of("GET /metrics or /status.json\n", plain);
-    ResponsePointer not_allowed_ = response_of("GET only\n", plain);
-    ResponsePointer not_here_ =
+    HttpResponse not_found_ = response_of("GET /metrics or /status.json\n", plain);
+    HttpResponse not_allowed_ = response_of("GET only\n", plain);
+    HttpResponse not_here_ =
         response_of("ask for 127.0.0.1, localhost or [::1], with this port or none\n", plain);
-    ResponsePointer not_yet_ = response_of("starting\n", plain);
+    HttpResponse not_yet_ = response_of("starting\n", plain);
     SteadyTime next_open_{};
     std::vector<Address> addresses_;  // the last member: its answers use the members above
 };
@@ -141,7 +138,7 @@ void StatusServer::Worker::open(Address& address) {
     } else if (!address.failing) {
         address.hopeless = opened.error().code == ErrorCode::bad_argument;
         log_line(
-            address.may_lack ? LogLevel::debug : Severity::error,
+            address.may_lack ? LogLevel::debug : LogLevel::error,
             {.event = Event::status_unanswered, .reason = name_of(opened.error().code)},
             fmt::format(
                 "the status cannot be served: {}; {}", printable(opened.error().message),
@@ -175,9 +172,7 @@ void StatusServer::Worker::wait(SteadyTime now, const WakeUp& wake_up) {
         sources.push_back({address.listener->descriptor(), POLLIN, 0});
         if (const auto due = address.listener->next_time(now)) next = std::min(next, *due);
     }
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - now);
-    ::poll(sources.data(), sources.size(),
-           static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    poll_until(sources, now, next);
 }
 
 void StatusServer::Worker::turn(SteadyTime now) {
@@ -225,10 +220,7 @@ StatusServer::~StatusServer() {
 
 void StatusServer::run() {
     // A client that is gone is an error of its connection only.
-    sigset_t pipe;
-    sigemptyset(&pipe);
-    sigaddset(&pipe, SIGPIPE);
-    ::pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
+    const BlockedSignals blocked({SIGPIPE});
     // On Linux this applies to this thread alone. If it is not allowed, the priority stays as it
     // is.
     (void)::setpriority(PRIO_PROCESS, 0, 10);

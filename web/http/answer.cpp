@@ -71,18 +71,9 @@ unsigned status_of(const Error& error) {
         case ErrorCode::no_space:
         case ErrorCode::unmet:
             return 503;
-        case ErrorCode::empty:
-        case ErrorCode::truncated:
-        case ErrorCode::corrupt:
-        case ErrorCode::unsupported:
-        case ErrorCode::not_level2:
-        case ErrorCode::not_a_file:
-        case ErrorCode::io:
-        case ErrorCode::permission:
-        case ErrorCode::internal:
+        default:
             return 500;
     }
-    return 500;
 }
 
 // Replaces paths. A path begins with a slash at the start of a word and ends where the message goes

@@ -11,21 +11,13 @@ namespace {
 
 constexpr std::size_t most_ranges = 16;
 
-std::string_view without_spaces(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
-        text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
-        text.remove_suffix(1);
-    return text;
-}
-
 // Calls `take` with each item of a comma-separated list. The tags of this server hold no commas,
 // though others' may.
 template <class Take>
 void each_item(std::string_view list, Take take) {
     while (!list.empty()) {
         const std::size_t comma = std::min(list.find(','), list.size());
-        if (const auto item = without_spaces(list.substr(0, comma)); !item.empty()) take(item);
+        if (const auto item = trimmed(list.substr(0, comma)); !item.empty()) take(item);
         list.remove_prefix(std::min(comma + 1, list.size()));
     }
 }

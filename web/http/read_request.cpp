@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/host_field.h"
 #include "web/http/client_address.h"
 
 namespace stormcellar::web {
@@ -16,22 +17,6 @@ std::string lower_case(std::string_view text) {
         return c < 0x80 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c);
     });
     return out;
-}
-
-bool is_port_number(std::string_view text) {
-    return !text.empty() && text.size() <= 5 &&
-           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-// Returns the name without its port; empty if the rest is not a port.
-std::string_view name_of_host(std::string_view host) {
-    const bool is_v6 = host.starts_with('[');
-    const std::size_t end = is_v6 ? host.find(']') : host.find(':');
-    if (end == std::string_view::npos) return is_v6 ? std::string_view{} : host;
-    const std::string_view name = host.substr(0, is_v6 ? end + 1 : end);
-    const std::string_view rest = host.substr(name.size());
-    if (rest.empty() || (rest.front() == ':' && is_port_number(rest.substr(1)))) return name;
-    return {};
 }
 
 // Returns the value of `name` in the last element of a Forwarded field, which the trusted proxy
@@ -164,16 +149,16 @@ Identity identity_of(const ServerOptions& options) {
     const std::size_t scheme = identity.public_address.find("://");
     if (scheme != std::string::npos) {
         const std::string_view rest = std::string_view{identity.public_address}.substr(scheme + 3);
-        identity.names.insert(lower_case(name_of_host(rest.substr(0, rest.find('/')))));
+        identity.names.insert(lower_case(name_in_host_field(rest.substr(0, rest.find('/')))));
     }
     return identity;
 }
 
 bool names_us(std::string_view host, const Identity& identity) {
     if (!is_safe_host(host)) return false;
-    const std::string name = lower_case(name_of_host(host));
+    if (is_loopback_host(host)) return true;
+    const std::string name = lower_case(name_in_host_field(host));
     if (name.empty()) return false;
-    if (name == "localhost" || name == "127.0.0.1" || name == "[::1]") return true;
     return identity.names.contains(name) || identity.names.contains("*");
 }
 
@@ -222,7 +207,7 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
     }
     const std::size_t mark = std::min(target.find('?'), target.size());
     auto path = decoded_path(target.substr(0, mark));
-    if (!path) return refuse(400, "The path of the request is not a plain one.");
+    if (!path) return refuse(400, "The path of the request cannot be read.");
     auto query = decoded_query(target.substr(std::min(mark + 1, target.size())));
     if (!query) return refuse(400, "The query of the request cannot be read.");
     if (!identity.prefix.empty() &&

@@ -6,19 +6,13 @@
 
 #include <strings.h>
 
+#include "base/printable.h"
+
 namespace stormcellar::web {
 namespace {
 
 bool is_name(std::string_view text, std::string_view name) {
     return text.size() == name.size() && ::strncasecmp(text.data(), name.data(), name.size()) == 0;
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
-        text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
-        text.remove_suffix(1);
-    return text;
 }
 
 int hex_digit(char c) {
@@ -28,28 +22,10 @@ int hex_digit(char c) {
     return -1;
 }
 
-// Returns the length of the UTF-8 sequence at the start of the text; 0 if it is overlong,
-// truncated, a surrogate or beyond U+10FFFF.
-std::size_t sequence_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    if (first < 0x80) return 1;
-    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
-    std::uint32_t code = first & (0x7Fu >> length);
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xC0) != 0x80) return 0;
-        code = code << 6 | (byte(i) & 0x3Fu);
-    }
-    constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
-    return code < least[length] || is_surrogate || code > 0x10FFFF ? 0 : length;
-}
-
 // Returns true for text that is safe in logs, headers and pages: UTF-8 without control characters.
 bool is_plain(std::string_view text) {
     while (!text.empty()) {
-        const std::size_t length = sequence_length(text);
+        const std::size_t length = utf8_length(text);
         if (length == 0) return false;
         const auto first = static_cast<unsigned char>(text[0]);
         if (first < 0x20 || first == 0x7F) return false;
@@ -88,6 +64,14 @@ double weight_of_type(std::string_view list, std::string_view type, std::string_
 }
 
 }  // namespace
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
+        text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+        text.remove_suffix(1);
+    return text;
+}
 
 std::optional<std::string_view> Request::parameter(std::string_view name) const {
     const auto found = std::find_if(query.begin(), query.end(),

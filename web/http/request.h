@@ -42,6 +42,9 @@ struct Request {
     [[nodiscard]] bool prefers_html() const;
 };
 
+// Removes blanks and tabs at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
 // Returns the segments between slashes: "/a/b/" and "/a/b" have "a" and "b".
 [[nodiscard]] std::vector<std::string_view> segments_of(std::string_view path);
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <microhttpd.h>
 #include <unistd.h>
 
 namespace stormcellar::web {
@@ -19,19 +18,19 @@ void let_text_go(void* text) {
     delete static_cast<Text*>(text);
 }
 
-Response response_of_text(const Text& text) {
+HttpResponse response_of_text(const Text& text) {
     auto held = std::make_unique<Text>(text);
     // libmicrohttpd does not change the bytes; its interface predates const.
-    Response response(MHD_create_response_from_buffer_with_free_callback_cls(
+    HttpResponse response(MHD_create_response_from_buffer_with_free_callback_cls(
         text->size(), const_cast<char*>(text->data()), &let_text_go, held.get()));
     if (response != nullptr) (void)held.release();
     return response;
 }
 
-Response response_of_file(const FileSlice& slice) {
+HttpResponse response_of_file(const FileSlice& slice) {
     const int copy = ::fcntl(slice.file->number(), F_DUPFD_CLOEXEC, 3);
     if (copy < 0) return nullptr;
-    Response response(MHD_create_response_from_fd_at_offset64(slice.size, copy, slice.offset));
+    HttpResponse response(MHD_create_response_from_fd_at_offset64(slice.size, copy, slice.offset));
     if (response == nullptr) ::close(copy);
     return response;
 }
@@ -62,16 +61,16 @@ void let_pieces_go(void* pieces) {
     delete static_cast<Pieces*>(pieces);
 }
 
-Response response_of_pieces(const Pieces& pieces) {
+HttpResponse response_of_pieces(const Pieces& pieces) {
     if (pieces.empty())
-        return Response(MHD_create_response_from_buffer(0, nullptr, MHD_RESPMEM_PERSISTENT));
+        return HttpResponse(MHD_create_response_from_buffer(0, nullptr, MHD_RESPMEM_PERSISTENT));
     if (pieces.size() == 1) {
         if (const auto* text = std::get_if<Text>(&pieces.front())) return response_of_text(*text);
         return response_of_file(std::get<FileSlice>(pieces.front()));
     }
     auto held = std::make_unique<Pieces>(pieces);
-    Response response(MHD_create_response_from_callback(size_of(pieces), block_bytes, &read_pieces,
-                                                        held.get(), &let_pieces_go));
+    HttpResponse response(MHD_create_response_from_callback(
+        size_of(pieces), block_bytes, &read_pieces, held.get(), &let_pieces_go));
     if (response != nullptr) (void)held.release();
     return response;
 }
@@ -89,12 +88,12 @@ void let_feed_go(void* feed) {
     (*held)->leave();
 }
 
-Response response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Connection* connection,
-                            HeldFeed* feed) {
+HttpResponse response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Connection* connection,
+                                HeldFeed* feed) {
     *feed = std::make_shared<StreamFeed>(stream, connection);
     auto held = std::make_unique<HeldFeed>(*feed);
-    Response response(MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block_bytes,
-                                                        &read_feed, held.get(), &let_feed_go));
+    HttpResponse response(MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block_bytes,
+                                                            &read_feed, held.get(), &let_feed_go));
     if (response == nullptr) return nullptr;
     (void)held.release();
     (*feed)->begin(*feed);
@@ -103,12 +102,12 @@ Response response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Connectio
 
 // Answers HEAD for a stream. libmicrohttpd would write the end of a chunked body even here, where
 // no body is allowed; without chunks, the connection closes after the answer.
-Response response_without_stream() {
+HttpResponse response_without_stream() {
     const auto ends = +[](void*, std::uint64_t, char*, std::size_t) -> ssize_t {
         return MHD_CONTENT_READER_END_OF_STREAM;
     };
-    Response response(MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block_bytes, ends,
-                                                        nullptr, nullptr));
+    HttpResponse response(MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block_bytes,
+                                                            ends, nullptr, nullptr));
     if (response == nullptr) return nullptr;
     MHD_set_response_options(response.get(), MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
     return response;
@@ -116,13 +115,9 @@ Response response_without_stream() {
 
 }  // namespace
 
-void ResponseDeleter::operator()(MHD_Response* response) const {
-    if (response != nullptr) MHD_destroy_response(response);
-}
-
-Response make_response(const Answer& answer, Verb verb, MHD_Connection* connection,
-                       HeldFeed* feed) {
-    Response response;
+HttpResponse make_response(const Answer& answer, Verb verb, MHD_Connection* connection,
+                           HeldFeed* feed) {
+    HttpResponse response;
     if (const auto* pieces = std::get_if<Pieces>(&answer.body)) {
         response = response_of_pieces(*pieces);
     } else if (verb == Verb::head) {

@@ -5,22 +5,16 @@
 
 #include <memory>
 
+#include "service/http_daemon.h"
 #include "web/http/answer.h"
 #include "web/http/stream_feed.h"
 
-struct MHD_Connection;
-struct MHD_Response;
-
 namespace stormcellar::web {
-
-struct ResponseDeleter {
-    void operator()(MHD_Response* response) const;
-};
-using Response = std::unique_ptr<MHD_Response, ResponseDeleter>;
 
 // Makes the response. It sets `feed` if the body is a stream, unless the verb is HEAD, which does
 // not begin one. Returns null if memory or descriptors have run out.
-[[nodiscard]] Response make_response(const Answer& answer, Verb verb, MHD_Connection* connection,
-                                     std::shared_ptr<StreamFeed>* feed);
+[[nodiscard]] HttpResponse make_response(const Answer& answer, Verb verb,
+                                         MHD_Connection* connection,
+                                         std::shared_ptr<StreamFeed>* feed);
 
 }  // namespace stormcellar::web

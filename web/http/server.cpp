@@ -2,22 +2,19 @@
 
 #include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <exception>
 #include <set>
 #include <thread>
 #include <utility>
 
 #include <fcntl.h>
-#include <microhttpd.h>
-#include <pthread.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/system_error.h"
+#include "service/http_daemon.h"
 #include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/mutex.h"
 #include "web/http/answer_budget.h"
@@ -50,7 +47,7 @@ Answer answer_of_exception(std::string_view what) {
     Answer answer;
     answer.status = 503;
     try {
-        answer = come_back(std::chrono::seconds{5}, "This answer cannot be made now.");
+        answer = come_back(std::chrono::seconds{5}, "This server cannot answer at the moment.");
         answer.trouble = what;
     } catch (const std::exception&) {
         // There is memory for the status only.
@@ -69,31 +66,6 @@ std::optional<Answer> made_or_503(const Make& make) {
     } catch (...) {
         return answer_of_exception("an exception without a text");
     }
-}
-
-// Blocks SIGPIPE while libmicrohttpd starts its thread, which inherits the mask. Otherwise
-// sendfile(2) to a client that is gone would end the program.
-class WithoutBrokenPipes {
-  public:
-    WithoutBrokenPipes() {
-        sigset_t pipe;
-        ::sigemptyset(&pipe);
-        ::sigaddset(&pipe, SIGPIPE);
-        ::pthread_sigmask(SIG_BLOCK, &pipe, &before_);
-    }
-    WithoutBrokenPipes(const WithoutBrokenPipes&) = delete;
-    WithoutBrokenPipes& operator=(const WithoutBrokenPipes&) = delete;
-    ~WithoutBrokenPipes() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
-  private:
-    sigset_t before_{};
-};
-
-bool is_same_file(const Descriptor& a, const Descriptor& b) {
-    struct stat of_a {
-    }, of_b{};
-    return ::fstat(a.number(), &of_a) == 0 && ::fstat(b.number(), &of_b) == 0 &&
-           of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
 // A request, from its first line to the end of its answer.
@@ -305,7 +277,7 @@ void Server::Impl::hand_over(WorkQueue& workers, MHD_Connection* connection, Exc
             });
         if (is_added) return std::nullopt;
         return come_back(std::chrono::seconds{2},
-                         "More is asked than this server can make at a time; ask again.");
+                         "This server has too many requests at the moment; try again.");
     });
     if (!added) return;
     exchange.answer = added;
@@ -324,7 +296,7 @@ void Server::Impl::work(WorkQueue::Turn turn, MHD_Connection* connection, Exchan
                 return come_back(std::chrono::seconds{5}, "The server is stopping.");
             case WorkQueue::Turn::lost:
                 return come_back(std::chrono::seconds{2},
-                                 "Other clients ask for less and go first; ask again.");
+                                 "Clients with fewer requests go first; try again.");
         }
         return std::nullopt;
     });
@@ -343,9 +315,9 @@ void Server::Impl::take_budget(Exchange& exchange) {
     exchange.holds_budget = budget.take(exchange.counts_as, *pieces);
     if (exchange.holds_budget) return;
     watch.memory_is_short();
-    exchange.answer = come_back(std::chrono::seconds{10},
-                                "As many bytes are on their way as this server, or one client, may "
-                                "hold; ask again.");
+    exchange.answer =
+        come_back(std::chrono::seconds{10},
+                  "Too many bytes are on their way, to all clients or to this one; try again.");
 }
 
 MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
@@ -355,7 +327,7 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
     add_common_headers(answer, exchange.request, options.any_origin);
     if (is_stopping) answer.closes = true;
     const bool is_stream = !std::holds_alternative<Pieces>(answer.body);
-    const Response response =
+    const HttpResponse response =
         make_response(answer, exchange.request.verb, connection, &exchange.feed);
     if (response == nullptr) return MHD_NO;
     if (exchange.feed != nullptr) {
@@ -382,30 +354,27 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
 Status Server::Impl::listen(const ListenSocket& socket) {
     Descriptor silent{::eventfd(0, EFD_CLOEXEC)};
     if (!silent.is_open()) return system_failure("cannot listen on " + socket.url, errno);
-    // libmicrohttpd closes the descriptor that it gets, so give it a copy.
-    Descriptor own{::fcntl(socket.socket->number(), F_DUPFD_CLOEXEC, 3)};
-    if (!own.is_open()) return system_failure("cannot listen on " + socket.url, errno);
-    const WithoutBrokenPipes blocked;
     // Leave paths and queries encoded: read_request() decodes them, and refuses some that
     // libmicrohttpd would accept.
     const auto undecoded =
         +[](void*, MHD_Connection*, char* text) { return std::char_traits<char>::length(text); };
-    MHD_Daemon* daemon = MHD_start_daemon(
-        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, &Impl::accepts, this,
-        &Impl::request, this, MHD_OPTION_LISTEN_SOCKET, own.number(), MHD_OPTION_CONNECTION_LIMIT,
-        options.limits.most_connections + options.limits.most_streams + 1,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, options.limits.header_bytes,
-        MHD_OPTION_URI_LOG_CALLBACK, &Impl::first_line, this, MHD_OPTION_UNESCAPE_CALLBACK,
-        undecoded, nullptr, MHD_OPTION_NOTIFY_COMPLETED, &Impl::completed, this,
-        MHD_OPTION_NOTIFY_CONNECTION, &Impl::connection, this, MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1,
-        MHD_OPTION_END);
-    if (daemon == nullptr) {
-        // Some failures of libmicrohttpd close the socket.
-        if (!is_same_file(own, *socket.socket)) (void)own.release();
-        return fail(ErrorCode::io, "libmicrohttpd cannot begin");
-    }
-    (void)own.release();
-    listeners.push_back({daemon, socket.url, std::move(silent)});
+    const auto option = [&](MHD_OPTION which, auto callback) {
+        return MHD_OptionItem{which, reinterpret_cast<std::intptr_t>(callback), this};
+    };
+    const Result<MHD_Daemon*> daemon = start_http_daemon(
+        socket.socket->number(),
+        {.flags = MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME,
+         .most_connections = options.limits.most_connections + options.limits.most_streams + 1,
+         .header_bytes = options.limits.header_bytes,
+         .self = this,
+         .accepts = &Impl::accepts,
+         .answer = &Impl::request,
+         .connection = &Impl::connection,
+         .others = {option(MHD_OPTION_URI_LOG_CALLBACK, &Impl::first_line),
+                    option(MHD_OPTION_UNESCAPE_CALLBACK, undecoded),
+                    option(MHD_OPTION_NOTIFY_COMPLETED, &Impl::completed)}});
+    if (!daemon) return pass_on(daemon);
+    listeners.push_back({*daemon, socket.url, std::move(silent)});
     return {};
 }
 

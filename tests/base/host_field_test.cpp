@@ -1,10 +1,10 @@
-#include "daemon/status/http_listener.h"
+#include "base/host_field.h"
 
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 namespace {
 
 TEST(LoopbackHost, NamesOfThisMachineWithAPortOrWithout) {
@@ -25,4 +25,4 @@ TEST(LoopbackHost, NothingElse) {
 }
 
 }  // namespace
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

@@ -1,0 +1,40 @@
+// service/http_daemon.h -- starts libmicrohttpd on a listening socket, for the status of the daemon
+// and for the data server.
+//
+// A library of its own (stormcellar::http_daemon), because the other services do not link
+// libmicrohttpd.
+//
+// Threads   Any thread.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <microhttpd.h>
+
+#include "stormcellar/base/result.h"
+
+namespace stormcellar {
+
+struct HttpResponseDeleter {
+    void operator()(MHD_Response* response) const { MHD_destroy_response(response); }
+};
+using HttpResponse = std::unique_ptr<MHD_Response, HttpResponseDeleter>;
+
+struct HttpDaemonOptions {
+    unsigned flags = 0;  // MHD_FLAG
+    unsigned most_connections = 0;
+    std::size_t header_bytes = 0;                // for a request line and all headers
+    void* self = nullptr;                        // passed to the callbacks
+    MHD_AcceptPolicyCallback accepts = nullptr;  // null: accept all
+    MHD_AccessHandlerCallback answer = nullptr;
+    MHD_NotifyConnectionCallback connection = nullptr;
+    std::vector<MHD_OptionItem> others = {};
+};
+
+// Serves a copy of the socket `listening`, which stays open. A thread of libmicrohttpd blocks
+// SIGPIPE. The caller ends the daemon with MHD_stop_daemon(). Errors: io.
+[[nodiscard]] Result<MHD_Daemon*> start_http_daemon(int listening, HttpDaemonOptions options);
+
+}  // namespace stormcellar
