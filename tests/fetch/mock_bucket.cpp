@@ -1,93 +1,23 @@
 #include "tests/fetch/mock_bucket.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
-#include <stdexcept>
 #include <string_view>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include "tests/testing/waiting.h"
 
 namespace stormcellar::fetch {
 namespace {
 
+using Way = testing::Reply::Way;
+
 constexpr std::string_view modified = "Sun, 01 Jan 2017 03:07:30 GMT";
-
-std::string percent_decoded(const std::string& text) {
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '%' && i + 2 < text.size()) {
-            decoded += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-        } else {
-            decoded += text[i];
-        }
-    }
-    return decoded;
-}
-
-std::string parameter(const std::string& query, const std::string& name) {
-    const std::size_t at = query.find(name + "=");
-    if (at == std::string::npos) return {};
-    const std::size_t begin = at + name.size() + 1;
-    return percent_decoded(query.substr(begin, query.find('&', begin) - begin));
-}
-
-bool send_all(int connection, std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t sent = ::send(connection, text.data(), text.size(), MSG_NOSIGNAL);
-        if (sent <= 0) return false;
-        text.remove_prefix(static_cast<std::size_t>(sent));
-    }
-    return true;
-}
 
 std::string tag_of(const std::string& contents) {
     return fmt::format("\"{:x}\"", std::hash<std::string>{}(contents));
 }
 
-std::string read_head(int connection) {
-    std::string head;
-    char c = 0;
-    while (!head.ends_with("\r\n\r\n") && ::recv(connection, &c, 1, 0) == 1)
-        head += c;
-    return head;
-}
-
 }  // namespace
-
-MockBucket::MockBucket() {
-    listener_ = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
-        ::listen(listener_, 64) != 0 ||
-        ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
-        throw std::runtime_error("no socket for the bucket");
-    }
-    port_ = ntohs(address.sin_port);
-    thread_ = std::thread([this] { serve(); });
-}
-
-MockBucket::~MockBucket() {
-    stop_ = true;
-    thread_.join();
-    for (std::thread& one : answering_)
-        one.join();
-    ::close(listener_);
-}
-
-std::string MockBucket::address() const {
-    return fmt::format("http://127.0.0.1:{}", port_);
-}
 
 void MockBucket::put(const std::string& key, std::string contents) {
     const std::scoped_lock lock(mutex_);
@@ -121,21 +51,6 @@ MockBucket::Fault MockBucket::next_fault(const std::string& key) {
     return fault;
 }
 
-void MockBucket::serve() {
-    while (!stop_) {
-        pollfd ready{listener_, POLLIN, 0};
-        if (::poll(&ready, 1, 20) != 1) continue;
-        const int connection = ::accept(listener_, nullptr, nullptr);
-        if (connection < 0) continue;
-        answering_.emplace_back([this, connection] {
-            most_at_once_ = std::max<std::size_t>(most_at_once_, ++at_once_);
-            answer(connection);
-            --at_once_;
-            ::close(connection);
-        });
-    }
-}
-
 std::string MockBucket::listing(const std::string& prefix, const std::string& token) {
     const std::scoped_lock lock(mutex_);
     std::string entries;
@@ -162,62 +77,37 @@ std::string MockBucket::listing(const std::string& prefix, const std::string& to
                                    next));
 }
 
-void MockBucket::answer(int connection) {
-    const std::string head = read_head(connection);
-    const std::string target = head.substr(4, head.find(' ', 4) - 4);
-    const std::size_t question = target.find('?');
-    const bool lists = question != std::string::npos;
-    const std::string key = lists ? parameter(target, "prefix") : percent_decoded(target.substr(1));
+testing::Reply MockBucket::answer(const testing::Asked& asked) {
+    const bool lists = asked.path.find('?') != std::string::npos;
+    const std::string key = lists ? asked.parameter("prefix") : asked.key();
     const Fault fault = next_fault(key);
-    std::string body;
-    std::size_t from = 0;
-    bool known = true;
-    if (lists) {
-        body = listing(key, parameter(target, "continuation-token"));
-        if (fault == Fault::no_xml) body = "<html>not now</html>";
-    } else {
-        const std::scoped_lock lock(mutex_);
-        const auto object = objects_.find(key);
-        known = object != objects_.end();
-        if (known) body = object->second;
-        const std::size_t range = head.find("Range: bytes=");
-        if (range != std::string::npos) from = std::stoul(head.substr(range + 13));
-        last_from_[key] = from;
-        const std::size_t match = head.find("If-Match: ");
-        const bool changed = match != std::string::npos &&
-                             !std::string_view{head}.substr(match + 10).starts_with(tag_of(body));
-        if (changed || fault == Fault::changed) {
-            send_all(connection,
-                     "HTTP/1.1 412 Precondition Failed\r\nContent-Length: 0\r\n"
-                     "Connection: close\r\n\r\n");
-            return;
-        }
-    }
-    if (fault == Fault::unavailable || fault == Fault::missing || !known) {
-        const int status = fault == Fault::unavailable ? 503 : 404;
-        send_all(connection, fmt::format("HTTP/1.1 {} No\r\nContent-Length: 4\r\n"
-                                         "Connection: close\r\n\r\nnone",
-                                         status));
-        return;
-    }
-    if (fault == Fault::endless_error) {
-        send_all(connection, "HTTP/1.1 403 No\r\nConnection: close\r\n\r\n");
-        while (!stop_ && send_all(connection, std::string(100'000, 'x'))) {
-        }
-        return;
-    }
+    if (fault == Fault::unavailable) return {503, "none"};
+    if (fault == Fault::missing) return {404, "none"};
+    if (fault == Fault::no_xml) return {200, "<html>not now</html>"};
+    if (fault == Fault::endless_error) return {403, "", "", Way::endless};
+    return lists ? testing::Reply{200, listing(key, asked.parameter("continuation-token"))}
+                 : object(asked, fault);
+}
+
+testing::Reply MockBucket::object(const testing::Asked& asked, Fault fault) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = objects_.find(asked.key());
+    if (found == objects_.end()) return {404, "none"};
+    std::string body = found->second;
+    const std::string range = asked.header("Range"), match = asked.header("If-Match");
+    const std::size_t from = range.empty() ? 0 : std::stoul(range.substr(range.find('=') + 1));
+    last_from_[found->first] = from;
+    if (fault == Fault::changed || (!match.empty() && match != tag_of(body))) return {412, ""};
     if (fault == Fault::longer) body += "and more";
     if (fault == Fault::shorter) body.resize(body.size() / 2);
     const std::string rest = body.substr(std::min(from, body.size()));
     const std::size_t said = fault == Fault::other_part ? 0 : from;
-    send_all(connection, fmt::format("HTTP/1.1 {}\r\nContent-Length: {}\r\nLast-Modified: {}\r\n"
-                                     "Content-Range: bytes {}-{}/{}\r\nConnection: close\r\n\r\n",
-                                     from > 0 ? "206 Partial Content" : "200 OK", rest.size(),
-                                     modified, said, said + rest.size() - 1, body.size()));
-    const bool half = fault == Fault::cut || fault == Fault::stalled;
-    send_all(connection, std::string_view{rest}.substr(0, half ? rest.size() / 2 : rest.size()));
-    if (fault == Fault::stalled)
-        (void)testing::eventually([this] { return stop_.load(); }, std::chrono::seconds{4});
+    return {from > 0 ? 206 : 200, rest,
+            fmt::format("Last-Modified: {}\r\nContent-Range: bytes {}-{}/{}\r\n", modified, said,
+                        said + rest.size() - 1, body.size()),
+            fault == Fault::cut       ? Way::cut
+            : fault == Fault::stalled ? Way::hangs
+                                      : Way::whole};
 }
 
 }  // namespace stormcellar::fetch

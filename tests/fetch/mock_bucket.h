@@ -2,14 +2,14 @@
 // faults that it is told to make.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <deque>
 #include <map>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "tests/fetch/scripted_server.h"
 
 namespace stormcellar::fetch {
 
@@ -29,12 +29,11 @@ class MockBucket {
         endless_error,
     };
 
-    MockBucket();
-    ~MockBucket();
+    MockBucket() = default;
     MockBucket(const MockBucket&) = delete;
     MockBucket& operator=(const MockBucket&) = delete;
 
-    [[nodiscard]] std::string address() const;
+    [[nodiscard]] std::string address() const { return server_.url(); }
     void put(const std::string& key, std::string contents);
     // Sets the faults of the next answers for this key (or for listings of this prefix).
     void fail_next(const std::string& key, std::vector<Fault> faults);
@@ -42,25 +41,20 @@ class MockBucket {
     // Returns how often each key was requested, and the first byte of the last request.
     [[nodiscard]] std::size_t asked(const std::string& key) const;
     [[nodiscard]] std::size_t last_from(const std::string& key) const;
-    [[nodiscard]] std::size_t most_at_once() const { return most_at_once_; }
+    [[nodiscard]] std::size_t most_at_once() const { return server_.most_at_once(); }
 
   private:
-    void serve();
-    void answer(int connection);
+    testing::Reply answer(const testing::Asked& asked);
+    [[nodiscard]] testing::Reply object(const testing::Asked& asked, Fault fault);
     [[nodiscard]] std::string listing(const std::string& prefix, const std::string& token);
     Fault next_fault(const std::string& key);
 
-    int listener_ = -1;
-    int port_ = 0;
-    std::atomic<bool> stop_{false};
-    std::atomic<std::size_t> at_once_{0}, most_at_once_{0};
     std::size_t page_ = 1000;
     mutable std::mutex mutex_;
     std::map<std::string, std::string> objects_;
     std::map<std::string, std::deque<Fault>> faults_;
     std::map<std::string, std::size_t> asked_, last_from_;
-    std::vector<std::thread> answering_;
-    std::thread thread_;
+    testing::ScriptedServer server_{[this](const testing::Asked& asked) { return answer(asked); }};
 };
 
 }  // namespace stormcellar::fetch

@@ -9,29 +9,6 @@
 #include <fmt/format.h>
 
 namespace stormcellar::feed {
-namespace {
-
-std::string decoded(const std::string& text) {
-    std::string plain;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '%' && i + 2 < text.size()) {
-            plain += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-        } else {
-            plain += text[i];
-        }
-    }
-    return plain;
-}
-
-std::string parameter(const std::string& query, const std::string& name) {
-    const std::size_t at = ("&" + query).find("&" + name + "=");
-    if (at == std::string::npos) return {};
-    const std::size_t begin = at + name.size() + 1;
-    return decoded(query.substr(begin, query.find('&', begin) - begin));
-}
-
-}  // namespace
 
 std::string dashed_time(UtcTime time) {
     std::string text = format_compact(time);
@@ -105,12 +82,12 @@ std::map<std::string, std::string> ChunkBucket::objects() const {
     return all;
 }
 
-std::string ChunkBucket::listing(const std::string& query) const {
-    const std::string prefix = parameter(query, "prefix");
+std::string ChunkBucket::listing(const testing::Asked& asked) const {
+    const std::string prefix = asked.parameter("prefix");
     const std::string after =
-        std::max(parameter(query, "start-after"), parameter(query, "continuation-token"));
-    const bool by_folders = !parameter(query, "delimiter").empty();
-    const std::string most_keys = parameter(query, "max-keys");
+        std::max(asked.parameter("start-after"), asked.parameter("continuation-token"));
+    const bool by_folders = !asked.parameter("delimiter").empty();
+    const std::string most_keys = asked.parameter("max-keys");
     const int most = std::min(page_, most_keys.empty() ? 1000 : std::stoi(most_keys));
     std::string entries, last;
     std::set<std::string> folders;
@@ -147,20 +124,17 @@ std::string ChunkBucket::listing(const std::string& query) const {
         is_cut, entries);
 }
 
-pull::Reply ChunkBucket::answer(const pull::Asked& asked) {
-    const std::size_t question = asked.path.find("?list-type=2&");
-    const bool lists = question != std::string::npos;
-    const std::string query = lists ? asked.path.substr(question + 13) : "";
-    const std::string key = lists ? "" : decoded(asked.path.substr(1));
-    const std::string text = lists ? "LIST " + parameter(query, "prefix") : "GET " + key;
-    pull::Reply reply{404, "none", "", pull::Reply::Way::whole};
+testing::Reply ChunkBucket::answer(const testing::Asked& asked) {
+    const bool lists = asked.parameter("list-type") == "2";
+    const std::string key = lists ? "" : asked.key();
+    const std::string text = lists ? "LIST " + asked.parameter("prefix") : "GET " + key;
+    testing::Reply reply{404, "none"};
     {
         const std::scoped_lock lock(mutex_);
         asked_.push_back(text);
         const auto object = objects_.find(key);
-        if (lists) reply = {200, listing(query), "", pull::Reply::Way::whole};
-        if (object != objects_.end())
-            reply = {200, object->second.contents, "", pull::Reply::Way::whole};
+        if (lists) reply = {200, listing(asked)};
+        if (object != objects_.end()) reply = {200, object->second.contents};
     }
     return change(text, std::move(reply));
 }

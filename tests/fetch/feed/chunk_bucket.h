@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "stormcellar/base/utc_time.h"
-#include "tests/fetch/pull/scripted_server.h"
+#include "tests/fetch/scripted_server.h"
 
 namespace stormcellar::feed {
 
@@ -38,8 +38,8 @@ class ChunkBucket {
     [[nodiscard]] std::map<std::string, std::string> objects() const;
 
     // Changes answers; the text is as in asked(). Set before the first request.
-    std::function<pull::Reply(const std::string&, pull::Reply)> change =
-        [](const std::string&, pull::Reply reply) { return reply; };
+    std::function<testing::Reply(const std::string&, testing::Reply)> change =
+        [](const std::string&, testing::Reply reply) { return reply; };
 
   private:
     struct Object {
@@ -47,14 +47,14 @@ class ChunkBucket {
         std::uint64_t said_bytes = 0;
         UtcTime modified;
     };
-    pull::Reply answer(const pull::Asked& asked);
-    [[nodiscard]] std::string listing(const std::string& query) const;
+    testing::Reply answer(const testing::Asked& asked);
+    [[nodiscard]] std::string listing(const testing::Asked& asked) const;
 
     int page_ = 1000;
     mutable std::mutex mutex_;  // guards what follows
     std::map<std::string, Object> objects_;
     std::vector<std::string> asked_;
-    pull::ScriptedServer server_{[this](const pull::Asked& asked) { return answer(asked); }};
+    testing::ScriptedServer server_{[this](const testing::Asked& asked) { return answer(asked); }};
 };
 
 // "20220317-000842", as keys have it.

@@ -1,34 +1,20 @@
 #include "fetch/feed/feed_config.h"
 
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "stormcellar/base/station_table.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/fetch/config_file.h"
 
 namespace stormcellar::feed {
 namespace {
 
 using ::testing::HasSubstr;
 
-class FeedConfigFile : public ::testing::Test {
-  protected:
-    Result<FeedConfig> load(const std::string& text) {
-        std::ofstream(directory_ / "s.toml") << text;
-        return load_feed_config(directory_ / "s.toml");
-    }
-    std::string complaint(const std::string& text) {
-        const auto config = load(text);
-        return config ? "it was taken" : config.error().message;
-    }
-    testing::TemporaryDirectory directory_;
-};
+using FeedConfigFile = testing::ConfigFile<load_feed_config>;
 
 TEST_F(FeedConfigFile, TheShippedFileHoldsEveryDefault) {
-    const auto shipped = load_feed_config(testing::source_directory() / "daemon/stormcellard.toml");
+    const auto shipped = load_shipped();
     ASSERT_TRUE(shipped) << shipped.error().message;
     EXPECT_TRUE(*shipped == FeedConfig{});
 }

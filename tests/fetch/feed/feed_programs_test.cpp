@@ -109,7 +109,7 @@ TEST_F(FeedPrograms, KilledInTheMiddleOfAVolumeItLosesNothing) {
     // The bucket holds back an answer until the feed is killed that waits for it.
     std::atomic<int> gets{0};
     std::atomic<bool> is_killed{true};
-    bucket_.change = [&](const std::string& asked, pull::Reply reply) {
+    bucket_.change = [&](const std::string& asked, testing::Reply reply) {
         if (asked.starts_with("GET") && ++gets % 17 == 0 && gets < 60) {
             is_killed = false;
             EXPECT_TRUE(testing::eventually([&] { return is_killed.load(); }));

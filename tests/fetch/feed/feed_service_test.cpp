@@ -14,10 +14,10 @@
 namespace stormcellar::feed {
 namespace {
 
-using pull::Reply;
 using std::chrono::minutes;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::Reply;
 
 UtcTime on_a_second(UtcTime time) {
     return std::chrono::floor<std::chrono::seconds>(time);

@@ -1,33 +1,19 @@
 #include "fetch/pull/pull_config.h"
 
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/fetch/config_file.h"
 
 namespace stormcellar::pull {
 namespace {
 
 using ::testing::HasSubstr;
 
-class PullConfigFile : public ::testing::Test {
-  protected:
-    Result<PullConfig> load(const std::string& text) {
-        std::ofstream(directory_ / "s.toml") << text;
-        return load_pull_config(directory_ / "s.toml");
-    }
-    std::string complaint(const std::string& text) {
-        const auto config = load(text);
-        return config ? "it was taken" : config.error().message;
-    }
-    testing::TemporaryDirectory directory_;
-};
+using PullConfigFile = testing::ConfigFile<load_pull_config>;
 
 TEST_F(PullConfigFile, TheShippedFileHoldsEveryDefault) {
-    const auto shipped = load_pull_config(testing::source_directory() / "daemon/stormcellard.toml");
+    const auto shipped = load_shipped();
     ASSERT_TRUE(shipped) << shipped.error().message;
     EXPECT_TRUE(*shipped == PullConfig{});
 }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/fetch/pull/scripted_server.h"
+#include "tests/fetch/scripted_server.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 
@@ -12,6 +12,9 @@ namespace stormcellar::pull {
 namespace {
 
 using nlohmann::json;
+using testing::Asked;
+using testing::Reply;
+using testing::ScriptedServer;
 
 json status_of(const std::filesystem::path& directory) {
     const auto bytes = read_file(directory / "status.json");
@@ -37,9 +40,7 @@ TEST(PullService, OneMachineThatHangsHoldsUpNoOther) {
     ScriptedServer hangs([](const Asked&) {
         return Reply{200, "{\"grids\":[]}", "", Reply::Way::hangs};
     });
-    ScriptedServer answers([](const Asked&) {
-        return Reply{200, "{\"grids\":[]}", "", Reply::Way::whole};
-    });
+    ScriptedServer answers([](const Asked&) { return Reply{200, "{\"grids\":[]}"}; });
     PullConfig config;
     config.directory = directory / "pull";
     config.stall = std::chrono::hours{1};
@@ -61,8 +62,7 @@ TEST(PullService, AMachineThatIsAwayIsNamedAndAskedAgain) {
     const testing::TemporaryDirectory directory;
     std::atomic<bool> is_away{true};
     ScriptedServer server([&](const Asked&) {
-        return is_away ? Reply{500, "", "", Reply::Way::whole}
-                       : Reply{200, "{\"grids\":[]}", "", Reply::Way::whole};
+        return is_away ? Reply{500, ""} : Reply{200, "{\"grids\":[]}"};
     });
     PullConfig config;
     config.directory = directory / "pull";

@@ -10,7 +10,7 @@
 
 #include "stormcellar/cache/store.h"
 #include "tests/cache/made_grids.h"
-#include "tests/fetch/pull/scripted_server.h"
+#include "tests/fetch/scripted_server.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 
@@ -18,7 +18,10 @@ namespace stormcellar::pull {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Asked;
 using ::testing::HasSubstr;
+using testing::Reply;
+using testing::ScriptedServer;
 
 std::string text_of(const fs::path& path) {
     const auto bytes = read_file(path);
@@ -70,10 +73,11 @@ class OtherMachine {
             const auto file = cache::GridFile::open(path);
             const std::string tag = fmt::format("\"{:016x}\"", file->checksum());
             Reply reply{200, text_of(path), "ETag: " + tag + "\r\n", Reply::Way::whole};
-            if (asked.tag == tag) reply = {304, "", "ETag: " + tag + "\r\n", Reply::Way::whole};
+            if (asked.header("If-None-Match") == tag)
+                reply = {304, "", "ETag: " + tag + "\r\n", Reply::Way::whole};
             return of_files(std::move(reply));
         }
-        return of_missing({404, "no", "", Reply::Way::whole});
+        return of_missing({404, "no"});
     }
     [[nodiscard]] Reply list(const Asked& asked) const {
         std::string text;
@@ -81,7 +85,7 @@ class OtherMachine {
             text += fmt::format("{}{{\"domain\":\"{}\",\"moment\":\"REF\",\"time\":\"{}\"}}",
                                 text.empty() ? "" : ",", name.domain, format_utc(name.time));
         const std::string tag = "\"of-the-list\"";
-        if (asked.tag == tag) return {304, "", "", Reply::Way::whole};
+        if (asked.header("If-None-Match") == tag) return {304, ""};
         return {200, "{\"grids\":[" + text + "]}", "ETag: " + tag + "\r\n", Reply::Way::whole};
     }
     [[nodiscard]] static std::string file_url_of(const cache::GridName& name) {
@@ -105,6 +109,14 @@ class Pulling : public ::testing::Test {
         EXPECT_TRUE(grids) << grids.error().message;
         return std::make_unique<SourcePuller>(PullSource{"north", other_.url(), {"us"}}, config_,
                                               std::move(*grids), stop_);
+    }
+    // The limit is what the directory holds; two more grids wait.
+    void reach_the_limit() {
+        const auto north = puller();
+        ASSERT_TRUE(north->turn());
+        config_.bytes_a_source = north->status().bytes;
+        other_.add(std::chrono::minutes{5}, 2);
+        other_.add(std::chrono::minutes{4}, 3);
     }
     [[nodiscard]] std::string pulled(std::size_t number) const {
         return text_of(north() / cache::relative_path(other_.name(number)));
@@ -140,7 +152,7 @@ TEST_F(Pulling, BringsWhatIsMissingAndAsksForNothingTwice) {
     const auto asked = other_.server().asked();
     ASSERT_EQ(asked.size(), 2U);
     EXPECT_EQ(asked[1].path, asked[0].path);
-    EXPECT_EQ(asked[1].tag, "\"of-the-list\"");
+    EXPECT_EQ(asked[1].header("If-None-Match"), "\"of-the-list\"");
 }
 
 TEST_F(Pulling, AYoungGridThatWasMadeAgainComesAgain) {
@@ -172,13 +184,7 @@ TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
 // 2026-11-28: at its limit of bytes a machine took one new grid and asked for one again in a turn,
 // so that it fell behind for good.
 TEST_F(Pulling, AtItsLimitAllThatIsNewComesAndTheOldestGo) {
-    {
-        const auto north = puller();
-        ASSERT_TRUE(north->turn());
-        config_.bytes_a_source = north->status().bytes;
-    }
-    other_.add(std::chrono::minutes{5}, 2);
-    other_.add(std::chrono::minutes{4}, 3);
+    reach_the_limit();
     ASSERT_TRUE(puller()->turn());
     for (const std::size_t number : {0U, 1U, 2U, 3U})
         EXPECT_EQ(pulled(number).empty(), number < 2) << number;
@@ -186,13 +192,7 @@ TEST_F(Pulling, AtItsLimitAllThatIsNewComesAndTheOldestGo) {
 
 // 2026-11-28: a machine at its limit fetched the same grid in each turn, and removed it again.
 TEST_F(Pulling, AtItsLimitNothingIsFetchedInVainAgain) {
-    {
-        const auto north = puller();
-        ASSERT_TRUE(north->turn());
-        config_.bytes_a_source = north->status().bytes;
-    }
-    other_.add(std::chrono::minutes{5}, 2);
-    other_.add(std::chrono::minutes{4}, 3);
+    reach_the_limit();
     const auto north = puller();
     ASSERT_TRUE(north->turn());
     const auto first = north->status();
@@ -287,7 +287,7 @@ TEST_F(Pulling, StationsThatAreNotItsAreNotPulled) {
 }
 
 TEST_F(Pulling, AMachineThatIsBusyIsLeftAloneForLongerAndLonger) {
-    other_.of_files = [](Reply) { return Reply{503, "later", "", Reply::Way::whole}; };
+    other_.of_files = [](Reply) { return Reply{503, "later"}; };
     const auto north = puller();
     const Status done = north->turn();
     ASSERT_FALSE(done);

@@ -1,20 +1,28 @@
-// tests/fetch/pull/scripted_server.h -- a server on the loopback that answers as a test says,
+// tests/fetch/scripted_server.h -- a server on the loopback that answers as a test says,
 // faults included.
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <list>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
-namespace stormcellar::pull {
+namespace stormcellar::testing {
 
 struct Asked {
     std::string path;  // with its query
-    std::string tag;   // of If-None-Match
+    std::string head;  // the request line and all headers
+    // Returns the value of a header; empty if there is none.
+    [[nodiscard]] std::string header(std::string_view name) const;
+    // Returns a parameter of the query, decoded; empty if there is none.
+    [[nodiscard]] std::string parameter(std::string_view name) const;
+    // Returns the path without its first slash and query, decoded: the key of an object.
+    [[nodiscard]] std::string key() const;
 };
 
 struct Reply {
@@ -25,8 +33,8 @@ struct Reply {
         endless,
     };
     int status = 200;
-    std::string body;
-    std::string headers;  // each with its line end
+    std::string body = {};
+    std::string headers = {};  // each with its line end
     Way way = Way::whole;
 };
 
@@ -40,6 +48,7 @@ class ScriptedServer {
     [[nodiscard]] std::string url() const;
     [[nodiscard]] std::vector<Asked> asked() const;
     void forget_asked();
+    [[nodiscard]] std::size_t most_at_once() const { return most_at_once_; }
 
   private:
     struct Answering {
@@ -54,10 +63,11 @@ class ScriptedServer {
     int listener_ = -1;
     int port_ = 0;
     std::atomic<bool> stop_{false};
+    std::atomic<std::size_t> at_once_{0}, most_at_once_{0};
     mutable std::mutex mutex_;  // guards asked_
     std::vector<Asked> asked_;
     std::list<Answering> answering_;
     std::thread thread_;
 };
 
-}  // namespace stormcellar::pull
+}  // namespace stormcellar::testing

@@ -1,5 +1,6 @@
-#include "tests/fetch/pull/scripted_server.h"
+#include "tests/fetch/scripted_server.h"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <string_view>
@@ -13,7 +14,7 @@
 
 #include "tests/testing/waiting.h"
 
-namespace stormcellar::pull {
+namespace stormcellar::testing {
 namespace {
 
 bool send_all(int connection, std::string_view text) {
@@ -33,14 +34,42 @@ std::string read_head(int connection) {
     return head;
 }
 
-std::string header_in(const std::string& head, std::string_view name) {
-    const std::size_t at = head.find(name);
-    if (at == std::string::npos) return {};
-    const std::size_t begin = at + name.size();
-    return head.substr(begin, head.find('\r', begin) - begin);
+std::string decoded(std::string_view text) {
+    std::string plain;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '%' && i + 2 < text.size()) {
+            plain += static_cast<char>(std::stoi(std::string(text.substr(i + 1, 2)), nullptr, 16));
+            i += 2;
+        } else {
+            plain += text[i];
+        }
+    }
+    return plain;
+}
+
+// Returns the text between `begin` and `end`; empty if there is no `begin`.
+std::string_view between(std::string_view text, std::string_view begin, char end) {
+    const std::size_t at = text.find(begin);
+    if (at == std::string_view::npos) return {};
+    text.remove_prefix(at + begin.size());
+    return text.substr(0, text.find(end));
 }
 
 }  // namespace
+
+std::string Asked::header(std::string_view name) const {
+    return std::string(between(head, fmt::format("\r\n{}: ", name), '\r'));
+}
+
+std::string Asked::parameter(std::string_view name) const {
+    std::string query = path.substr(std::min(path.find('?'), path.size()));
+    std::ranges::replace(query, '?', '&');
+    return decoded(between(query, fmt::format("&{}=", name), '&'));
+}
+
+std::string Asked::key() const {
+    return decoded(std::string_view{path}.substr(1, path.find('?') - 1));
+}
 
 ScriptedServer::ScriptedServer(std::function<Reply(const Asked&)> answer)
     : answer_(std::move(answer)) {
@@ -89,7 +118,9 @@ void ScriptedServer::serve() {
         join_done();
         Answering& one = answering_.emplace_back();
         one.thread = std::thread([this, &one, connection] {
+            most_at_once_ = std::max<std::size_t>(most_at_once_, ++at_once_);
             answer(connection);
+            --at_once_;
             ::close(connection);
             one.is_done = true;
         });
@@ -108,7 +139,7 @@ void ScriptedServer::join_done() {
 void ScriptedServer::answer(int connection) {
     const std::string head = read_head(connection);
     if (head.size() < 5) return;
-    const Asked asked{head.substr(4, head.find(' ', 4) - 4), header_in(head, "If-None-Match: ")};
+    const Asked asked{head.substr(4, head.find(' ', 4) - 4), head};
     {
         const std::scoped_lock lock(mutex_);
         asked_.push_back(asked);
@@ -129,4 +160,4 @@ void ScriptedServer::answer(int connection) {
         (void)testing::eventually([&] { return stop_.load(); }, std::chrono::hours{1});
 }
 
-}  // namespace stormcellar::pull
+}  // namespace stormcellar::testing
