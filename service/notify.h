@@ -10,16 +10,12 @@
 
 #include "base/steady_time.h"
 #include "service/pulse.h"
+#include "stormcellar/base/interface.h"
 
 namespace stormcellar {
 
-class Notifier {
+class Notifier : public Interface {
   public:
-    Notifier() = default;
-    Notifier(const Notifier&) = delete;
-    Notifier& operator=(const Notifier&) = delete;
-    virtual ~Notifier() = default;
-
     // `state` has lines of VARIABLE=value.
     virtual void send(const std::string& state) = 0;
     // Returns how long the manager waits for WATCHDOG=1 before it restarts the service; none: it

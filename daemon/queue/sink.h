@@ -14,6 +14,7 @@
 
 #include "daemon/watch/file_stamp.h"
 #include "pipeline/ingest/ingest.h"
+#include "stormcellar/base/interface.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 
@@ -44,13 +45,8 @@ struct CacheRolled {
     std::optional<cache::StoreUsage> usage;
 };
 
-class Sink {
+class Sink : public Interface {
   public:
-    Sink() = default;
-    Sink(const Sink&) = delete;
-    Sink& operator=(const Sink&) = delete;
-    virtual ~Sink() = default;
-
     // Ingests a file. An error is never the file's fault (the catalog or the cache cannot be
     // written); the file is tried again later. After the last try the file is rejected with the
     // reason, if that can be stored.

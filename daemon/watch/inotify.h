@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "stormcellar/base/interface.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::daemon {
@@ -21,13 +22,8 @@ struct DirectoryEvent {
     std::string name;        // of the entry; empty if the event is about the directory itself
 };
 
-class EventSource {
+class EventSource : public Interface {
   public:
-    EventSource() = default;
-    EventSource(const EventSource&) = delete;
-    EventSource& operator=(const EventSource&) = delete;
-    virtual ~EventSource() = default;
-
     // readable when events are waiting; -1: nothing to poll
     [[nodiscard]] virtual int descriptor() const = 0;
     // Watches a directory and returns the number of the watch; a directory that is already watched

@@ -23,17 +23,13 @@
 #include "daemon/watch/file_stamp.h"
 #include "daemon/watch/inotify.h"
 #include "daemon/watch/unreadable.h"
+#include "stormcellar/base/interface.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::daemon {
 
-class WatchListener {
+class WatchListener : public Interface {
   public:
-    WatchListener() = default;
-    WatchListener(const WatchListener&) = delete;
-    WatchListener& operator=(const WatchListener&) = delete;
-    virtual ~WatchListener() = default;
-
     // A file was closed after writing, or renamed to this name.
     virtual void file_closed(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // A file was created and is not closed yet; or it is a hard link, for which no close ever
