@@ -41,7 +41,7 @@ Result<struct stat> facts_of(const Descriptor& file) {
 
 Status check_size(std::uint64_t found, std::uint64_t expected) {
     if (found < expected) {
-        return fail(ErrorCode::truncated, "{} bytes of {}: the file was cut", found, expected);
+        return fail(ErrorCode::truncated, "the file was cut: {} bytes of {}", found, expected);
     }
     if (found > expected) {
         return fail(ErrorCode::corrupt, "{} bytes where {} are expected", found, expected);

@@ -42,14 +42,15 @@ Status check_identity(const FileHeader& header) {
     const bool known = (header.required_features & ~format::known_features) == 0;
     if (header.version < format::oldest_version || header.version > format::version || !known) {
         return fail(ErrorCode::unsupported,
-                    "has version {} and features {:#x}, this software reads versions {} to {} and "
+                    "has version {} and features {:#x}; this software reads versions {} to {} and "
                     "features {:#x}",
                     header.version, header.required_features, format::oldest_version,
                     format::version, format::known_features);
     }
     const bool is_window = header.offset_x_cells != 0 || header.offset_y_cells != 0;
     if (is_window != ((header.required_features & format::feature_window) != 0)) {
-        return fail(ErrorCode::corrupt, "the header contradicts itself on being a window");
+        return fail(ErrorCode::corrupt,
+                    "features and offsets of the header disagree on whether this is a window");
     }
     const bool possible = header.header_size == format::page_size && header.nx >= 1 &&
                           header.nx <= 16384 && header.ny >= 1 && header.ny <= 16384 &&
@@ -152,8 +153,9 @@ Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size,
     if (!at) return pass_on(at);
     metadata.at = *at;
     if (at->codes_offset > most_read_bytes) {
-        return fail(ErrorCode::unsupported, "{} bytes of it are read to memory, more than {}",
-                    at->codes_offset, most_read_bytes);
+        return fail(ErrorCode::unsupported,
+                    "{} bytes of it would be read into memory, more than {}", at->codes_offset,
+                    most_read_bytes);
     }
     if (Status whole = check_size(file_size, at->file_size); !whole) return pass_on(whole);
 
@@ -258,7 +260,7 @@ Result<Codes> codes_of(const Descriptor& file, const Metadata& metadata,
         return codes;
     }
     if (packed_size(view.bricks) != at.codes_size) {
-        return fail(ErrorCode::corrupt, "the table and the header differ in the codes' size");
+        return fail(ErrorCode::corrupt, "table and header differ in the size of the codes");
     }
     if (const std::uint64_t bytes = unpacked_bytes(view); bytes > most_unpacked_bytes) {
         return fail(ErrorCode::unsupported, "its codes unpack to {} bytes, more than {}", bytes,

@@ -41,7 +41,7 @@ Status check_view(const GridDescription& description, const BrickView& view) {
         if (entry.kind != BrickKind::status_only) continue;
         if ((entry.status_index + std::uint64_t{1}) * format::status_block_bytes >
             view.states.size()) {
-            return fail(ErrorCode::corrupt, "a brick's states are beyond the states there are");
+            return fail(ErrorCode::corrupt, "a brick refers to states that do not exist");
         }
     }
     return {};

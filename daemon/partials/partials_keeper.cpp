@@ -163,9 +163,9 @@ bool PartialsKeeper::mend_one() {
     std::vector<std::string> problems;
     const auto looked = of_.mosaics.make_stale(of_.threads, problems);
     for (const std::string& problem : problems)
-        log_warning({Event::frame_problem}, "a frame of parts: {}", printable(problem));
+        log_warning({Event::frame_problem}, "frame of partials: {}", printable(problem));
     if (!looked) {
-        log_warning({Event::frame_problem}, "a frame of parts cannot be made again: {}",
+        log_warning({Event::frame_problem}, "cannot make a frame of partials again: {}",
                     printable(looked.error().message));
         next_mending_ = steady_now() + pause_after_failure;
         return false;
@@ -193,7 +193,8 @@ bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
 Status PartialsKeeper::check_station(const Machine& machine, const cache::GridName& name,
                                      const std::string& station) const {
     if (!config_.may_bring(machine.facts.name, station))
-        return fail(ErrorCode::bad_argument, "[partials.stations] does not give it {}", station);
+        return fail(ErrorCode::bad_argument, "[partials.stations] does not assign {} to it",
+                    station);
     const auto has_it = [&](const std::vector<std::string>& stations) {
         return std::ranges::find(stations, station) != stations.end();
     };
@@ -204,8 +205,8 @@ Status PartialsKeeper::check_station(const Machine& machine, const cache::GridNa
         of_.stations->knows(station))
         return {};
     return fail(ErrorCode::bad_argument,
-                "{} is no known station; [partials.stations], [ingest] stations or a [[station]] "
-                "can name it",
+                "{} is not a known station; name it in [partials.stations], [ingest] stations or a "
+                "[[station]]",
                 station);
 }
 
@@ -232,7 +233,7 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
         return;
     }
     for (const std::string& problem : kept->problems)
-        log_warning({Event::frame_problem}, "a frame of parts: {}", printable(problem));
+        log_warning({Event::frame_problem}, "frame of partials: {}", printable(problem));
     machine.last_news = steady_now();
     machine.facts.arrived = now_utc();
     if (kept->won) note_rival(machine, name, *kept->won);
@@ -254,7 +255,7 @@ void PartialsKeeper::note_rival(Machine& machine, const cache::GridName& name, b
                           .file = winner.directory->path() / cache::relative_path(name),
                           .domain = name.domain};
         return log_warning(about,
-                           "partial of {}: {} {} takes the place of another one, of {}; name the "
+                           "partial of {}: {} {} replaces one of {}; name the "
                            "stations of each machine in [partials.stations]",
                            winner.facts.name, name.domain, format_utc(name.time), loser.facts.name);
     }

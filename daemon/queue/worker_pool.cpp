@@ -90,7 +90,7 @@ Result<Taken> WorkerPool::take(const Job& job) {
     try {
         return work_(job);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::exhausted, "the system has no memory left for it");
+        return fail(ErrorCode::exhausted, "there is not enough memory for it");
     } catch (const std::exception& error) {
         return fail(ErrorCode::internal, "{}: {}", job.path.native(), error.what());
     }

@@ -63,7 +63,7 @@ void FeedService::prune() {
     next_prune_ = steady_now() + config_.between_prunes;
     removed_ += drop_.prune(now_utc());
     if (const auto lines = lines_.take_held_back(steady_now()))
-        say(LogLevel::warning, "{} about stations were left out", counted(*lines, "line"));
+        say(LogLevel::warning, "{} about stations were not logged", counted(*lines, "line"));
 }
 
 FeedStatus FeedService::status() const {

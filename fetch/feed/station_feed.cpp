@@ -125,7 +125,7 @@ void StationFeed::note_good() {
     status_.error.clear();
     status_.next_try.reset();
     quiet_since_ += steady_now() - failing_since_;  // it is unknown what came during the failure
-    if (tools_.lines.allow(steady_now())) say(LogLevel::info, "{}: goes on again", station_);
+    if (tools_.lines.allow(steady_now())) say(LogLevel::info, "{}: continues", station_);
 }
 
 void StationFeed::finish_turn() {

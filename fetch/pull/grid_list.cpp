@@ -59,7 +59,7 @@ Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> 
     const auto is_kept = [](int depth, json::parse_event_t, const json&) { return depth <= 3; };
     const json all = json::parse(begin, begin + text.size(), is_kept, false);
     if (!all.is_object() || !all.contains("grids") || !all["grids"].is_array()) {
-        return fail(ErrorCode::corrupt, "{}: what it answered is no list of grids", source.url);
+        return fail(ErrorCode::corrupt, "{}: the answer is not a list of grids", source.url);
     }
     std::vector<cache::GridName> grids;
     for (const json& entry : all["grids"]) {

@@ -49,7 +49,7 @@ struct HttpClient::Handle {
         try {
             return request->take(piece);
         } catch (const std::exception& thrown) {  // memory is short
-            return fail(ErrorCode::exhausted, "cannot be taken: {}", thrown.what());
+            return fail(ErrorCode::exhausted, "cannot receive the answer: {}", thrown.what());
         }
     }
     // Takes the body. Returning another number than the bytes given ends the transfer.

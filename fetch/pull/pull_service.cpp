@@ -53,7 +53,7 @@ void PullService::run(SourcePuller& puller) {
         const Status done = puller.turn();
         const std::string& name = puller.source().name;
         if (!done && !was_failing) say(LogLevel::warning, "{}: {}", name, done.error().message);
-        if (done && was_failing) say(LogLevel::info, "{}: goes on again", name);
+        if (done && was_failing) say(LogLevel::info, "{}: answers again", name);
         was_failing = !done;
         wait(puller);
     }

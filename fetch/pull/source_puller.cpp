@@ -79,7 +79,7 @@ Status SourcePuller::try_to_pull() {
     try {
         return pull();
     } catch (const std::exception& error) {  // memory is short
-        return fail(ErrorCode::exhausted, "cannot take its grids: {}", error.what());
+        return fail(ErrorCode::exhausted, "cannot fetch its grids: {}", error.what());
     }
 }
 

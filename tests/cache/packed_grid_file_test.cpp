@@ -71,7 +71,7 @@ TEST_F(PackedGridFile, TakesNoMoreMemoryThanItsReaderAllows) {
                file.error().message.find(why) != std::string::npos;
     };
     EXPECT_TRUE(is_refused({.unpacked_bytes = bytes - 1}, "its codes unpack to"));
-    EXPECT_TRUE(is_refused({.read_bytes = 4096}, "are read to memory"));
+    EXPECT_TRUE(is_refused({.read_bytes = 4096}, "would be read into memory"));
 }
 
 TEST_F(PackedGridFile, IsInMemoryWhenItsFileIsCut) {

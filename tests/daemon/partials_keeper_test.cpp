@@ -167,7 +167,7 @@ TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
     bring("north", listed);
     start();
     EXPECT_TRUE(testing::eventually([&] { return south().refused == 1 && north().taken == 1; }));
-    EXPECT_THAT(south().last_problem, HasSubstr("QAAA is no known station"));
+    EXPECT_THAT(south().last_problem, HasSubstr("QAAA is not a known station"));
     EXPECT_FALSE(is_kept(invented));
     EXPECT_TRUE(is_kept(listed));
 }
@@ -178,7 +178,7 @@ TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     start();
     bring("south", early);
     EXPECT_TRUE(testing::eventually([&] { return south().refused == 1; }));
-    EXPECT_THAT(south().last_problem, HasSubstr("[partials.stations] does not give it KBGM"));
+    EXPECT_THAT(south().last_problem, HasSubstr("[partials.stations] does not assign KBGM to it"));
     EXPECT_FALSE(is_kept(early));
     bring("north", later);
     bring("south", other);
