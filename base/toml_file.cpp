@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include <toml++/toml.h>
 
 #include "base/floating_point.h"
+#include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/toml_depth.h"
 #include "stormcellar/base/file_system.h"
@@ -20,21 +20,11 @@ namespace {
 constexpr std::uint64_t largest_file = 1 << 20;
 
 std::string_view kind_of(const toml::node& node) {
-    switch (node.type()) {
-        case toml::node_type::table:
-            return "a table";
-        case toml::node_type::array:
-            return "an array";
-        case toml::node_type::string:
-            return "text";
-        case toml::node_type::integer:
-        case toml::node_type::floating_point:
-            return "a number";
-        case toml::node_type::boolean:
-            return "true or false";
-        default:
-            return "a date or time";
-    }
+    if (node.is_table()) return "a table";
+    if (node.is_array()) return "an array";
+    if (node.is_string()) return "text";
+    if (node.is_number()) return "a number";
+    return node.is_boolean() ? "true or false" : "a date or time";
 }
 
 double number_of(const toml::node& node) {
@@ -45,22 +35,6 @@ double number_of(const toml::node& node) {
 bool holds_tables(const toml::node& node) {
     const toml::array* array = node.as_array();
     return array != nullptr && !array->empty() && array->is_homogeneous(toml::node_type::table);
-}
-
-// Returns how many letters must be inserted, dropped or replaced to turn one text into the other.
-std::size_t edits_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> edits(b.size() + 1);  // from the current prefix of `a` to each prefix
-                                                   // of `b`
-    std::iota(edits.begin(), edits.end(), std::size_t{0});
-    for (const char letter : a) {
-        std::size_t corner = edits[0]++;
-        for (std::size_t j = 1; j < edits.size(); ++j) {
-            const std::size_t replaced = corner + (letter == b[j - 1] ? 0 : 1);
-            corner = edits[j];
-            edits[j] = std::min({replaced, corner + 1, edits[j - 1] + 1});
-        }
-    }
-    return edits.back();
 }
 
 }  // namespace
@@ -152,10 +126,10 @@ struct TomlFile::Document {
         const bool lacks_section = complaints.begin()->first == 0 && first.index != 0;
         for (const auto& [line, other] : complaints) {
             const bool in_root = lacks_section && other.index == 0;
-            if (in_root && edits_between(other.key, asked[first.index].name) <= 2) return other;
+            if (in_root && edit_distance(other.key, asked[first.index].name) <= 2) return other;
             if (other.about != About::unknown_key) continue;
             if (other.index != first.index && !in_root) continue;
-            if (edits_between(other.key, first.key) <= 2) return other;
+            if (edit_distance(other.key, first.key) <= 2) return other;
         }
         return first;
     }
@@ -262,43 +236,38 @@ std::optional<int> TomlTable::whole_number(std::string_view key, TomlRange range
     return value ? std::optional{static_cast<int>(*value)} : std::nullopt;
 }
 
-std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) {
+template <class Value, class Read>
+std::optional<std::vector<Value>> TomlTable::array(std::string_view key, std::string_view kind,
+                                                   const Read& read) {
     const toml::node* node = document_->find(index_, key);
     if (node == nullptr) return std::nullopt;
     const toml::array* array = node->as_array();
     if (array == nullptr) {
-        document_->complain_kind(index_, key, "an array of numbers", *node);
+        document_->complain_kind(index_, key, kind, *node);
         return std::nullopt;
     }
-    std::vector<double> values;
+    std::vector<Value> values;
     for (const toml::node& element : *array) {
-        if (!element.is_number()) {
-            complain(key, fmt::format("must be an array of numbers, holds {}", kind_of(element)));
+        std::optional<Value> value = read(element);
+        if (!value) {
+            complain(key, fmt::format("must be {}, holds {}", kind, kind_of(element)));
             return std::nullopt;
         }
-        values.push_back(number_of(element));
+        values.push_back(*std::move(value));
     }
     return values;
 }
 
+std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) {
+    return array<double>(key, "an array of numbers", [](const toml::node& element) {
+        return element.is_number() ? std::optional{number_of(element)} : std::nullopt;
+    });
+}
+
 std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {
-    const toml::node* node = document_->find(index_, key);
-    if (node == nullptr) return std::nullopt;
-    const toml::array* array = node->as_array();
-    if (array == nullptr) {
-        document_->complain_kind(index_, key, "an array of texts", *node);
-        return std::nullopt;
-    }
-    std::vector<std::string> values;
-    for (const toml::node& element : *array) {
-        const auto* value = element.as_string();
-        if (value == nullptr) {
-            complain(key, fmt::format("must be an array of texts, holds {}", kind_of(element)));
-            return std::nullopt;
-        }
-        values.push_back(value->get());
-    }
-    return values;
+    return array<std::string>(key, "an array of texts", [](const toml::node& element) {
+        return element.value_exact<std::string>();
+    });
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key) {

@@ -77,6 +77,10 @@ class TomlTable {
     TomlTable(TomlFile::Document& document, std::size_t index)
         : document_(&document), index_(index) {}
 
+    template <class Value, class Read>
+    std::optional<std::vector<Value>> array(std::string_view key, std::string_view kind,
+                                            const Read& read);
+
     TomlFile::Document* document_;
     std::size_t index_;  // index in the document's list of tables that were read
 };

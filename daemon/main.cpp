@@ -204,9 +204,7 @@ int run(const ServiceArguments& arguments) {
                           fmt::format("{}: {}", arguments.config->native(), fine.error().message)});
         }
         print_notes(*config);
-        fmt::print("{}\n{}: ok\n", checked_as(program, "stormcellar"),
-                   printable(arguments.config->native()));
-        return EXIT_SUCCESS;
+        return say_checked(program, "stormcellar", *arguments.config);
     }
     set_added_stations(config->fixed.ingest.added_stations);
     if (const auto path = config->fixed.ingest.bunzip) bunzip::set_usual_path(*path);

@@ -26,45 +26,22 @@ constexpr int first_to_go = 500;
 
 // A pipe. Programs that are started later inherit neither end.
 struct Pipe {
-    std::array<int, 2> ends{-1, -1};
-
     Pipe() {
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0) ends = {-1, -1};
+        std::array<int, 2> ends{-1, -1};
+        (void)!::pipe2(ends.data(), O_CLOEXEC);
+        reader = Descriptor(ends[0]);
+        writer = Descriptor(ends[1]);
     }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    ~Pipe() {
-        for (const int end : ends) {
-            if (end >= 0) ::close(end);
-        }
-    }
-    // Returns the reading end, which never blocks, and gives up ownership.
-    int take_reader() {
-        ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
-        return std::exchange(ends[0], -1);
-    }
+    Descriptor reader, writer;
 };
 
+// Reads from the pipe without ever blocking.
+LineReader lines_of(Pipe& pipe) {
+    ::fcntl(pipe.reader.number(), F_SETFL, O_NONBLOCK);
+    return LineReader(std::move(pipe.reader));
+}
+
 }  // namespace
-
-LineReader::LineReader(LineReader&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), line_(std::move(other.line_)) {}
-
-LineReader& LineReader::operator=(LineReader&& other) noexcept {
-    close();
-    descriptor_ = std::exchange(other.descriptor_, -1);
-    line_ = std::move(other.line_);
-    return *this;
-}
-
-LineReader::~LineReader() {
-    close();
-}
-
-void LineReader::close() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    descriptor_ = -1;
-}
 
 void LineReader::take(std::string_view bytes, std::vector<std::string>& lines) {
     for (const char c : bytes) {
@@ -79,8 +56,8 @@ void LineReader::take(std::string_view bytes, std::vector<std::string>& lines) {
 std::vector<std::string> LineReader::read() {
     std::vector<std::string> lines;
     std::array<char, 4096> buffer{};
-    for (int i = 0; i < 16 && descriptor_ >= 0; ++i) {
-        const ssize_t got = ::read(descriptor_, buffer.data(), buffer.size());
+    for (int i = 0; i < 16 && descriptor_.is_open(); ++i) {
+        const ssize_t got = ::read(descriptor_.number(), buffer.data(), buffer.size());
         if (got > 0) {
             take({buffer.data(), static_cast<std::size_t>(got)}, lines);
         } else if (got < 0 && errno == EINTR) {
@@ -88,7 +65,7 @@ std::vector<std::string> LineReader::read() {
         } else if (got < 0 && errno == EAGAIN) {
             break;
         } else {
-            close();
+            descriptor_ = {};
             if (!line_.empty()) lines.push_back(std::exchange(line_, {}));
         }
     }
@@ -98,9 +75,10 @@ std::vector<std::string> LineReader::read() {
 Result<Child> Child::start(const fs::path& program, const std::vector<std::string>& arguments) {
     Pipe out;
     Pipe err;
-    if (out.ends[0] < 0 || err.ends[0] < 0) return system_failure(program.native(), errno);
+    if (!out.reader.is_open() || !err.reader.is_open())
+        return system_failure(program.native(), errno);
     const Result<pid_t> started =
-        spawn(program, arguments, {.out = out.ends[1], .err = err.ends[1]});
+        spawn(program, arguments, {.out = out.writer.number(), .err = err.writer.number()});
     if (!started) return pass_on(started);
     const pid_t id = *started;
     // If the service may not change these, the program runs without them.
@@ -108,10 +86,10 @@ Result<Child> Child::start(const fs::path& program, const std::vector<std::strin
     std::ofstream(fmt::format("/proc/{}/oom_score_adj", id)) << first_to_go;
     // The C library's own declaration lacks its extern "C" (glibc 2.36). The descriptor is closed
     // in programs that are started.
-    Child child(id, static_cast<int>(::syscall(SYS_pidfd_open, id, 0)));
-    if (child.descriptor_ < 0) return system_failure(program.native(), errno);
-    child.out = LineReader(out.take_reader());
-    child.err = LineReader(err.take_reader());
+    Child child(id, Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, id, 0))));
+    if (!child.descriptor_.is_open()) return system_failure(program.native(), errno);
+    child.out = lines_of(out);
+    child.err = lines_of(err);
     return child;
 }
 
@@ -119,31 +97,28 @@ Child::Child(Child&& other) noexcept
     : out(std::move(other.out)),
       err(std::move(other.err)),
       id_(std::exchange(other.id_, 0)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
+      descriptor_(std::move(other.descriptor_)),
       ended_(std::move(other.ended_)) {}
 
 Child& Child::operator=(Child&& other) noexcept {
-    release();
+    kill();
     out = std::move(other.out);
     err = std::move(other.err);
     id_ = std::exchange(other.id_, 0);
-    descriptor_ = std::exchange(other.descriptor_, -1);
+    descriptor_ = std::move(other.descriptor_);
     ended_ = std::move(other.ended_);
     return *this;
 }
 
 Child::~Child() {
-    release();
+    kill();
 }
 
-void Child::release() {
-    if (id_ != 0) {
-        ::kill(id_, SIGKILL);
-        ::waitpid(id_, nullptr, 0);
-    }
-    if (descriptor_ >= 0) ::close(descriptor_);
+void Child::kill() {
+    if (id_ == 0) return;
+    ::kill(id_, SIGKILL);
+    ::waitpid(id_, nullptr, 0);
     id_ = 0;
-    descriptor_ = -1;
 }
 
 void Child::signal(int number) const {

@@ -11,10 +11,12 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <sys/types.h>
 
+#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar {
@@ -25,24 +27,18 @@ class LineReader {
     static constexpr std::size_t longest_line = 4096;  // the rest of a longer line is dropped
 
     LineReader() = default;
-    explicit LineReader(int descriptor) : descriptor_(descriptor) {}
-    LineReader(LineReader&& other) noexcept;
-    LineReader& operator=(LineReader&& other) noexcept;
-    LineReader(const LineReader&) = delete;
-    LineReader& operator=(const LineReader&) = delete;
-    ~LineReader();
+    explicit LineReader(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
     // for poll(); -1 once the other end is closed
-    [[nodiscard]] int descriptor() const { return descriptor_; }
+    [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     // Returns the lines that have arrived; at the end also a last line without a line end. Reads at
     // most 64 KiB a call.
     std::vector<std::string> read();
 
   private:
-    void close();
     void take(std::string_view bytes, std::vector<std::string>& lines);
 
-    int descriptor_ = -1;
+    Descriptor descriptor_;
     std::string line_;
 };
 
@@ -59,7 +55,7 @@ class Child {
 
     [[nodiscard]] pid_t id() const { return id_; }
     // readable once the program has ended
-    [[nodiscard]] int descriptor() const { return descriptor_; }
+    [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     void signal(int number) const;
     // Returns "status 1" or "signal 9"; empty while it runs.
     [[nodiscard]] std::string ended();
@@ -67,11 +63,11 @@ class Child {
     LineReader out, err;
 
   private:
-    Child(pid_t id, int descriptor) : id_(id), descriptor_(descriptor) {}
-    void release();
+    Child(pid_t id, Descriptor descriptor) : id_(id), descriptor_(std::move(descriptor)) {}
+    void kill();
 
     pid_t id_ = 0;  // 0: there is no process, or it was waited for
-    int descriptor_ = -1;
+    Descriptor descriptor_;
     std::string ended_;
 };
 

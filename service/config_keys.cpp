@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "base/byte_size.h"
+#include "base/printable.h"
 
 namespace stormcellar {
 namespace {
@@ -39,10 +42,12 @@ void read_log_level(TomlTable root, std::string& level) {
     TomlTable log = root.section("log");
     const auto text = log.text("level");
     if (!text) return;
-    const bool is_known =
-        *text == "debug" || *text == "info" || *text == "warning" || *text == "error";
-    if (is_known) level = *text;
-    if (!is_known) log.complain("level", "must be one of debug, info, warning, error");
+    if (*text == "debug" || *text == "info" || *text == "warning" || *text == "error") {
+        level = *text;
+    } else {
+        log.complain("level", fmt::format("\"{}\" must be one of debug, info, warning, error",
+                                          printable(*text)));
+    }
 }
 
 }  // namespace stormcellar

@@ -4,6 +4,8 @@
 // Errors    Complaints of the table.
 #pragma once
 
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,6 +19,15 @@ namespace stormcellar {
 [[nodiscard]] bool is_web_address(std::string_view url);
 // Reads an amount of bytes, as a number or as "20 GB"; it must be at least 1 MB.
 void read_bytes(TomlTable& table, std::string_view key, std::uint64_t& bytes);
+// Reads a number of units (seconds, hours, days), rounded to the precision of `into`.
+template <class Duration>
+void read_duration(TomlTable& table, std::string_view key, TomlRange range,
+                   std::chrono::seconds unit, Duration& into) {
+    constexpr auto parts_of_second = static_cast<double>(Duration::period::den);
+    if (const auto count = table.number(key, range)) {
+        into = Duration{std::llround(*count * static_cast<double>(unit.count()) * parts_of_second)};
+    }
+}
 // Reads [log] level.
 void read_log_level(TomlTable root, std::string& level);
 

@@ -1,5 +1,6 @@
 #include "service/metrics_writer.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,19 +10,8 @@
 namespace stormcellar {
 namespace {
 
-std::string_view word_of(MetricsWriter::Type type) {
-    switch (type) {
-        case MetricsWriter::Type::counter:
-            return "counter";
-        case MetricsWriter::Type::gauge:
-            return "gauge";
-        case MetricsWriter::Type::summary:
-            return "summary";
-        case MetricsWriter::Type::histogram:
-            return "histogram";
-    }
-    return "untyped";
-}
+// in the order of MetricsWriter::Type
+constexpr std::array<std::string_view, 4> words = {"counter", "gauge", "summary", "histogram"};
 
 // Escapes a label value. printable() leaves neither line ends nor broken UTF-8. A backslash that it
 // wrote is escaped like any other.
@@ -44,7 +34,8 @@ std::string number(double value) {
 
 void MetricsWriter::family(std::string_view name, Type type, std::string_view help) {
     name_ = name;
-    text_ += fmt::format("# HELP {} {}\n# TYPE {} {}\n", name, help, name, word_of(type));
+    text_ += fmt::format("# HELP {} {}\n# TYPE {} {}\n", name, help, name,
+                         words.at(static_cast<std::size_t>(type)));
 }
 
 void MetricsWriter::line(std::string_view suffix, std::span<const Label> labels, const Label& extra,

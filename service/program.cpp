@@ -52,6 +52,12 @@ int complain(std::string_view program, const Error& error) {
     return exit_failed;
 }
 
+int say_checked(std::string_view program, std::string_view service_user,
+                const std::filesystem::path& file) {
+    fmt::print("{}\n{}: ok\n", checked_as(program, service_user), printable(file.native()));
+    return EXIT_SUCCESS;
+}
+
 void raise_descriptor_limit(std::uint64_t wanted) {
     rlimit limit{};
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,11 @@ struct ServiceProgram {
 
 // Writes an error to stderr in the program's name. Returns the exit status of a failure, 1.
 int complain(std::string_view program, const Error& error);
+
+// Writes that --check-config found no fault in a file, and as which user. Returns the exit status,
+// 0.
+int say_checked(std::string_view program, std::string_view service_user,
+                const std::filesystem::path& file);
 
 // Raises the soft limit of descriptors to `wanted`, as far as the hard limit allows. The usual
 // limit of 1,024 exists for old programs. If raising fails, the error appears later where a

@@ -12,7 +12,6 @@
 
 #include "base/beneath.h"
 #include "base/memory.h"
-#include "base/printable.h"
 #include "cache/map_guard.h"
 #include "service/log.h"
 #include "service/program.h"
@@ -113,8 +112,7 @@ int run(const ServiceArguments& arguments) {
     if (const char* state = std::getenv("STATE_DIRECTORY"); state != nullptr && *state == '/')
         setup->numbers = std::filesystem::path(state) / "times";
     if (!arguments.check) return serve(*setup, *arguments.config);
-    fmt::print("{}\n{}: ok\n", checked_as(program, program), printable(arguments.config->native()));
-    return EXIT_SUCCESS;
+    return say_checked(program, program, *arguments.config);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "base/toml_file.h"
 #include "daemon/config/station_config.h"
 #include "pipeline/options/domain.h"
+#include "service/config_keys.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/grid/grid_spec.h"
@@ -55,7 +56,7 @@ void read_paths(TomlTable paths, const std::filesystem::path& file, PathsConfig&
     read_path(paths, "state", file, config.state);
     read_path(paths, "cache", file, config.cache);
     if (config.drop.empty()) {
-        paths.complain("drop", "names the drop directory and must be given");
+        paths.complain("drop", "must be given; it is the drop directory");
         return;
     }
     using Named = std::pair<std::string_view, const std::filesystem::path*>;
@@ -73,16 +74,7 @@ void read_paths(TomlTable paths, const std::filesystem::path& file, PathsConfig&
     }
 }
 
-std::chrono::milliseconds milliseconds_of(double seconds) {
-    return std::chrono::milliseconds{std::llround(seconds * 1000)};
-}
-
-void read_seconds(TomlTable& table, std::string_view key, TomlRange range,
-                  std::chrono::milliseconds& value) {
-    if (const auto seconds = table.number(key, range)) {
-        value = milliseconds_of(*seconds);
-    }
-}
+constexpr std::chrono::seconds second{1}, hour{3600}, day{86'400};
 
 void read_whole_seconds(TomlTable& table, std::string_view key, TomlRange range,
                         std::chrono::seconds& value) {
@@ -142,7 +134,8 @@ void read_bunzip(TomlTable& ingest, IngestConfig& config) {
                         fmt::format("\"{}\" must be one of fastest, libbz2, plain, avx2, avx512",
                                     printable(*name)));
     } else if (!bunzip::is_available(*path)) {
-        ingest.complain("bunzip", fmt::format("the processor of this machine has no {}", *name));
+        ingest.complain("bunzip",
+                        fmt::format("the processor of this machine does not support {}", *name));
     } else {
         config.bunzip = path;
     }
@@ -159,7 +152,7 @@ void read_moments(TomlTable& ingest, GridConfig& config) {
     const auto one = ingest.text("moment");
     const auto several = pipeline::read_moments(ingest, "moments");
     if (one && several) {
-        ingest.complain("moment", "is the same as moments with one name; give one of the two");
+        ingest.complain("moment", "cannot be given together with moments; give one of the two");
         return;
     }
     if (several && !several->empty()) config.moments = *several;
@@ -185,18 +178,16 @@ void read_ingest(TomlTable ingest, FixedConfig& fixed, ReloadableConfig& reloada
     }
     config.stations = read_station_rule(ingest);
     if (const auto living = ingest.flag("living")) config.living = *living;
-    read_seconds(ingest, "quiet_seconds", {1, 86400}, reloadable.quiet);
+    read_duration(ingest, "quiet_seconds", {1, 86400}, second, reloadable.quiet);
     read_whole_seconds(ingest, "chunk_timeout_seconds", {1, 86400}, config.chunk_timeout);
     read_whole_seconds(ingest, "chunk_grace_seconds", {0, 86400}, config.chunk_grace);
-    read_seconds(ingest, "reread_seconds", {0, 60}, reloadable.reread);
+    read_duration(ingest, "reread_seconds", {0, 60}, second, reloadable.reread);
     read_bunzip(ingest, config);
     read_grid(ingest, fixed.grid);
 }
 
 void read_storage(TomlTable& table, StorageConfig& config) {
-    if (const auto hours = table.number("refill_hours", {0, 8760})) {
-        config.refill = milliseconds_of(*hours * 3600);
-    }
+    read_duration(table, "refill_hours", {0, 8760}, hour, config.refill);
     if (const auto name = table.text("compression")) {
         if (*name == "none" || *name == "lz4") {
             config.packing = *name == "lz4" ? cache::Packing::lz4 : cache::Packing::none;
@@ -223,25 +214,14 @@ void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
 
 void read_catalog(TomlTable catalog, Config& config) {
     read_bytes(catalog, config.fixed.storage.catalog_bytes);
-    if (const auto days = catalog.number("gone_days", {0, 36500}))
-        config.reloadable.gone_rows_kept_for = milliseconds_of(*days * 86400);
+    read_duration(catalog, "gone_days", {0, 36500}, day, config.reloadable.gone_rows_kept_for);
 }
 
-void read_rest(TomlTable watch, TomlTable log, Config& config) {
-    read_seconds(watch, "rescan_seconds", {1, 86400}, config.reloadable.rescan);
-    read_seconds(watch, "poll_seconds", {1, 86400}, config.reloadable.poll);
+void read_watch(TomlTable watch, Config& config) {
+    read_duration(watch, "rescan_seconds", {1, 86400}, second, config.reloadable.rescan);
+    read_duration(watch, "poll_seconds", {1, 86400}, second, config.reloadable.poll);
     if (const auto limit = watch.whole_number("queue_limit", {16, 10'000'000})) {
         config.fixed.queue_limit = static_cast<std::size_t>(*limit);
-    }
-    if (const auto level = log.text("level")) {
-        static constexpr std::array<std::string_view, 4> levels = {"debug", "info", "warning",
-                                                                   "error"};
-        if (std::find(levels.begin(), levels.end(), *level) == levels.end()) {
-            log.complain("level", fmt::format("\"{}\" must be one of debug, info, warning, error",
-                                              printable(*level)));
-        } else {
-            config.reloadable.log_level = *level;
-        }
     }
 }
 
@@ -287,7 +267,7 @@ void read_partial_stations(TomlTable stations, PartialsConfig& config) {
         const auto listed = stations.texts(name);
         if (!listed) continue;
         if (listed->size() > most_stations)
-            stations.complain(name, fmt::format("must be at most {}", most_stations));
+            stations.complain(name, fmt::format("has more than {} entries", most_stations));
         for (const std::string& icao : *listed) {
             if (!is_icao(icao))
                 stations.complain(name, fmt::format("{} is not an ICAO", printable(icao)));
@@ -301,7 +281,7 @@ void read_partials(TomlTable partials, const std::filesystem::path& file, FixedC
     read_whole_seconds(partials, "late_after_seconds", {10, 86400}, config.partials.late_after);
     const auto directories = partials.texts("directories").value_or(std::vector<std::string>{});
     if (directories.size() > most_machines) {
-        partials.complain("directories", fmt::format("must be at most {}", most_machines));
+        partials.complain("directories", fmt::format("has more than {} entries", most_machines));
         return;
     }
     for (const std::string& text : directories) {
@@ -319,15 +299,17 @@ void read_budget(TomlTable& table, cache::Budget& budget) {
         budget.file_system_percent = *percent == 0 ? std::nullopt : percent;
     }
     if (const auto hours = table.number("age_hours", {0, 1e6})) {
-        budget.age = *hours == 0 ? std::nullopt : std::optional{milliseconds_of(*hours * 3600)};
+        budget.age =
+            *hours == 0
+                ? std::nullopt
+                : std::optional{std::chrono::milliseconds{std::llround(*hours * 3600 * 1000)}};
     }
 }
 
 void read_budgets(TomlTable& cache, cache::Budgets& budgets) {
     read_budget(cache, budgets.total);
     if (const auto share = cache.number("low_watermark", {0.01, 1})) budgets.low_watermark = *share;
-    if (const auto hours = cache.number("protect_hours", {0, 1e6}))
-        budgets.protected_for = milliseconds_of(*hours * 3600);
+    read_duration(cache, "protect_hours", {0, 1e6}, hour, budgets.protected_for);
     for (TomlTable& domain : cache.tables("domain")) {
         cache::Budget budget;
         read_budget(domain, budget);
@@ -408,7 +390,8 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     fixed.grid.domains = pipeline::read_domains(root);
     read_cache(root.section("cache"), config);
     read_catalog(root.section("catalog"), config);
-    read_rest(root.section("watch"), root.section("log"), config);
+    read_watch(root.section("watch"), config);
+    read_log_level(root, config.reloadable.log_level);
     read_status(root.section("status"), file, fixed.paths, fixed.status);
     read_partials(root.section("partials"), file, fixed);
     root.leave("pull");  // stormcellar-pull checks it

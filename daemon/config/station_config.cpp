@@ -30,15 +30,8 @@ StationRule read_station_rule(TomlTable& ingest) {
 }
 
 std::string_view name_of(StationRule::Kind kind) {
-    switch (kind) {
-        case StationRule::Kind::known:
-            return "known";
-        case StationRule::Kind::any:
-            return "any";
-        case StationRule::Kind::listed:
-            return "listed";
-    }
-    return "known";
+    if (kind == StationRule::Kind::any) return "any";
+    return kind == StationRule::Kind::listed ? "listed" : "known";
 }
 
 }  // namespace stormcellar::daemon

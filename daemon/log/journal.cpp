@@ -79,32 +79,23 @@ std::string journal_entry(std::span<const JournalField> fields) {
 Journal::Journal(std::filesystem::path socket)
     : path_(std::move(socket)), descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     // A journal that hangs must not block ingest.
-    if (descriptor_ >= 0) {
-        (void)::setsockopt(descriptor_, SOL_SOCKET, SO_SNDTIMEO, &longest_wait,
-                           sizeof longest_wait);
-    }
-}
-
-Journal::~Journal() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    (void)::setsockopt(descriptor_.number(), SOL_SOCKET, SO_SNDTIMEO, &longest_wait,
+                       sizeof longest_wait);
 }
 
 bool Journal::send(std::string_view entry) const {
-    if (descriptor_ < 0) return false;
-    const int problem = send_to(descriptor_, path_, entry, -1);
+    if (!descriptor_.is_open()) return false;
+    const int problem = send_to(descriptor_.number(), path_, entry, -1);
     if (problem == EMSGSIZE || problem == ENOBUFS) return send_as_file(entry);
     return problem == 0;
 }
 
 bool Journal::send_as_file(std::string_view entry) const {
-    const int file = ::memfd_create("journal-entry", MFD_CLOEXEC | MFD_ALLOW_SEALING);
-    if (file < 0) return false;
-    const bool sent =
-        write_all(file, entry) &&
-        ::fcntl(file, F_ADD_SEALS, F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) == 0 &&
-        send_to(descriptor_, path_, {}, file) == 0;
-    ::close(file);
-    return sent;
+    const Descriptor file(::memfd_create("journal-entry", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    return file.is_open() && write_all(file.number(), entry) &&
+           ::fcntl(file.number(), F_ADD_SEALS,
+                   F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) == 0 &&
+           send_to(descriptor_.number(), path_, {}, file.number()) == 0;
 }
 
 }  // namespace stormcellar::daemon

@@ -15,6 +15,8 @@
 #include <string>
 #include <string_view>
 
+#include "stormcellar/base/descriptor.h"
+
 namespace stormcellar::daemon {
 
 inline constexpr const char* journal_socket = "/run/systemd/journal/socket";
@@ -30,9 +32,6 @@ struct JournalField {
 class Journal {
   public:
     explicit Journal(std::filesystem::path socket);
-    Journal(const Journal&) = delete;
-    Journal& operator=(const Journal&) = delete;
-    ~Journal();
 
     // Returns false if the entry is not accepted: there is no socket, or none that has room within
     // a second.
@@ -42,7 +41,7 @@ class Journal {
     [[nodiscard]] bool send_as_file(std::string_view entry) const;
 
     std::filesystem::path path_;
-    int descriptor_;  // negative: no socket could be opened
+    Descriptor descriptor_;  // closed: no socket could be opened
 };
 
 }  // namespace stormcellar::daemon

@@ -10,22 +10,18 @@
 namespace stormcellar::daemon {
 
 WakeUp::WakeUp() : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (descriptor_ < 0) throw std::system_error(errno, std::system_category(), "eventfd");
-}
-
-WakeUp::~WakeUp() {
-    ::close(descriptor_);
+    if (!descriptor_.is_open()) throw std::system_error(errno, std::system_category(), "eventfd");
 }
 
 // Neither call can fail in a way that matters: a full counter is set, an empty one is clear.
 void WakeUp::set() {
     const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t written = ::write(descriptor_, &one, sizeof one);
+    [[maybe_unused]] const ssize_t written = ::write(descriptor(), &one, sizeof one);
 }
 
 void WakeUp::clear() {
     std::uint64_t count = 0;
-    [[maybe_unused]] const ssize_t got = ::read(descriptor_, &count, sizeof count);
+    [[maybe_unused]] const ssize_t got = ::read(descriptor(), &count, sizeof count);
 }
 
 }  // namespace stormcellar::daemon

@@ -2,21 +2,20 @@
 // (eventfd).
 #pragma once
 
+#include "stormcellar/base/descriptor.h"
+
 namespace stormcellar::daemon {
 
 class WakeUp {
   public:
     WakeUp();  // throws std::system_error when the process has no descriptors left
-    WakeUp(const WakeUp&) = delete;
-    WakeUp& operator=(const WakeUp&) = delete;
-    ~WakeUp();
 
     void set();
     void clear();
-    [[nodiscard]] int descriptor() const { return descriptor_; }
+    [[nodiscard]] int descriptor() const { return descriptor_.number(); }
 
   private:
-    int descriptor_;
+    Descriptor descriptor_;
 };
 
 }  // namespace stormcellar::daemon

@@ -2,68 +2,22 @@
 
 namespace stormcellar::daemon {
 
-using pipeline::IngestResult;
-
-std::string_view name_of(IngestResult result) {
-    switch (result) {
-        case IngestResult::gridded:
-            return "gridded";
-        case IngestResult::no_moment:
-            return "no_moment";
-        case IngestResult::no_position:
-            return "no_position";
-        case IngestResult::other_station:
-            return "other_station";
-        case IngestResult::incomplete:
-            return "incomplete";
-        case IngestResult::rejected:
-            return "rejected";
-        case IngestResult::unchanged:
-            return "unchanged";
-        case IngestResult::vanished:
-            return "vanished";
-        case IngestResult::registered:
-            return "registered";
-    }
-    return "unknown";
+std::string_view name_of(pipeline::IngestResult result) {
+    // in the order of the enumeration
+    constexpr PerResult<std::string_view> names = {"gridded",       "no_moment",  "no_position",
+                                                   "other_station", "incomplete", "rejected",
+                                                   "unchanged",     "vanished",   "registered"};
+    return names.at(index_of(result));
 }
 
 std::string_view name_of(ErrorCode code) {
-    switch (code) {
-        case ErrorCode::bad_argument:
-            return "contradictory";  // the file's data about itself allow no grid
-        case ErrorCode::not_found:
-            return "not_found";
-        case ErrorCode::empty:
-            return "empty";
-        case ErrorCode::truncated:
-            return "truncated";
-        case ErrorCode::corrupt:
-            return "corrupt";
-        case ErrorCode::unsupported:
-            return "unsupported";
-        case ErrorCode::not_level2:
-            return "not_level2";
-        case ErrorCode::not_a_file:
-            return "not_a_file";
-        case ErrorCode::io:
-            return "io";
-        case ErrorCode::exhausted:
-            return "exhausted";
-        case ErrorCode::busy:
-            return "busy";
-        case ErrorCode::no_space:
-            return "no_space";
-        case ErrorCode::over_budget:
-            return "over_budget";
-        case ErrorCode::unmet:
-            return "unmet";
-        case ErrorCode::permission:
-            return "permission";
-        case ErrorCode::internal:
-            return "internal";
-    }
-    return "unknown";
+    // In the order of the enumeration. A bad argument of ingest is a file whose data about itself
+    // allow no grid.
+    constexpr PerErrorCode<std::string_view> names = {
+        "contradictory", "not_found",  "empty",      "truncated", "corrupt", "unsupported",
+        "not_level2",    "not_a_file", "io",         "exhausted", "busy",    "no_space",
+        "over_budget",   "unmet",      "permission", "internal"};
+    return names.at(index_of(code));
 }
 
 }  // namespace stormcellar::daemon

@@ -11,6 +11,7 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include "base/system_error.h"
 #include "daemon/process/silent_file_systems.h"
 #include "stormcellar/base/descriptor.h"
 
@@ -22,18 +23,7 @@ constexpr std::uint32_t wanted = IN_MODIFY | IN_CLOSE_WRITE | IN_MOVED_TO | IN_M
                                  IN_ONLYDIR | IN_DONT_FOLLOW | IN_EXCL_UNLINK;
 
 ErrorCode code_of(int error_number) {
-    switch (error_number) {
-        case ENOSPC:
-            return ErrorCode::no_space;
-        case ENOENT:
-        case ENOTDIR:
-        case ELOOP:
-            return ErrorCode::not_found;
-        case EACCES:
-            return ErrorCode::permission;
-        default:
-            return ErrorCode::io;
-    }
+    return error_number == ELOOP ? ErrorCode::not_found : error_code_of(error_number);
 }
 
 // Returns, for example, "fs.inotify.max_user_watches (16384 now)": the smallest of the limits that

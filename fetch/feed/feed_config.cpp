@@ -1,7 +1,6 @@
 #include "fetch/feed/feed_config.h"
 
 #include <algorithm>
-#include <cmath>
 #include <system_error>
 
 #include "base/printable.h"
@@ -70,10 +69,8 @@ void read_feed(TomlTable feed, const fs::path& file, FeedConfig& config) {
     read_addresses(feed, config);
     read_path(feed, "drop", file, config.drop);
     read_path(feed, "state", file, config.state);
-    if (const auto seconds = feed.number("every_seconds", {4, 60}))
-        config.every = std::chrono::milliseconds{std::llround(*seconds * 1000)};
-    if (const auto hours = feed.number("keep_hours", {0.5, 1e6}))
-        config.keep = std::chrono::seconds{std::llround(*hours * 3600)};
+    read_duration(feed, "every_seconds", {4, 60}, std::chrono::seconds{1}, config.every);
+    read_duration(feed, "keep_hours", {0.5, 1e6}, std::chrono::hours{1}, config.keep);
     if (const auto seconds = feed.whole_number("stall_seconds", {1, 120}))
         config.stall = std::chrono::seconds{*seconds};
     read_bytes(feed, "bytes", config.bytes);

@@ -64,11 +64,8 @@ int run_until_signal(FeedService& service, const Signals& signals, Notifier& not
 // Returns the service of the new configuration; none if it cannot be made, and the old one goes on.
 std::unique_ptr<FeedService> reloaded(const std::filesystem::path& file) {
     const auto fresh = load_with_stations(file);
-    if (!fresh) {
-        say(LogLevel::error, "the configuration stays as it was: {}", fresh.error().message);
-        return nullptr;
-    }
-    auto opened = FeedService::open(real_file_system(), *fresh);
+    auto opened = fresh.and_then(
+        [](const FeedConfig& config) { return FeedService::open(real_file_system(), config); });
     if (!opened) {
         say(LogLevel::error, "the configuration stays as it was: {}", opened.error().message);
         return nullptr;
@@ -109,8 +106,7 @@ int run(const ServiceArguments& arguments) {
     if (config->stations.empty()) {
         fmt::print(stderr, "note: {}: {}\n", printable(arguments.config->native()), no_station);
     }
-    fmt::print("{}\n{}: ok\n", checked_as(program, program), printable(arguments.config->native()));
-    return EXIT_SUCCESS;
+    return say_checked(program, program, *arguments.config);
 }
 
 }  // namespace

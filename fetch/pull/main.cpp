@@ -4,10 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "base/counted.h"
-#include "base/printable.h"
 #include "fetch/pull/pull_service.h"
 #include "service/log.h"
 #include "service/program.h"
@@ -67,8 +64,7 @@ int run(const ServiceArguments& arguments) {
     const Result<PullConfig> config = load_pull_config(*arguments.config);
     if (!config) return complain(program, config.error());
     if (!arguments.check) return pull(*config, *arguments.config);
-    fmt::print("{}\n{}: ok\n", checked_as(program, program), printable(arguments.config->native()));
-    return EXIT_SUCCESS;
+    return say_checked(program, program, *arguments.config);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "fetch/pull/pull_config.h"
 
 #include <algorithm>
-#include <cmath>
 #include <system_error>
 
 #include "base/printable.h"
@@ -55,7 +54,8 @@ void read_source(TomlTable from, std::vector<PullSource>& sources) {
         source.url.pop_back();
     const auto is_taken = [&](const PullSource& other) { return other.name == source.name; };
     if (!cache::is_domain_name(source.name) || cache::is_part(source.name)) {
-        from.complain("name", "must be letters, digits, _ and -: it is a directory");
+        from.complain("name",
+                      "must consist of letters, digits, _ and -, because it names a directory");
     } else if (std::ranges::any_of(sources, is_taken)) {
         from.complain("name", fmt::format("{} is named twice", source.name));
     } else if (!is_web_address(source.url)) {
@@ -73,10 +73,8 @@ void read_pull(TomlTable pull, const std::filesystem::path& file, PullConfig& co
         const auto path = std::filesystem::absolute(file, ignored).parent_path() / *text;
         config.directory = path.lexically_normal();
     }
-    if (const auto seconds = pull.number("every_seconds", {0.1, 3600}))
-        config.every = std::chrono::milliseconds{std::llround(*seconds * 1000)};
-    if (const auto hours = pull.number("age_hours", {0.1, 1e6}))
-        config.age = std::chrono::seconds{std::llround(*hours * 3600)};
+    read_duration(pull, "every_seconds", {0.1, 3600}, std::chrono::seconds{1}, config.every);
+    read_duration(pull, "age_hours", {0.1, 1e6}, std::chrono::hours{1}, config.age);
     if (const auto seconds = pull.whole_number("stall_seconds", {1, 600}))
         config.stall = std::chrono::seconds{*seconds};
     read_bytes(pull, "bytes", config.bytes_a_source);

@@ -280,9 +280,9 @@ TEST_F(ConfigFile, BrokenTomlNamesTheLine) {
 }
 
 TEST_F(ConfigFile, DropMustBeNamed) {
-    EXPECT_EQ(complaint(""), "s.toml: [paths] drop: names the drop directory and must be given");
+    EXPECT_EQ(complaint(""), "s.toml: [paths] drop: must be given; it is the drop directory");
     EXPECT_EQ(complaint("\n[paths]\nstate = \"/s\"\n"),
-              "s.toml:2: [paths] drop: names the drop directory and must be given");
+              "s.toml:2: [paths] drop: must be given; it is the drop directory");
     EXPECT_EQ(complaint("[paths]\ndrop = \"\"\n").substr(0, 10), "s.toml:2: ");
 }
 
