@@ -13,12 +13,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-class RollingSink final : public Sink {
+class RollingSink final : public IdleSink {
   public:
-    Result<Taken> take(const std::filesystem::path&, bool, pipeline::Tries /*tries*/) override {
-        return Taken{};
-    }
-    Result<int> mark_missing(const OnStep& /*step*/) override { return 0; }
     CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& /*step*/) override {
         EXPECT_TRUE(testing::eventually([this] { return !hold; }));
         ++rolls;

@@ -1,6 +1,7 @@
 // tests/daemon/fake_sink.h -- a sink that does what the test says, and remembers what it was given.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -12,6 +13,15 @@
 #include "daemon/queue/sink.h"
 
 namespace stormcellar::daemon {
+
+// A sink that has nothing to do.
+class IdleSink : public Sink {
+  public:
+    Result<Taken> take(const std::filesystem::path&, bool, pipeline::Tries /*tries*/) override {
+        return Taken{};
+    }
+    Result<int> mark_missing(const OnStep& /*step*/) override { return 0; }
+};
 
 class FakeSink final : public Sink {
   public:
@@ -82,31 +92,15 @@ class FakeSink final : public Sink {
     std::vector<std::string> calls_, noted_;
 };
 
-// The way to end that is counted so, with nothing more to say of it.
+// Returns an ending with this result and no details.
 inline pipeline::Ending ending_of(pipeline::IngestResult result) {
-    using pipeline::IngestResult;
     namespace ended = pipeline::ended;
-    switch (result) {
-        case IngestResult::gridded:
-            return ended::Gridded{};
-        case IngestResult::no_moment:
-            return ended::NoMoment{};
-        case IngestResult::no_position:
-            return ended::NoPosition{};
-        case IngestResult::other_station:
-            return ended::OtherStation{};
-        case IngestResult::incomplete:
-            return ended::Incomplete{};
-        case IngestResult::rejected:
-            return ended::Rejected{};
-        case IngestResult::unchanged:
-            return ended::Unchanged{};
-        case IngestResult::vanished:
-            return ended::Vanished{};
-        case IngestResult::registered:
-            return ended::Registered{};
-    }
-    return ended::Rejected{};
+    // in the order of the enumeration
+    static const std::array<pipeline::Ending, 9> endings = {
+        ended::Gridded{},      ended::NoMoment{},   ended::NoPosition{},
+        ended::OtherStation{}, ended::Incomplete{}, ended::Rejected{},
+        ended::Unchanged{},    ended::Vanished{},   ended::Registered{}};
+    return endings.at(static_cast<std::size_t>(result));
 }
 
 inline pipeline::IngestOutcome outcome_of(pipeline::IngestResult result) {

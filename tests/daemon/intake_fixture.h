@@ -51,6 +51,19 @@ class IntakeTest : public ::testing::Test {
         }
         intake_.job_ended(finished);
     }
+    // The jobs of the files "a" and "b" begin.
+    void begin_two() {
+        for (const char* name : {"a", "b"}) {
+            intake_.file_closed(at(name), make(name));
+            EXPECT_EQ(next(), name);
+        }
+    }
+    // A chunk took over its volume from the chunk `former`.
+    [[nodiscard]] pipeline::IngestOutcome incomplete_after(const char* former) const {
+        pipeline::IngestOutcome outcome = outcome_of(pipeline::IngestResult::incomplete);
+        outcome.former_representative = at(former);
+        return outcome;
+    }
     void end(const char* name, pipeline::IngestResult result) { end(name, outcome_of(result)); }
 
     testing::TemporaryDirectory directory_;

@@ -306,17 +306,13 @@ TEST_F(IntakeTest, SaysWhenThereIsSomethingToDo) {
     end("a", IngestResult::incomplete);
     EXPECT_EQ(intake_.next_time(false, false), now_ + seconds{1});
 }
+
 // 2026-11-28: after a volume of chunks was gridded, the status announced for up to 30 s that one of
 // its chunks had not ended. Two workers had ended in the other order than they had looked at the
 // volume.
 TEST_F(IntakeTest, AChunkThatWasRelievedBeforeItsJobEndedIsNotWaitedFor) {
-    for (const char* name : {"a", "b"})
-        intake_.file_closed(at(name), make(name));
-    ASSERT_EQ(next(), "a");
-    ASSERT_EQ(next(), "b");
-    pipeline::IngestOutcome newer = outcome_of(IngestResult::incomplete);
-    newer.former_representative = at("a");
-    end("b", newer);
+    begin_two();
+    end("b", incomplete_after("a"));
     end("a", IngestResult::incomplete);
     now_ += std::chrono::seconds{2};
     intake_.poll_growing();
@@ -327,16 +323,9 @@ TEST_F(IntakeTest, AChunkThatWasRelievedBeforeItsJobEndedIsNotWaitedFor) {
 
 // The same two, but "a" took over from "b" again: it is the one to wait for.
 TEST_F(IntakeTest, TheChunkThatTookOverLastIsWaitedFor) {
-    for (const char* name : {"a", "b"})
-        intake_.file_closed(at(name), make(name));
-    ASSERT_EQ(next(), "a");
-    ASSERT_EQ(next(), "b");
-    pipeline::IngestOutcome middle = outcome_of(IngestResult::incomplete);
-    middle.former_representative = at("a");
-    end("b", middle);
-    pipeline::IngestOutcome last = outcome_of(IngestResult::incomplete);
-    last.former_representative = at("b");
-    end("a", last);
+    begin_two();
+    end("b", incomplete_after("a"));
+    end("a", incomplete_after("b"));
     const auto waits = intake_.growing_waits(5);
     ASSERT_EQ(waits.size(), 1U);
     EXPECT_EQ(waits[0].file, at("a"));

@@ -5,19 +5,17 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
+
+#include "tests/daemon/datagram_socket.h"
 
 namespace stormcellar::daemon {
 
@@ -54,30 +52,16 @@ inline std::optional<JournalFields> read_journal_entry(const std::string& bytes)
     return fields;
 }
 
-class JournalSocket {
+class JournalSocket : public DatagramSocket {
   public:
-    explicit JournalSocket(std::filesystem::path path)
-        : path_(std::move(path)), descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        if (path_.native().size() >= sizeof address.sun_path)
-            throw std::runtime_error("the path is too long for a socket");
-        std::memcpy(address.sun_path, path_.c_str(), path_.native().size());
-        if (::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-            throw std::runtime_error("bind failed");
-    }
-    JournalSocket(const JournalSocket&) = delete;
-    JournalSocket& operator=(const JournalSocket&) = delete;
-    ~JournalSocket() { ::close(descriptor_); }
+    using DatagramSocket::DatagramSocket;
 
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     // Returns true if the last entry came as a file.
     [[nodiscard]] bool was_file() const { return was_file_; }
 
     // Returns the bytes of the next entry; none if there is none.
     std::optional<std::string> receive() {
-        pollfd source{descriptor_, POLLIN, 0};
-        if (::poll(&source, 1, 0) <= 0) return std::nullopt;
+        if (!is_ready(0)) return std::nullopt;
         std::string bytes(1 << 20, '\0');
         alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
         iovec part{bytes.data(), bytes.size()};
@@ -86,7 +70,7 @@ class JournalSocket {
         message.msg_iovlen = 1;
         message.msg_control = control.data();
         message.msg_controllen = control.size();
-        const ssize_t got = ::recvmsg(descriptor_, &message, MSG_CMSG_CLOEXEC);
+        const ssize_t got = ::recvmsg(number(), &message, MSG_CMSG_CLOEXEC);
         if (got < 0) return std::nullopt;
         bytes.resize(static_cast<std::size_t>(got));
         const cmsghdr* header = CMSG_FIRSTHDR(&message);
@@ -94,9 +78,7 @@ class JournalSocket {
         if (!was_file_) return bytes;
         int file = -1;
         std::memcpy(&file, CMSG_DATA(header), sizeof file);
-        std::optional<std::string> contents = read_sealed(file);
-        ::close(file);
-        return contents;
+        return read_sealed(Descriptor(file));
     }
     std::optional<JournalFields> receive_fields() {
         const auto bytes = receive();
@@ -105,18 +87,17 @@ class JournalSocket {
 
   private:
     // Like the journal, refuses a file that somebody could still change.
-    static std::optional<std::string> read_sealed(int file) {
+    static std::optional<std::string> read_sealed(const Descriptor& file) {
         constexpr int needed = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
-        if ((::fcntl(file, F_GET_SEALS) & needed) != needed) return std::nullopt;
+        if ((::fcntl(file.number(), F_GET_SEALS) & needed) != needed) return std::nullopt;
         struct stat facts {};
-        if (::fstat(file, &facts) != 0) return std::nullopt;
+        if (::fstat(file.number(), &facts) != 0) return std::nullopt;
         std::string bytes(static_cast<std::size_t>(facts.st_size), '\0');
-        if (::pread(file, bytes.data(), bytes.size(), 0) != facts.st_size) return std::nullopt;
+        if (::pread(file.number(), bytes.data(), bytes.size(), 0) != facts.st_size)
+            return std::nullopt;
         return bytes;
     }
 
-    std::filesystem::path path_;
-    int descriptor_;
     bool was_file_ = false;
 };
 

@@ -32,6 +32,8 @@ class OpenFile {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
+constexpr const char* patient = "[ingest]\nquiet_seconds = 60\n";
+
 class LivingDaemon : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -43,6 +45,12 @@ class LivingDaemon : public ::testing::Test {
     std::span<const std::byte> pieces(std::size_t from, std::size_t to) const {
         const std::size_t start = from == 0 ? 0 : ends_[from - 1];
         return std::span{bytes_}.subspan(start, ends_[to - 1] - start);
+    }
+    // Starts the daemon and then an empty file.
+    OpenFile start_with_file() {
+        daemon_.start(patient);
+        EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
+        return OpenFile(daemon_.drop() / "KLOT20220317_000842_V06");
     }
     // Returns the newest grid of KLOT, if there is one.
     std::optional<cache::GridDescription> newest() const {
@@ -78,12 +86,8 @@ class LivingDaemon : public ::testing::Test {
     RunningDaemon daemon_;
 };
 
-constexpr const char* patient = "[ingest]\nquiet_seconds = 60\n";
-
 TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
-    daemon_.start(patient);
-    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
-    OpenFile file(daemon_.drop() / "KLOT20220317_000842_V06");
+    OpenFile file = start_with_file();
     file.append(pieces(0, 12));
     ASSERT_TRUE(wait_for_grid(is_living)) << daemon_.log();
     // Its writes are seen as soon as it is followed, which is when the job has ended.
@@ -133,9 +137,7 @@ TEST_F(LivingDaemon, FilesOfOneChunkEachBecomeAVolume) {
 }
 
 TEST_F(LivingDaemon, AKilledDaemonGoesOnWithWhatHasGrown) {
-    daemon_.start(patient);
-    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
-    OpenFile file(daemon_.drop() / "KLOT20220317_000842_V06");
+    OpenFile file = start_with_file();
     file.append(pieces(0, 20));
     ASSERT_TRUE(wait_for_grid(is_living)) << daemon_.log();
     daemon_.signal(SIGKILL);

@@ -26,8 +26,7 @@ class LoopsOnly : public ::testing::Test {
   protected:
     void SetUp() override {
         fs::create_directory(loops_.root() / "out");
-        write_file(loops_.root() / "scene.toml",
-                   "[picture]\nproduct = \"composite\"\nwidth = 480\nheight = 360\n");
+        loops_.write_scene();
     }
     static std::map<std::string, std::string> with_program() {
         return {{"PATH", fs::path(STORMCELLAR_PROGRAM).parent_path().native() + ":/usr/bin:/bin"}};
@@ -86,22 +85,11 @@ TEST_F(LoopsOnly, TellsTheManagerHowItIs) {
     environment["NOTIFY_SOCKET"] = socket.path();
     environment["WATCHDOG_USEC"] = "400000";
     loops_.start(one_loop(), environment, {"--loops-only"});
-    const auto hears = [&](const std::string& text) {
-        for (int i = 0; i < 600; ++i) {
-            if (socket.receive().starts_with(text)) return true;
-        }
-        return false;
-    };
-    EXPECT_TRUE(hears("STATUS=0 of 0 loops run, made 0"));
-    EXPECT_TRUE(hears("READY=1"));
-    EXPECT_TRUE(hears("STATUS=1 of 1 loops run, made 0")) << loops_.log();
-    EXPECT_TRUE(hears("WATCHDOG=1"));
-    loops_.signal(SIGHUP);
-    EXPECT_TRUE(hears("RELOADING=1\nMONOTONIC_USEC="));
-    EXPECT_TRUE(hears("READY=1"));
-    loops_.signal(SIGTERM);
-    EXPECT_TRUE(hears("STOPPING=1"));
-    EXPECT_EQ(loops_.wait(), 0) << loops_.log();
+    EXPECT_TRUE(socket.hears("STATUS=0 of 0 loops run, made 0"));
+    EXPECT_TRUE(socket.hears("READY=1"));
+    EXPECT_TRUE(socket.hears("STATUS=1 of 1 loops run, made 0")) << loops_.log();
+    EXPECT_TRUE(socket.hears("WATCHDOG=1"));
+    loops_.expect_reload_and_end(socket);
 }
 
 TEST_F(LoopsOnly, AReloadStartsAndStopsThem) {

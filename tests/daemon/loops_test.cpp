@@ -35,8 +35,7 @@ class Loops : public ::testing::Test {
   protected:
     void SetUp() override {
         fs::create_directory(daemon_.root() / "loops");
-        write_file(daemon_.root() / "scene.toml",
-                   "[picture]\nproduct = \"composite\"\nwidth = 480\nheight = 360\n");
+        daemon_.write_scene();
     }
     void drop(const std::string& name) { testing::write_small_volume(name, daemon_.drop() / name); }
     // Returns the process of the loop that was started last.

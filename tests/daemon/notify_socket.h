@@ -2,51 +2,33 @@
 #pragma once
 
 #include <array>
-#include <cstring>
-#include <filesystem>
-#include <stdexcept>
 #include <string>
+#include <string_view>
 
-#include <poll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
+
+#include "tests/daemon/datagram_socket.h"
 
 namespace stormcellar::daemon {
 
-class NotifySocket {
+class NotifySocket : public DatagramSocket {
   public:
-    explicit NotifySocket(std::filesystem::path path)
-        : path_(std::move(path)), descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        if (path_.native().size() >= sizeof address.sun_path) {
-            throw std::runtime_error("the path is too long for a socket");
-        }
-        std::memcpy(address.sun_path, path_.c_str(), path_.native().size());
-        if (::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-            throw std::runtime_error("bind failed");
-        }
-    }
-    NotifySocket(const NotifySocket&) = delete;
-    NotifySocket& operator=(const NotifySocket&) = delete;
-    ~NotifySocket() { ::close(descriptor_); }
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    using DatagramSocket::DatagramSocket;
 
     // Returns the next message; empty if none comes within the time.
     std::string receive(int within_ms = 100) {
-        pollfd source{descriptor_, POLLIN, 0};
-        if (::poll(&source, 1, within_ms) <= 0) return {};
+        if (!is_ready(within_ms)) return {};
         std::array<char, 4096> buffer{};
-        const ssize_t length = ::recv(descriptor_, buffer.data(), buffer.size(), 0);
+        const ssize_t length = ::recv(number(), buffer.data(), buffer.size(), 0);
         if (length <= 0) return {};
         return {buffer.data(), static_cast<std::size_t>(length)};
     }
-
-  private:
-    std::filesystem::path path_;
-    int descriptor_;
+    // Returns true once a message begins with this text.
+    bool hears(std::string_view text) {
+        for (int i = 0; i < 600; ++i)
+            if (receive().starts_with(text)) return true;
+        return false;
+    }
 };
 
 }  // namespace stormcellar::daemon

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "daemon/log/log.h"
+#include "tests/daemon/fake_sink.h"
 #include "tests/daemon/journal_socket.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
@@ -20,11 +21,8 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-class RowSink final : public Sink {
+class RowSink final : public IdleSink {
   public:
-    Result<Taken> take(const std::filesystem::path&, bool, pipeline::Tries /*tries*/) override {
-        return Taken{};
-    }
     Result<int> mark_missing(const OnStep& /*step*/) override {
         is_held = hold.load();
         EXPECT_TRUE(testing::eventually([this] { return !hold; }));

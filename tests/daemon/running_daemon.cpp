@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -98,6 +99,20 @@ int RunningDaemon::wait() {
 int RunningDaemon::terminate() {
     signal(SIGTERM);
     return wait();
+}
+
+void RunningDaemon::expect_reload_and_end(NotifySocket& manager) {
+    signal(SIGHUP);
+    EXPECT_TRUE(manager.hears("RELOADING=1\nMONOTONIC_USEC="));
+    EXPECT_TRUE(manager.hears("READY=1"));
+    signal(SIGTERM);
+    EXPECT_TRUE(manager.hears("STOPPING=1"));
+    EXPECT_EQ(wait(), 0) << log();
+}
+
+void RunningDaemon::write_scene() const {
+    write_file(root() / "scene.toml",
+               "[picture]\nproduct = \"composite\"\nwidth = 480\nheight = 360\n");
 }
 
 std::string RunningDaemon::log() const {

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/types.h>
 
+#include "tests/daemon/notify_socket.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::daemon {
@@ -44,6 +45,11 @@ class RunningDaemon {
     // Returns the same at once; none while it runs.
     std::optional<int> ended();
     int terminate();
+    // Expects that the daemon tells the manager of a reload and of its end.
+    void expect_reload_and_end(NotifySocket& manager);
+
+    // Writes root/scene.toml, a small picture.
+    void write_scene() const;
 
     [[nodiscard]] std::filesystem::path root() const { return root_.path(); }
     [[nodiscard]] std::filesystem::path drop() const { return root_ / "drop"; }

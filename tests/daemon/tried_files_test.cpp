@@ -23,6 +23,12 @@ class TriedFilesTest : public ::testing::Test {
         write_file(directory_ / name, name);
         return directory_ / name;
     }
+    // Both files are under way when the process ends.
+    void end_under_way(const fs::path& a, const fs::path& b) const {
+        TriedFiles tried(file());
+        tried.begin(a, stamp(a));
+        tried.begin(b, stamp(b));
+    }
     static FileStamp stamp(const fs::path& path) { return look_at(path).stamp; }
     [[nodiscard]] fs::path file() const { return directory_ / "tried"; }
     testing::TemporaryDirectory directory_;
@@ -56,11 +62,7 @@ TEST_F(TriedFilesTest, WhatWasUnderWayWaitsLongerEachTimeAndIsGivenUp) {
 // they ran together again, and all were given up.
 TEST_F(TriedFilesTest, WhatRanTogetherIsTriedApart) {
     const fs::path bomb = make("bomb"), good = make("good");
-    {
-        TriedFiles tried(file());
-        tried.begin(bomb, stamp(bomb));
-        tried.begin(good, stamp(good));
-    }  // the process ends
+    end_under_way(bomb, good);
     EXPECT_THAT(TriedFiles(file()).waits(),
                 ElementsAre(Pair(bomb, seconds{2}), Pair(good, seconds{12})));
 }
@@ -78,11 +80,7 @@ TEST_F(TriedFilesTest, AStartBetweenDoesNotCount) {
 // the list before was taken for files that were under way.
 TEST_F(TriedFilesTest, TheRestOfAnOlderListDoesNotCount) {
     const fs::path first = make("first"), second = make("second");
-    {
-        TriedFiles tried(file());
-        tried.begin(first, stamp(first));
-        tried.begin(second, stamp(second));
-    }
+    end_under_way(first, second);
     const auto older = read_file(file());
     ASSERT_TRUE(older);
     fs::remove(file());

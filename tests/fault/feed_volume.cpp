@@ -29,6 +29,28 @@ void cut_gates(level2::Volume& volume, std::uint16_t gates) {
 
 }  // namespace
 
+std::string text_of(const FeedScene& scene) {
+    std::string text = fmt::format(
+        "[radar]\nstation = \"{}\"\nlatitude_deg = {}\nlongitude_deg = {}\naltitude_m = {}\n"
+        "[volumes]\ncount = 1\nstart = \"2024-06-01T00:00:00Z\"\n",
+        scene.station, scene.latitude_deg, scene.longitude_deg, scene.altitude_m);
+    for (const double elevation_deg : scene.elevations_deg) {
+        text += fmt::format(
+            "[[cut]]\nelevation_deg = {}\nazimuth_rate_deg_s = 36\nwaveform = \"surveillance\"\n",
+            elevation_deg);
+        if (scene.is_fine && elevation_deg == scene.elevations_deg.front())
+            text += "azimuth_spacing_deg = 0.5\n";
+    }
+    for (const FeedStorm& storm : scene.storms) {
+        text += fmt::format(
+            "[[storm]]\nposition_km = [{}, {}]\nvelocity_mps = [10, 5]\nradii_km = [{}, {}]\n"
+            "orientation_deg = {}\ncore_km = {}\ntop_km = {}\npeak_dbz = {}\n",
+            storm.east_km, storm.north_km, storm.major_km, storm.minor_km, storm.orientation_deg,
+            storm.core_km, storm.top_km, storm.peak_dbz);
+    }
+    return text;
+}
+
 level2::Volume observed_volume(std::string_view scene, std::uint16_t gates) {
     const auto parsed = synth::parse_scene(scene, "feed");
     if (!parsed) throw std::runtime_error(parsed.error().message);

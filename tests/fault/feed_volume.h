@@ -13,6 +13,19 @@
 
 namespace stormcellar::fault {
 
+struct FeedStorm {
+    double east_km, north_km, major_km, minor_km, orientation_deg, core_km, top_km, peak_dbz;
+};
+// A scene of one radar and one volume. The lowest cut has 720 radials if `is_fine`.
+struct FeedScene {
+    std::string station;
+    double latitude_deg, longitude_deg, altitude_m;
+    std::vector<double> elevations_deg;
+    bool is_fine;
+    std::vector<FeedStorm> storms;
+};
+[[nodiscard]] std::string text_of(const FeedScene& scene);
+
 // Returns what a radar sees of a scene's first volume: `gates` gates of each radial, and no others.
 // Throws if the scene is not valid.
 [[nodiscard]] level2::Volume observed_volume(std::string_view scene, std::uint16_t gates);

@@ -88,15 +88,8 @@ TEST_P(OneDatabase, ThatCannotBeOpenedIsItsStationsTroubleAlone) {
 }
 
 std::string name_of_spoilt(const ::testing::TestParamInfo<Spoilt>& which) {
-    switch (which.param) {
-        case Spoilt::permission:
-            return "NoPermission";
-        case Spoilt::fifo:
-            return "Fifo";
-        case Spoilt::directory:
-            return "Directory";
-    }
-    return "";
+    if (which.param == Spoilt::permission) return "NoPermission";
+    return which.param == Spoilt::fifo ? "Fifo" : "Directory";
 }
 
 INSTANTIATE_TEST_SUITE_P(HostileCases, OneDatabase,

@@ -28,52 +28,13 @@ constexpr std::array<std::string_view, 16> stations = {
 
 constexpr int real_gates = 480;  // of 250 m
 
-constexpr const char* feed_scene = R"([radar]
-station = "KTLX"
-latitude_deg = 35.333
-longitude_deg = -97.278
-altitude_m = 390
-[volumes]
-count = 1
-start = "2024-06-01T00:00:00Z"
-[[cut]]
-elevation_deg = 0.5
-azimuth_rate_deg_s = 36
-azimuth_spacing_deg = 0.5
-waveform = "surveillance"
-[[cut]]
-elevation_deg = 1.5
-azimuth_rate_deg_s = 36
-waveform = "surveillance"
-[[cut]]
-elevation_deg = 3
-azimuth_rate_deg_s = 36
-waveform = "surveillance"
-[[cut]]
-elevation_deg = 6
-azimuth_rate_deg_s = 36
-waveform = "surveillance"
-[[cut]]
-elevation_deg = 10
-azimuth_rate_deg_s = 36
-waveform = "surveillance"
-[[storm]]
-position_km = [40, 25]
-velocity_mps = [10, 5]
-radii_km = [30, 18]
-orientation_deg = 40
-core_km = 4
-top_km = 12
-peak_dbz = 58
-[[storm]]
-position_km = [-50, -35]
-velocity_mps = [10, 5]
-radii_km = [22, 15]
-orientation_deg = 100
-core_km = 3
-top_km = 10
-peak_dbz = 50
-)";
+const FeedScene feed_scene{"KTLX",
+                           35.333,
+                           -97.278,
+                           390,
+                           {0.5, 1.5, 3, 6, 10},
+                           true,
+                           {{40, 25, 30, 18, 40, 4, 12, 58}, {-50, -35, 22, 15, 100, 3, 10, 50}}};
 
 void give_to(level2::Volume& volume, std::string_view icao) {
     const auto station = find_station(icao);
@@ -111,7 +72,7 @@ std::span<const std::string_view> real_stations() {
 RealFeed::RealFeed(fs::path drop, fs::path cache, double period_s)
     : drop_(std::move(drop)), cache_(std::move(cache)), period_s_(period_s) {
     // One radar's view, which then stands for all of them.
-    const level2::Volume pattern = observed_volume(feed_scene, real_gates);
+    const level2::Volume pattern = observed_volume(text_of(feed_scene), real_gates);
     for (std::size_t i = 0; i < stations.size(); ++i) {
         Station station;
         station.pattern = pattern;

@@ -27,33 +27,14 @@ constexpr double first_longitude_deg = -98;  // the next station is a degree far
 constexpr double antenna_altitude_m = 380;
 
 level2::Volume pattern_of(const std::string& station, double longitude_deg) {
-    const std::string text = fmt::format(R"([radar]
-station = "{}"
-latitude_deg = {}
-longitude_deg = {}
-altitude_m = {}
-[volumes]
-count = 1
-start = "2024-06-01T00:00:00Z"
-[[cut]]
-elevation_deg = 0.5
-azimuth_rate_deg_s = 36
-waveform = "surveillance"
-[[cut]]
-elevation_deg = 4
-azimuth_rate_deg_s = 36
-waveform = "surveillance"
-[[storm]]
-position_km = [12, 9]
-velocity_mps = [10, 5]
-radii_km = [9, 6]
-orientation_deg = 40
-core_km = 2
-top_km = 9
-peak_dbz = 55
-)",
-                                         station, latitude_deg, longitude_deg, antenna_altitude_m);
-    return observed_volume(text, gates);
+    const FeedScene scene{station,
+                          latitude_deg,
+                          longitude_deg,
+                          antenna_altitude_m,
+                          {0.5, 4},
+                          false,
+                          {{12, 9, 9, 6, 40, 2, 9, 55}}};
+    return observed_volume(text_of(scene), gates);
 }
 
 void move_to(level2::Volume& volume, UtcTime start) {
