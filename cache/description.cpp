@@ -36,6 +36,33 @@ enum class RecordKind : std::uint16_t {
     left_out = 21,
 };
 
+// Records of one text: a member of the provenance. An empty one that is `optional` is not written.
+struct TextRecord {
+    RecordKind kind;
+    std::string grid::Provenance::*text;
+    bool optional = false;
+};
+constexpr std::array<TextRecord, 6> text_records = {
+    {{RecordKind::method, &grid::Provenance::method},
+     {RecordKind::beam_model, &grid::Provenance::beam_model},
+     {RecordKind::averaging, &grid::Provenance::averaging},
+     {RecordKind::software_version, &grid::Provenance::software_version},
+     {RecordKind::effects, &grid::Provenance::effects, true},
+     {RecordKind::predicted_error, &grid::Provenance::predicted_error, true}}};
+
+// Records of one text: an element of a list of the provenance.
+struct ListRecord {
+    RecordKind kind;
+    std::vector<std::string> grid::Provenance::*list;
+};
+constexpr std::array<ListRecord, 5> list_records = {
+    {{RecordKind::source_file, &grid::Provenance::source_files},
+     {RecordKind::station, &grid::Provenance::stations},
+     {RecordKind::note, &grid::Provenance::notes},
+     {RecordKind::radar_trouble, &grid::Provenance::radar_troubles},
+     {RecordKind::left_out, &grid::Provenance::left_out}}};
+constexpr std::size_t lists_before_texts = 2;
+
 struct RecordHead {
     std::uint16_t kind = 0;
     std::uint16_t reserved = 0;
@@ -63,6 +90,13 @@ void append_record(std::vector<std::byte>& bytes, RecordKind kind,
 
 void append_text(std::vector<std::byte>& bytes, RecordKind kind, std::string_view text) {
     append_record(bytes, kind, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+void append_lists(std::vector<std::byte>& bytes, std::span<const ListRecord> records,
+                  const grid::Provenance& provenance) {
+    for (const ListRecord& record : records)
+        for (const std::string& text : provenance.*record.list)
+            append_text(bytes, record.kind, text);
 }
 
 void append_site(std::vector<std::byte>& bytes, const grid::SitePosition& site) {
@@ -190,50 +224,30 @@ bool read_audit(std::span<const std::byte> bytes, std::vector<grid::AuditRow>& r
     return std::all_of(rows.begin(), rows.end(), grid::is_possible);
 }
 
+// Reads a record of text_records or list_records. Returns false if it is of another kind.
+bool read_text_record(RecordKind kind, std::span<const std::byte> contents,
+                      grid::Provenance& provenance) {
+    for (const TextRecord& record : text_records) {
+        if (record.kind != kind) continue;
+        provenance.*record.text = text_of(contents);
+        return true;
+    }
+    const auto record = std::ranges::find(list_records, kind, &ListRecord::kind);
+    if (record == list_records.end()) return false;
+    (provenance.*record->list).push_back(text_of(contents));
+    return true;
+}
+
 // Returns false if a record of this kind cannot have contents of this size or these numbers.
 bool read_record(RecordKind kind, std::span<const std::byte> contents,
                  GridDescription& description) {
     grid::Provenance& provenance = description.provenance;
+    if (read_text_record(kind, contents, provenance)) return true;
     switch (kind) {
-        case RecordKind::source_file:
-            provenance.source_files.push_back(text_of(contents));
-            return true;
-        case RecordKind::station:
-            provenance.stations.push_back(text_of(contents));
-            return true;
-        case RecordKind::method:
-            provenance.method = text_of(contents);
-            return true;
-        case RecordKind::beam_model:
-            provenance.beam_model = text_of(contents);
-            return true;
-        case RecordKind::averaging:
-            provenance.averaging = text_of(contents);
-            return true;
-        case RecordKind::software_version:
-            provenance.software_version = text_of(contents);
-            return true;
-        case RecordKind::effects:
-            provenance.effects = text_of(contents);
-            return true;
-        case RecordKind::predicted_error:
-            provenance.predicted_error = text_of(contents);
-            return true;
         case RecordKind::vcp:
             return read_pattern(contents, provenance);
         case RecordKind::partial:
             return read_flag(contents, provenance.partial);
-        case RecordKind::note:
-            provenance.notes.push_back(text_of(contents));
-            return true;
-        case RecordKind::radar_trouble:
-            provenance.radar_troubles.push_back(text_of(contents));
-            return true;
-        case RecordKind::left_out:
-            provenance.left_out.push_back(text_of(contents));
-            return true;
-        case RecordKind::source_modified:
-            return true;  // the machine that made the file; no longer used
         case RecordKind::parallels:
             return read_number(contents, description.spec.parallels_deg);
         case RecordKind::site:
@@ -248,8 +262,9 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
             return read_number(contents, provenance.recipe);
         case RecordKind::audit:
             return read_audit(contents, provenance.audit);
+        default:
+            return true;  // source_modified, or a kind of a later version
     }
-    return true;  // a kind of a later version
 }
 
 }  // namespace
@@ -257,29 +272,16 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
 std::vector<std::byte> encode_description(const GridDescription& description) {
     const grid::Provenance& provenance = description.provenance;
     std::vector<std::byte> bytes;
-    for (const auto& name : provenance.source_files) {
-        append_text(bytes, RecordKind::source_file, name);
-    }
-    for (const auto& station : provenance.stations)
-        append_text(bytes, RecordKind::station, station);
-    append_text(bytes, RecordKind::method, provenance.method);
-    append_text(bytes, RecordKind::beam_model, provenance.beam_model);
-    append_text(bytes, RecordKind::averaging, provenance.averaging);
-    append_text(bytes, RecordKind::software_version, provenance.software_version);
-    if (!provenance.effects.empty()) append_text(bytes, RecordKind::effects, provenance.effects);
-    if (!provenance.predicted_error.empty()) {
-        append_text(bytes, RecordKind::predicted_error, provenance.predicted_error);
+    append_lists(bytes, std::span(list_records).first(lists_before_texts), provenance);
+    for (const TextRecord& record : text_records) {
+        const std::string& text = provenance.*record.text;
+        if (!record.optional || !text.empty()) append_text(bytes, record.kind, text);
     }
     const std::int32_t vcp = provenance.vcp;
     append_record(bytes, RecordKind::vcp, std::as_bytes(std::span(&vcp, 1)));
     const std::int32_t partial = provenance.partial ? 1 : 0;
     append_record(bytes, RecordKind::partial, std::as_bytes(std::span(&partial, 1)));
-    for (const auto& note : provenance.notes)
-        append_text(bytes, RecordKind::note, note);
-    for (const auto& trouble : provenance.radar_troubles)
-        append_text(bytes, RecordKind::radar_trouble, trouble);
-    for (const auto& machine : provenance.left_out)
-        append_text(bytes, RecordKind::left_out, machine);
+    append_lists(bytes, std::span(list_records).subspan(lists_before_texts), provenance);
     if (grid::facts_of(description.spec.projection).takes_parallels) {
         append_record(bytes, RecordKind::parallels,
                       std::as_bytes(std::span(description.spec.parallels_deg)));

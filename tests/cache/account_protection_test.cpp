@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "cache/account.h"
+#include "tests/cache/made_grids.h"
 
 namespace stormcellar::cache {
 namespace {
@@ -16,13 +17,10 @@ using std::chrono::minutes;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Optional;
-
-const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
+using testing::noon;
 
 // Times are in minutes after noon.
-GridName name(const std::string& domain, int minute) {
-    return {domain, level2::Moment::ref, noon + minutes{minute}};
-}
+constexpr auto name = testing::grid_named;
 
 class AccountProtectionTest : public ::testing::Test {
   protected:

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/cache/made_grids.h"
+
 namespace stormcellar::cache {
 namespace {
 
@@ -13,20 +15,16 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::minutes;
 using ::testing::ElementsAre;
+using testing::grid_named;
 using ::testing::IsEmpty;
-
-const UtcTime account_noon = *parse_utc("2024-11-22T12:00", UtcTime{});
+using testing::noon;
 
 // Times are in minutes after noon.
-GridName grid_named(const std::string& domain, int minute) {
-    return {domain, level2::Moment::ref, account_noon + minutes{minute}};
-}
-
 class AccountTest : public ::testing::Test {
   protected:
-    AccountTest() { account_.set_now(account_noon + hours{24}); }
+    AccountTest() { account_.set_now(noon + hours{24}); }
     void put(const std::string& domain, int minute, std::uint64_t bytes = 10, bool pinned = false) {
-        account_.put(grid_named(domain, minute), {bytes, account_noon, pinned});
+        account_.put(grid_named(domain, minute), {bytes, noon, pinned});
     }
     [[nodiscard]] auto room(const GridName& grid, std::uint64_t bytes) const {
         return account_.room_for(grid, bytes, budgets_);
@@ -64,7 +62,7 @@ TEST_F(AccountTest, NeverTakesTheNewestOfADomainAndMoment) {
     put("A", 0);
     put("A", 1);
     put("B", 2);
-    account_.put({"A", level2::Moment::vel, account_noon}, {10, account_noon, false});
+    account_.put({"A", level2::Moment::vel, noon}, {10, noon, false});
     EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(grid_named("A", 0)));
     account_.reserve("C", 20);
     budgets_.total.bytes = 60;
@@ -146,21 +144,21 @@ TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     EXPECT_FALSE(account_.is_expired(grid_named("A", 70), budgets_));
     EXPECT_FALSE(account_.is_expired(grid_named("C", -9000), budgets_));
     // The time of the clock does not matter.
-    account_.set_now(account_noon + hours{24 * 3650});
+    account_.set_now(noon + hours{24 * 3650});
     EXPECT_THAT(account_.expired("B", budgets_, 100), IsEmpty());
 }
 
 // Times more than 10 minutes in the future do not count.
 TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
-    account_.set_now(account_noon);
+    account_.set_now(noon);
     budgets_.total.age = minutes{60};
     put("A", -30);
     put("A", 0);
     put("A", 10);
-    EXPECT_EQ(account_.newest("A"), account_noon + minutes{10});
-    account_.put(grid_named("A", 11), {10, account_noon, false});
-    account_.put(grid_named("A", 60 * 24 * 365), {10, account_noon + minutes{1}, false});
-    EXPECT_EQ(account_.newest("A"), account_noon + minutes{10});
+    EXPECT_EQ(account_.newest("A"), noon + minutes{10});
+    account_.put(grid_named("A", 11), {10, noon, false});
+    account_.put(grid_named("A", 60 * 24 * 365), {10, noon + minutes{1}, false});
+    EXPECT_EQ(account_.newest("A"), noon + minutes{10});
     EXPECT_THAT(account_.expired("A", budgets_, 100), IsEmpty());
     // They are as old as their files, so they are evicted with the others and protect nothing.
     EXPECT_TRUE(account_.is_newest(grid_named("A", 10)));
@@ -168,15 +166,15 @@ TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
                 ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11),
                             grid_named("A", 60 * 24 * 365)));
     // A minute later one of them is believed.
-    account_.set_now(account_noon + minutes{1});
-    EXPECT_EQ(account_.newest("A"), account_noon + minutes{11});
+    account_.set_now(noon + minutes{1});
+    EXPECT_EQ(account_.newest("A"), noon + minutes{11});
     EXPECT_THAT(account_.down_to("A", 0, 100),
                 ElementsAre(grid_named("A", -30), grid_named("A", 0),
                             grid_named("A", 60 * 24 * 365), grid_named("A", 10)));
 }
 
 TEST_F(AccountTest, ADomainOfFutureStampsAloneKeepsItsNewest) {
-    account_.set_now(account_noon);
+    account_.set_now(noon);
     put("A", 100);
     put("A", 200);
     EXPECT_EQ(account_.newest("A"), std::nullopt);
@@ -190,7 +188,7 @@ TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
     put("northeast.KOKX", 5);
     put("north", 0);
     EXPECT_EQ(account_.used("northeast"), 40U);
-    EXPECT_EQ(account_.newest("northeast"), account_noon + minutes{60});
+    EXPECT_EQ(account_.newest("northeast"), noon + minutes{60});
     EXPECT_THAT(account_.down_to("northeast", 0, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0)));
     // If a part fell silent, not even its newest grid outlives the age.
@@ -246,8 +244,7 @@ TEST_F(AccountTest, AgreesWithAListThatIsSortedEachTime) {
             account_.erase(grid);
             slow.erase(grid);
         } else {
-            const GridFacts facts{static_cast<std::uint64_t>(draw(100)), account_noon,
-                                  draw(8) == 0};
+            const GridFacts facts{static_cast<std::uint64_t>(draw(100)), noon, draw(8) == 0};
             account_.put(grid, facts);
             slow[grid] = facts;
         }

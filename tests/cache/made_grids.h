@@ -18,6 +18,11 @@ inline constexpr int most_bricks = 8;
 
 inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
+// The name of a grid of reflectivity so many minutes after noon.
+[[nodiscard]] inline cache::GridName grid_named(const std::string& domain, int minute) {
+    return {domain, level2::Moment::ref, noon + std::chrono::minutes{minute}};
+}
+
 // 128 x 16 x 16 cells, of whose 8 bricks `stored` (1 to 8) are stored, every second one first, so
 // that runs and holes vary. Of 16-bit codes: 8 KiB a brick.
 [[nodiscard]] const grid::BrickGrid& sized_grid(int stored);
