@@ -41,9 +41,7 @@
 #include <utility>
 #include <vector>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -101,17 +99,11 @@ struct Stream {
 
 // Sends the request and reads the head of the answer; what follows it stays in `unread`.
 Result<Stream> open_stream(int port, const std::string& query) {
-    Stream client{Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), {}};
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    Stream client{connection_to(port), {}};
     const std::string request =
         "GET /api/v1/events?" + query + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
-    if (::connect(client.socket.number(), reinterpret_cast<const sockaddr*>(&address),
-                  sizeof address) != 0 ||
-        ::send(client.socket.number(), request.data(), request.size(), MSG_NOSIGNAL) !=
-            static_cast<ssize_t>(request.size()))
+    if (!client.socket.is_open() || ::send(client.socket.number(), request.data(), request.size(),
+                                           MSG_NOSIGNAL) != static_cast<ssize_t>(request.size()))
         return fail(ErrorCode::io, "no connection to port {}", port);
     std::array<char, 4096> buffer{};
     while (client.unread.find("\r\n\r\n") == std::string::npos) {
@@ -148,15 +140,9 @@ class EventClients {
             ::epoll_ctl(clients->epoll_.number(), EPOLL_CTL_ADD,
                         clients->streams_.back().socket.number(), &wanted);
         }
-        clients->thread_ = std::thread([reading = clients.get()] { reading->read_on(); });
+        clients->thread_ = std::jthread(
+            [reading = clients.get()](const std::stop_token& stop) { reading->read_on(stop); });
         return clients;
-    }
-    EventClients() = default;
-    EventClients(const EventClients&) = delete;
-    EventClients& operator=(const EventClients&) = delete;
-    ~EventClients() {
-        is_stopping_ = true;
-        if (thread_.joinable()) thread_.join();
     }
     // Returns what was heard since the last call, in the order in which it was read.
     [[nodiscard]] std::vector<HeardEvent> take() {
@@ -166,9 +152,9 @@ class EventClients {
     [[nodiscard]] std::size_t closed() const { return closed_; }  // streams that ended
 
   private:
-    void read_on() {
+    void read_on(const std::stop_token& stop) {
         std::array<epoll_event, 256> ready{};
-        while (!is_stopping_) {
+        while (!stop.stop_requested()) {
             const int count = ::epoll_wait(epoll_.number(), ready.data(), ready.size(), 100);
             for (int i = 0; i < count; ++i)
                 read_stream(ready[static_cast<std::size_t>(i)].data.u64);
@@ -203,11 +189,10 @@ class EventClients {
 
     std::vector<Stream> streams_;
     Descriptor epoll_{::epoll_create1(EPOLL_CLOEXEC)};
-    std::atomic<bool> is_stopping_ = false;
     std::atomic<std::size_t> closed_ = 0;
     std::mutex mutex_;
     std::vector<HeardEvent> heard_;  // guarded by mutex_
-    std::thread thread_;
+    std::jthread thread_;            // the last: it uses the members above
 };
 
 // A daemon and a data server over the same directories.
@@ -512,24 +497,19 @@ int run(const Request& request) {
     }
     if (status && !request.has("--sweeps")) status = measure_hour(request, wanted, work, table);
     table.finish();
-    if (status) return 0;
-    fmt::print(stderr, "bench_events: {}\n", status.error().message);
-    return status.error().code == ErrorCode::not_found ? 3 : 1;
+    return exit_status("bench_events", status);
 }
 
 }  // namespace
 }  // namespace stormcellar::bench
 
 int main(int argc, char** argv) {
-    namespace bench = stormcellar::bench;
-    const bench::Program program{
-        .name = "bench_events",
-        .files = "[FILE ...]",
-        .purpose =
-            "how soon grids and events of the data server follow: --sweeps, one by one;\n"
-            "--hour, many --streams at the heaviest national hour",
-        .flags = {"--sweeps", "--hour"},
-        .values = {"--streams", "--seconds", "--sites", "--work"}};
-    const auto read = bench::read_request(program, std::span(argv, static_cast<std::size_t>(argc)));
-    return read.request ? bench::run(*read.request) : read.status;
+    return stormcellar::bench::run_benchmark(
+        {"bench_events",
+         "[FILE ...]",
+         "how soon grids and events of the data server follow: --sweeps, one by one;\n"
+         "--hour, many --streams at the heaviest national hour",
+         {"--sweeps", "--hour"},
+         {"--streams", "--seconds", "--sites", "--work"}},
+        argc, argv, stormcellar::bench::run);
 }

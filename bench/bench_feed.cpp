@@ -281,9 +281,7 @@ int run(int argc, char** argv) {
         done = measure_soak(*request, *wanted, std::clamp(of_feed, 1, soak_hours), table);
     }
     table.finish();
-    if (done) return 0;
-    fmt::print(stderr, "bench_feed: {}\n", done.error().message);
-    return done.error().code == ErrorCode::not_found ? 3 : 1;
+    return exit_status("bench_feed", done);
 }
 
 }  // namespace

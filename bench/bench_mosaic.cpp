@@ -336,12 +336,8 @@ int run(int argc, char** argv) {
         if (done && !request->has("--sites") && !request->value("--only"))
             done = measure_nation(*request, a_case->work, request->value("--cache"), table);
     }
-    if (done) {
-        table.finish();
-        return 0;
-    }
-    fmt::print(stderr, "bench_mosaic: {}\n", done.error().message);
-    return done.error().code == ErrorCode::not_found ? 3 : 1;
+    if (done) table.finish();
+    return exit_status("bench_mosaic", done);
 }
 
 }  // namespace

@@ -287,16 +287,13 @@ int run(const Request& request) {
 }  // namespace stormcellar::bench
 
 int main(int argc, char** argv) {
-    namespace bench = stormcellar::bench;
-    const bench::Program program{
-        .name = "bench_web",
-        .files = "[FILE ...]",
-        .purpose =
-            "what the data server serves a second, beside nginx; --seconds N, --clients "
-            "\"1 64\"; or how soon it lists an --archive or draws --tiles",
-        .flags = {"--archive", "--tiles"},
-        .values = {"--seconds", "--clients", "--stations", "--rows", "--grids", "--requests",
-                   "--cache", "--work"}};
-    const auto read = bench::read_request(program, std::span(argv, static_cast<std::size_t>(argc)));
-    return read.request ? bench::run(*read.request) : read.status;
+    return stormcellar::bench::run_benchmark(
+        {"bench_web",
+         "[FILE ...]",
+         "what the data server serves a second, beside nginx; --seconds N, --clients \"1 64\"; or "
+         "how soon it lists an --archive or draws --tiles",
+         {"--archive", "--tiles"},
+         {"--seconds", "--clients", "--stations", "--rows", "--grids", "--requests", "--cache",
+          "--work"}},
+        argc, argv, stormcellar::bench::run);
 }

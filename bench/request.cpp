@@ -79,6 +79,19 @@ ReadRequest read_request(const Program& program, std::span<char* const> argument
     return {std::move(request), 0};
 }
 
+int exit_status(std::string_view program, const Status& done) {
+    if (done) return 0;
+    fmt::print(stderr, "{}: {}\n", program, done.error().message);
+    return done.error().code == ErrorCode::not_found ? 3 : 1;
+}
+
+int run_benchmark(const Program& program, int argc, char** argv,
+                  const std::function<int(const Request&)>& run) {
+    const auto [request, status] =
+        read_request(program, std::span(argv, static_cast<std::size_t>(argc)));
+    return request ? run(*request) : status;
+}
+
 int run_over_files(const Program& program, std::span<char* const> arguments,
                    const MeasureFile& measure) {
     const auto [request, status] = read_request(program, arguments);

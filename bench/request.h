@@ -15,6 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "stormcellar/base/result.h"
+
 namespace stormcellar::bench {
 
 struct Program {
@@ -49,6 +51,14 @@ struct ReadRequest {
     int status = 0;
 };
 [[nodiscard]] ReadRequest read_request(const Program& program, std::span<char* const> arguments);
+
+// Prints the error, if there is one. Returns the exit status of main(): 3 if something that is
+// needed is not there, else 1.
+[[nodiscard]] int exit_status(std::string_view program, const Status& done);
+
+// The body of main(): reads the request and runs the benchmark, which returns the exit status.
+[[nodiscard]] int run_benchmark(const Program& program, int argc, char** argv,
+                                const std::function<int(const Request&)>& run);
 
 class Table;
 

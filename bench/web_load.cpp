@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include "bench/measure.h"
-#include "stormcellar/base/descriptor.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -24,16 +23,6 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds step{2};
 constexpr int most_steps = 30'000;
 constexpr int microseconds_in_a_millisecond = 1000;
-
-bool answers(int port) {
-    const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    return ::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address),
-                     sizeof address) == 0;
-}
 
 // Prints one line of figures at the end: requests and bytes, microseconds, latencies, failures.
 constexpr std::string_view report = R"(done = function(summary, latency, requests)
@@ -55,7 +44,7 @@ Result<WebServer> listening(Result<ChildProcess> process, int port, const std::s
                             const fs::path& said, std::string_view ready = {}) {
     if (!process) return pass_on(process);
     for (int i = 0; i < most_steps && process->is_running(); ++i) {
-        if (process->output().find(ready) != std::string::npos && answers(port))
+        if (process->output().find(ready) != std::string::npos && connection_to(port).is_open())
             return WebServer{std::move(*process), port};
         std::this_thread::sleep_for(step);
     }
@@ -63,6 +52,18 @@ Result<WebServer> listening(Result<ChildProcess> process, int port, const std::s
 }
 
 }  // namespace
+
+Descriptor connection_to(int port) {
+    Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    const bool is_connected =
+        ::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) ==
+        0;
+    return is_connected ? std::move(socket) : Descriptor{};
+}
 
 std::string WebServer::address() const {
     return fmt::format("http://127.0.0.1:{}", port);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bench/process.h"
+#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
@@ -43,6 +44,8 @@ struct WebServer {
                                                  int port, const std::filesystem::path& scratch);
 // A port that nobody listens on at the moment.
 [[nodiscard]] int free_port();
+// A connection to this port; a closed descriptor if nobody listens.
+[[nodiscard]] Descriptor connection_to(int port);
 // nginx as one process that serves the files of a directory with sendfile, without a log.
 [[nodiscard]] Result<WebServer> serve_with_nginx(const std::filesystem::path& directory,
                                                  const std::filesystem::path& scratch);
