@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
 
 #include "base/counted.h"
@@ -24,6 +23,7 @@ LoopsService::LoopsService(Config config, std::filesystem::path config_file, Par
       config_file_(std::move(config_file)),
       parts_(parts),
       watchdog_(parts_.notifier.watchdog()),
+      status_file_(parts_.file_system, directory(config_), parts_.notifier),
       keeper_(config_.fixed.paths.cache, [this] { wake_up_.set(); }) {
     pulses_.watch("loops", keeper_.pulse());
 }
@@ -38,7 +38,7 @@ void LoopsService::request_stop() {
 }
 
 void LoopsService::run() {
-    publish("running");
+    publish("running", true);
     parts_.notifier.send("READY=1");
     log_info({Event::ready}, "ready: running {} on the cache {}",
              counted(config_.reloadable.loops.size(), "loop"),
@@ -51,9 +51,9 @@ void LoopsService::run() {
         const SteadyTime now = std::chrono::steady_clock::now();
         if (auto loops = keeper_.news()) {
             loops_ = std::move(*loops);
-            has_news_ = true;
+            status_file_.changed();
         }
-        if (has_news_ && now >= next_publish_) publish("running");
+        publish("running", false);
         log_held_back();
         feed(watchdog_, parts_.notifier, now, pulses_.oldest());
         wait(now);
@@ -62,14 +62,14 @@ void LoopsService::run() {
     keeper_.stop();
     keeper_.wait();
     if (auto loops = keeper_.news()) loops_ = std::move(*loops);
-    publish("stopped");
+    publish("stopped", true);
     log_all_held_back();
     log_info({Event::stopped}, "stopped");
 }
 
 void LoopsService::wait(SteadyTime now) {
     SteadyTime until = now + longest_wait;
-    if (has_news_) until = std::min(until, next_publish_);
+    if (const auto due = status_file_.next_time()) until = std::min(until, *due);
     if (const auto due = watchdog_.next_time()) until = std::min(until, *due);
     std::array<pollfd, 2> sources = {
         pollfd{wake_up_.descriptor(), POLLIN, 0},
@@ -103,20 +103,12 @@ void LoopsService::reload() {
     parts_.notifier.send("READY=1");
 }
 
-void LoopsService::publish(const char* state) {
-    has_news_ = false;
-    next_publish_ = std::chrono::steady_clock::now() + std::chrono::seconds{1};
-    parts_.notifier.send("STATUS=" + loops_line(loops_));
-    const std::filesystem::path path = directory(config_) / "status.json";
-    const std::string text = loops_json(loops_, state, started_, now_utc());
-    const Status written =
-        write_file_atomically(parts_.file_system, path, std::as_bytes(std::span{text}));
-    if (!written && !failing_) {
-        log_error({.event = Event::status_unwritten, .file = path},
-                  "cannot write the status file {}: {}", printable(path.native()),
-                  printable(written.error().message));
-    }
-    failing_ = !written;
+void LoopsService::publish(const char* state, bool force) {
+    const auto texts = [&] {
+        return StatusFile::Texts{loops_line(loops_),
+                                 loops_json(loops_, state, started_, now_utc())};
+    };
+    (void)status_file_.publish(texts, std::chrono::steady_clock::now(), force);
 }
 
 }  // namespace stormcellar::daemon

@@ -24,6 +24,7 @@
 #include "daemon/loops/loop_supervisor.h"
 #include "daemon/process/main_loop.h"
 #include "daemon/process/wake_up.h"
+#include "daemon/status/status_file.h"
 #include "service/notify.h"
 #include "stormcellar/base/file_system.h"
 
@@ -49,7 +50,8 @@ class LoopsService {
   private:
     void handle_signals();
     void reload();
-    void publish(const char* state);
+    // Publishes a change once a second, or at once if forced.
+    void publish(const char* state, bool force);
     void wait(SteadyTime now);
 
     Config config_;
@@ -59,9 +61,7 @@ class LoopsService {
     Pulses pulses_;
     UtcTime started_ = now_utc();
     std::vector<LoopState> loops_;
-    bool has_news_ = false;
-    bool failing_ = false;
-    SteadyTime next_publish_{};
+    StatusFile status_file_;
     std::atomic<bool> stop_requested_ = false;
     WakeUp wake_up_;
     LoopSupervisor keeper_;  // the last member: its thread uses the members above

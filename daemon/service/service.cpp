@@ -370,7 +370,10 @@ void Service::publish(bool at_once) {
     const std::size_t directories = watcher_.directory_count();
     if (directories != status_.facts().directories) status_file_.changed();
     status_.set_directories(directories);
-    if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
+    const auto texts = [&] {
+        return StatusFile::Texts{status_.line(pending), status_.json(pending, now_utc())};
+    };
+    if (!status_file_.publish(texts, parts_.clock.steady(), at_once)) return;
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
 }
 

@@ -9,11 +9,11 @@
 
 namespace stormcellar::daemon {
 
-StatusFile::StatusFile(FileSystem& file_system, const std::filesystem::path& state,
+StatusFile::StatusFile(FileSystem& file_system, const std::filesystem::path& directory,
                        Notifier& notifier)
     : file_system_(file_system),
-      path_(state / "status.json"),
-      temporary_(state / fmt::format("{}status", temporary_prefix)),
+      path_(directory / "status.json"),
+      temporary_(directory / fmt::format("{}status", temporary_prefix)),
       notifier_(notifier) {}
 
 Status StatusFile::write(const std::string& text) {
@@ -27,13 +27,13 @@ Status StatusFile::write(const std::string& text) {
     return written;
 }
 
-bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyTime now,
-                         bool force) {
+bool StatusFile::publish(const std::function<Texts()>& make, SteadyTime now, bool force) {
     if (!force && (!changed_ || now < next_)) return false;
     changed_ = false;
     next_ = now + std::chrono::seconds{1};
-    notifier_.send("STATUS=" + book.line(pending));
-    const Status written = write(book.json(pending, now_utc()));
+    const Texts texts = make();
+    notifier_.send("STATUS=" + texts.line);
+    const Status written = write(texts.json);
     if (!written && !failing_) {
         log_error({.event = Event::status_unwritten, .file = path_},
                   "cannot write the status file {}: {}", printable(path_.native()),

@@ -1,5 +1,5 @@
-// daemon/status/status_file.h -- publishes the status in state/status.json and in the status line
-// of the service manager.
+// daemon/status/status_file.h -- publishes a status in a status.json and in the status line of the
+// service manager.
 //
 // It is written at most once a second, and only if something has changed. The file appears by
 // rename, so that a reader always sees a complete document. It is not synced, since it means
@@ -9,10 +9,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
-#include "daemon/status/status.h"
+#include "base/steady_time.h"
 #include "service/notify.h"
 #include "stormcellar/base/file_system.h"
 
@@ -20,12 +21,18 @@ namespace stormcellar::daemon {
 
 class StatusFile {
   public:
-    StatusFile(FileSystem& file_system, const std::filesystem::path& state, Notifier& notifier);
+    // `directory` is where status.json is written.
+    StatusFile(FileSystem& file_system, const std::filesystem::path& directory, Notifier& notifier);
+
+    struct Texts {
+        std::string line;  // for the service manager
+        std::string json;
+    };
 
     void changed() { changed_ = true; }
     // Writes if something has changed and a second has passed, or at once if forced. Returns
-    // whether it was time to write.
-    bool publish(const StatusBook& book, const Pending& pending, SteadyTime now, bool force);
+    // whether it was time to write; `make` is called only then.
+    bool publish(const std::function<Texts()>& make, SteadyTime now, bool force);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
 
   private:

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "daemon/status/status.h"
 #include "tests/daemon/steady_start.h"
 #include "tests/service/fake_notifier.h"
 #include "tests/testing/power_cut_file_system.h"
@@ -30,25 +31,28 @@ class StatusFileTest : public ::testing::Test {
     testing::TemporaryDirectory state_;
     FakeNotifier notifier_;
     StatusBook book_{"/d", "/c"};
+    std::function<StatusFile::Texts()> texts_ = [this] {
+        return StatusFile::Texts{book_.line({}), book_.json({}, now_utc())};
+    };
 };
 
 TEST_F(StatusFileTest, IsWrittenAtMostOnceASecondAndOnlyForAChange) {
     StatusFile file(real_file_system(), state_.path(), notifier_);
-    file.publish(book_, {}, t0, false);
+    file.publish(texts_, t0, false);
     EXPECT_EQ(state_on_disk(), "none") << "nothing has changed";
     file.changed();
-    file.publish(book_, {}, t0, false);
+    file.publish(texts_, t0, false);
     EXPECT_EQ(state_on_disk(), "starting");
     book_.set_state("running");
     file.changed();
     EXPECT_EQ(file.next_time(), t0 + milliseconds{1000});
-    file.publish(book_, {}, t0 + milliseconds{999}, false);
+    file.publish(texts_, t0 + milliseconds{999}, false);
     EXPECT_EQ(state_on_disk(), "starting");
-    file.publish(book_, {}, t0 + milliseconds{1000}, false);
+    file.publish(texts_, t0 + milliseconds{1000}, false);
     EXPECT_EQ(state_on_disk(), "running");
     EXPECT_FALSE(file.next_time());
     book_.set_state("stopped");
-    file.publish(book_, {}, t0 + milliseconds{1001}, true);
+    file.publish(texts_, t0 + milliseconds{1001}, true);
     EXPECT_EQ(state_on_disk(), "stopped");
     EXPECT_EQ(entries(), 1U) << "no temporary file is left";
     EXPECT_EQ(notifier_.sent().size(), 3U);
@@ -58,7 +62,7 @@ TEST_F(StatusFileTest, IsWrittenAtMostOnceASecondAndOnlyForAChange) {
 TEST_F(StatusFileTest, TakesTheLeftoverOfAKilledDaemonAway) {
     std::ofstream(state_ / ".stormcellar-tmp-status") << "half";
     StatusFile file(real_file_system(), state_.path(), notifier_);
-    file.publish(book_, {}, t0, true);
+    file.publish(texts_, t0, true);
     EXPECT_EQ(state_on_disk(), "starting");
     EXPECT_EQ(entries(), 1U);
 }
@@ -66,11 +70,11 @@ TEST_F(StatusFileTest, TakesTheLeftoverOfAKilledDaemonAway) {
 TEST_F(StatusFileTest, AFullDiskLeavesTheLastWholeDocument) {
     testing::PowerCutFileSystem disk;
     StatusFile file(disk, state_.path(), notifier_);
-    file.publish(book_, {}, t0, true);
+    file.publish(texts_, t0, true);
     ASSERT_EQ(state_on_disk(), "starting");
     disk.set_space(10);
     book_.set_state("running");
-    file.publish(book_, {}, t0, true);
+    file.publish(texts_, t0, true);
     EXPECT_EQ(state_on_disk(), "starting");
     EXPECT_EQ(entries(), 1U);
 }
@@ -79,11 +83,11 @@ TEST_F(StatusFileTest, AFullDiskLeavesTheLastWholeDocument) {
 TEST_F(StatusFileTest, WhatCannotBePutInPlaceIsTakenAwayAndTriedAgain) {
     std::filesystem::create_directory(state_ / "status.json");
     StatusFile file(real_file_system(), state_.path(), notifier_);
-    file.publish(book_, {}, t0, true);
+    file.publish(texts_, t0, true);
     EXPECT_EQ(entries(), 1U) << "no temporary file is left";
     std::filesystem::remove(state_ / "status.json");
     ASSERT_TRUE(file.next_time());
-    file.publish(book_, {}, *file.next_time(), false);
+    file.publish(texts_, *file.next_time(), false);
     EXPECT_EQ(state_on_disk(), "starting");
     EXPECT_FALSE(file.next_time());
 }
