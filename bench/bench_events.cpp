@@ -60,6 +60,7 @@
 #include "stormcellar/level2/chunk_name.h"
 #include "stormcellar/level2/decode.h"
 #include "synth/replay_pieces.h"
+#include "tests/testing/loopback.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -99,7 +100,7 @@ struct Stream {
 
 // Sends the request and reads the head of the answer; what follows it stays in `unread`.
 Result<Stream> open_stream(int port, const std::string& query) {
-    Stream client{connection_to(port), {}};
+    Stream client{testing::connection_to(port), {}};
     const std::string request =
         "GET /api/v1/events?" + query + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
     if (!client.socket.is_open() || ::send(client.socket.number(), request.data(), request.size(),
@@ -203,7 +204,7 @@ struct Pair {
     }
     fs::path root;
     DaemonProcess daemon;
-    int port = free_port();
+    int port = testing::free_port();
 };
 
 // A real volume with LDM records.

@@ -6,14 +6,12 @@
 #include <thread>
 #include <utility>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include "bench/measure.h"
+#include "tests/testing/loopback.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -44,7 +42,8 @@ Result<WebServer> listening(Result<ChildProcess> process, int port, const std::s
                             const fs::path& said, std::string_view ready = {}) {
     if (!process) return pass_on(process);
     for (int i = 0; i < most_steps && process->is_running(); ++i) {
-        if (process->output().find(ready) != std::string::npos && connection_to(port).is_open())
+        if (process->output().find(ready) != std::string::npos &&
+            testing::connection_to(port).is_open())
             return WebServer{std::move(*process), port};
         std::this_thread::sleep_for(step);
     }
@@ -53,25 +52,13 @@ Result<WebServer> listening(Result<ChildProcess> process, int port, const std::s
 
 }  // namespace
 
-Descriptor connection_to(int port) {
-    Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    const bool is_connected =
-        ::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) ==
-        0;
-    return is_connected ? std::move(socket) : Descriptor{};
-}
-
 std::string WebServer::address() const {
     return fmt::format("http://127.0.0.1:{}", port);
 }
 
 Result<WebServer> serve(const std::vector<std::string>& words, const fs::path& scratch,
                         std::optional<int> processor) {
-    const int port = free_port();
+    const int port = testing::free_port();
     std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
                                           fmt::format("127.0.0.1:{}", port)};
     arguments.insert(arguments.end(), words.begin(), words.end());
@@ -80,18 +67,6 @@ Result<WebServer> serve(const std::vector<std::string>& words, const fs::path& s
     fs::remove(scratch / "serve", ignored);
     return listening(ChildProcess::start(std::move(arguments), scratch / "serve", processor), port,
                      "stormcellar serve", scratch / "serve", "listening on http");
-}
-
-int free_port() {
-    const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
-        ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
-        return 0;
-    return ntohs(address.sin_port);
 }
 
 Result<WebServer> serve_configured(const fs::path& configuration, int port,
@@ -103,7 +78,7 @@ Result<WebServer> serve_configured(const fs::path& configuration, int port,
 }
 
 Result<WebServer> serve_with_nginx(const fs::path& directory, const fs::path& scratch) {
-    const int port = free_port();
+    const int port = testing::free_port();
     const fs::path file = scratch / "nginx.conf";
     std::ofstream(file) << fmt::format(
         "daemon off; master_process off; pid {0}/nginx.pid; error_log {0}/nginx.log;\n"

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "bench/process.h"
-#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
@@ -42,10 +41,6 @@ struct WebServer {
 // processor.
 [[nodiscard]] Result<WebServer> serve_configured(const std::filesystem::path& configuration,
                                                  int port, const std::filesystem::path& scratch);
-// A port that nobody listens on at the moment.
-[[nodiscard]] int free_port();
-// A connection to this port; a closed descriptor if nobody listens.
-[[nodiscard]] Descriptor connection_to(int port);
 // nginx as one process that serves the files of a directory with sendfile, without a log.
 [[nodiscard]] Result<WebServer> serve_with_nginx(const std::filesystem::path& directory,
                                                  const std::filesystem::path& scratch);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/host_name.h"
+#include "tests/repository/text_of.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/text_bytes.h"
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 using testing::PowerCutFileSystem;
 using testing::TemporaryDirectory;
 
-std::string contents(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 int entries(const fs::path& directory) {
     return static_cast<int>(std::distance(fs::directory_iterator(directory), {}));
 }
@@ -32,7 +28,7 @@ TEST(AtomicFile, AppearsWholeUnderItsName) {
     const TemporaryDirectory directory;
     ASSERT_TRUE(
         write_file_atomically(real_file_system(), directory / "a", testing::text_bytes("storm")));
-    EXPECT_EQ(contents(directory / "a"), "storm");
+    EXPECT_EQ(testing::text_of(directory / "a"), "storm");
     EXPECT_EQ(entries(directory.path()), 1);
 }
 
@@ -80,7 +76,7 @@ TEST(AtomicFile, PowerCutAtEveryOperationLeavesOldOrNew) {
         finished = write_file_atomically(file_system, directory / "a", testing::text_bytes("new"))
                        .has_value();
         file_system.power_cut();
-        const std::string now = contents(directory / "a");
+        const std::string now = testing::text_of(directory / "a");
         EXPECT_TRUE(now == "old" || now == "new") << "operation " << operation << ": " << now;
         if (finished) {
             EXPECT_EQ(now, "new") << "a commit that succeeded must last";

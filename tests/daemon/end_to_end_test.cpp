@@ -22,6 +22,7 @@
 #include "tests/daemon/notify_socket.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
+#include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/program.h"
@@ -33,11 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 using catalog::FileState;
 using nlohmann::json;
-
-std::string contents(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<fs::path> sorted_files(const fs::path& directory) {
     std::vector<fs::path> files;
@@ -165,7 +161,7 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     fs::copy_file(volumes[2], day / volumes[2].filename());
     fs::copy_file(volumes[3], day / ".growing");
     fs::rename(day / ".growing", day / volumes[3].filename());
-    append_in_pieces(day / volumes[4].filename(), contents(volumes[4]), 6);
+    append_in_pieces(day / volumes[4].filename(), testing::text_of(volumes[4]), 6);
     ASSERT_TRUE(daemon.wait_for([](const json& s) {
         return s["ingested"] == 5 && s["rejected"] >= 3 && everything_is_done(s);
     })) << daemon.status().dump(1)
@@ -199,14 +195,14 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     EXPECT_GT(status["latency_s"]["max"], 0);
     EXPECT_NE(daemon.log().find("two\\x0alines"), std::string::npos) << "names are one line";
     // The raw files are LDM's.
-    EXPECT_EQ(contents(day / volumes[4].filename()), contents(volumes[4]));
+    EXPECT_EQ(testing::text_of(day / volumes[4].filename()), testing::text_of(volumes[4]));
 }
 
 TEST(EndToEnd, AVolumeThatNeverEndsIsGriddedWhenItWasQuiet) {
     STORMCELLAR_NEED_DATA();
     std::string text;
     for (const fs::path& chunk : sorted_files(*testing::data_directory() / "chunks/KLOT_34"))
-        text += contents(chunk);
+        text += testing::text_of(chunk);
     RunningDaemon daemon;
     daemon.start(quick);
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));

@@ -12,6 +12,7 @@
 #include "daemon/status/metrics_text.h"
 #include "tests/daemon/fake_sink.h"
 #include "tests/daemon/metrics_reader.h"
+#include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
@@ -24,12 +25,6 @@ using pipeline::IngestResult;
 
 fs::path monitoring() {
     return testing::source_directory() / "daemon/monitoring";
-}
-
-std::string contents(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path;
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 // With something in every family.
@@ -91,7 +86,7 @@ void check_names(const std::string& text, const std::string& what) {
 }
 
 TEST(Monitoring, TheDashboardNamesWhatIsExported) {
-    const std::string text = contents(monitoring() / "stormcellar-dashboard.json");
+    const std::string text = testing::text_of(monitoring() / "stormcellar-dashboard.json");
     check_names(text, "the dashboard");
     const auto dashboard = nlohmann::json::parse(text);
     std::set<int> ids;
@@ -103,15 +98,16 @@ TEST(Monitoring, TheDashboardNamesWhatIsExported) {
 }
 
 TEST(Monitoring, TheAlertsNameWhatIsExported) {
-    check_names(contents(monitoring() / "stormcellar-alerts.yml"), "an alert");
+    check_names(testing::text_of(monitoring() / "stormcellar-alerts.yml"), "an alert");
 }
 
 TEST(Monitoring, TheManualExplainsEveryMetricAndEveryAlert) {
-    const std::string manual = contents(testing::source_directory() / "docs/reference/metrics.md");
+    const std::string manual =
+        testing::text_of(testing::source_directory() / "docs/reference/metrics.md");
     check_names(manual, "the manual");
     for (const auto& [name, family] : all_families())
         EXPECT_NE(manual.find("`" + name), std::string::npos) << name << " is not explained";
-    const std::string alerts = contents(monitoring() / "stormcellar-alerts.yml");
+    const std::string alerts = testing::text_of(monitoring() / "stormcellar-alerts.yml");
     static const std::regex alert(R"(- alert: (\w+))");
     int count = 0;
     for (std::sregex_iterator at(alerts.begin(), alerts.end(), alert), end; at != end; ++at) {

@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+
+#include "stormcellar/base/descriptor.h"
 
 namespace stormcellar::daemon {
 
@@ -11,14 +14,9 @@ class StatusClient {
   public:
     // Waits at most a minute until somebody listens there.
     static StatusClient at_path(const std::filesystem::path& path);
-    static StatusClient at_port(bool ipv6, int port);
-    StatusClient(StatusClient&& other) noexcept;
-    StatusClient(const StatusClient&) = delete;
-    StatusClient& operator=(const StatusClient&) = delete;
-    StatusClient& operator=(StatusClient&&) = delete;
-    ~StatusClient();
+    static StatusClient at_port(int port);
 
-    [[nodiscard]] bool is_connected() const { return descriptor_ >= 0; }
+    [[nodiscard]] bool is_connected() const { return socket_.is_open(); }
     // Returns false if the other side has closed the connection.
     bool send(const std::string& text) const;
     // Returns everything up to the end of the connection; none if it does not end within 20 s.
@@ -29,8 +27,8 @@ class StatusClient {
     [[nodiscard]] std::string ask(const std::string& request) const;
 
   private:
-    explicit StatusClient(int descriptor) : descriptor_(descriptor) {}
-    int descriptor_ = -1;
+    explicit StatusClient(Descriptor socket) : socket_(std::move(socket)) {}
+    Descriptor socket_;
 };
 
 // Returns "GET PATH" as HTTP/1.0.

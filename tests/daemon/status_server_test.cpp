@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -18,6 +17,7 @@
 #include "daemon/status/listening_socket.h"
 #include "stormcellar/base/descriptor.h"
 #include "tests/daemon/status_client.h"
+#include "tests/testing/loopback.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 
@@ -88,19 +88,6 @@ TEST_F(StatusServerTest, IsSeenToHang) {
 bool says_how_to_take_it(const std::string& answer) {
     return answer.find("Cache-Control: no-store\r\n") != std::string::npos &&
            answer.find("X-Content-Type-Options: nosniff\r\n") != std::string::npos;
-}
-
-// Returns a port that is free at this moment.
-int free_port() {
-    const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    EXPECT_EQ(::bind(descriptor, reinterpret_cast<sockaddr*>(&address), size), 0);
-    ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
-    ::close(descriptor);
-    return ntohs(address.sin_port);
 }
 
 TEST_F(StatusServerTest, AnswersWithPagesAndEndsTheConnection) {
@@ -242,10 +229,9 @@ TEST_F(StatusServerTest, APageThatCannotBeMadeEndsNothing) {
 
 TEST_F(StatusServerTest, ThePortIsOfThisMachineAlone) {
     StatusServerOptions options = quick();
-    options.http_port = free_port();
+    options.http_port = testing::free_port();
     const StatusServer server(options, render());
-    EXPECT_EQ(body_of(StatusClient::at_port(false, options.http_port).ask(get("/metrics"))),
-              "x 1\n");
+    EXPECT_EQ(body_of(StatusClient::at_port(options.http_port).ask(get("/metrics"))), "x 1\n");
     std::ifstream sockets("/proc/self/net/tcp");
     const std::string all{std::istreambuf_iterator<char>(sockets), {}};
     const std::string port = fmt::format(":{:04X} ", options.http_port);
@@ -257,12 +243,12 @@ TEST_F(StatusServerTest, ThePortIsOfThisMachineAlone) {
 // answered, and its browser let it read the answer.
 TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     StatusServerOptions options = quick();
-    options.http_port = free_port();
+    options.http_port = testing::free_port();
     const StatusServer server(options, render());
     const auto status_of = [&](const std::string& fields, bool at_port = true) {
         const std::string request = "GET /metrics HTTP/1.1\r\n" + fields + "\r\n";
         const std::string answer =
-            at_port ? StatusClient::at_port(false, options.http_port).ask(request) : ask(request);
+            at_port ? StatusClient::at_port(options.http_port).ask(request) : ask(request);
         EXPECT_TRUE(says_how_to_take_it(answer)) << answer;
         return answer.size() < 12 ? "none" : answer.substr(9, 3);
     };
@@ -297,11 +283,8 @@ std::vector<Descriptor> silent_connections(int port, int count) {
     std::vector<Descriptor> all;
     for (int i = 0; i < count; ++i) {
         all.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(static_cast<std::uint16_t>(port));
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        ::connect(all.back().number(), reinterpret_cast<sockaddr*>(&address), sizeof address);
+        const sockaddr_in address = testing::loopback_address(port);
+        ::connect(all.back().number(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
     }
     return all;
 }
@@ -327,7 +310,7 @@ TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     constexpr int silent = 200;
     StatusServerOptions options = quick();
     options.retry = std::chrono::minutes{1};  // nothing else wakes the server's thread
-    options.http_port = free_port();
+    options.http_port = testing::free_port();
     std::promise<void> go_on;
     std::atomic<bool> is_at_a_page = false;
     const StatusServer server(options, [&, goes_on = go_on.get_future().share()](StatusPage) {
@@ -336,7 +319,7 @@ TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
         return metrics_;
     });
     const auto ask_it = [&] {
-        return StatusClient::at_port(false, options.http_port).ask(get("/metrics"));
+        return StatusClient::at_port(options.http_port).ask(get("/metrics"));
     };
     // The server's thread is making a page while they arrive.
     auto first = std::async(std::launch::async, ask_it);
@@ -345,7 +328,7 @@ TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     const auto many = silent_connections(options.http_port, silent);
     // Nobody accepts meanwhile, so one that the kernel dropped would never be there.
     EXPECT_TRUE(all_are_connected(many));
-    const StatusClient second = StatusClient::at_port(false, options.http_port);
+    const StatusClient second = StatusClient::at_port(options.http_port);
     second.send(get("/metrics"));
     go_on.set_value();
     EXPECT_EQ(body_of(second.read_to_end().value_or("")), metrics_) << "the server slept";

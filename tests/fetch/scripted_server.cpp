@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -73,17 +72,7 @@ std::string Asked::key() const {
 
 ScriptedServer::ScriptedServer(std::function<Reply(const Asked&)> answer)
     : answer_(std::move(answer)) {
-    listener_ = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
-        ::listen(listener_, 64) != 0 ||
-        ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
-        throw std::runtime_error("no socket for the server");
-    }
-    port_ = ntohs(address.sin_port);
+    if (::listen(listener_.number(), 64) != 0) throw std::runtime_error("no socket for the server");
     thread_ = std::thread([this] { serve(); });
 }
 
@@ -92,11 +81,10 @@ ScriptedServer::~ScriptedServer() {
     thread_.join();
     for (Answering& one : answering_)
         one.thread.join();
-    ::close(listener_);
 }
 
 std::string ScriptedServer::url() const {
-    return fmt::format("http://127.0.0.1:{}", port_);
+    return fmt::format("http://127.0.0.1:{}", port_of(listener_));
 }
 
 std::vector<Asked> ScriptedServer::asked() const {
@@ -111,9 +99,9 @@ void ScriptedServer::forget_asked() {
 
 void ScriptedServer::serve() {
     while (!stop_) {
-        pollfd ready{listener_, POLLIN, 0};
+        pollfd ready{listener_.number(), POLLIN, 0};
         if (::poll(&ready, 1, 20) != 1) continue;
-        const int connection = ::accept(listener_, nullptr, nullptr);
+        const int connection = ::accept(listener_.number(), nullptr, nullptr);
         if (connection < 0) continue;
         join_done();
         Answering& one = answering_.emplace_back();

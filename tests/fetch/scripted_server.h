@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/testing/loopback.h"
+
 namespace stormcellar::testing {
 
 struct Asked {
@@ -60,8 +62,7 @@ class ScriptedServer {
     void join_done();
 
     const std::function<Reply(const Asked&)> answer_;
-    int listener_ = -1;
-    int port_ = 0;
+    const Descriptor listener_ = bound_socket();
     std::atomic<bool> stop_{false};
     std::atomic<std::size_t> at_once_{0}, most_at_once_{0};
     mutable std::mutex mutex_;  // guards asked_
