@@ -16,8 +16,8 @@ using std::chrono::hours;
 using std::chrono::minutes;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using ::testing::Optional;
 using testing::noon;
+using ::testing::Optional;
 
 // Times are in minutes after noon.
 constexpr auto name = testing::grid_named;

@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace stormcellar::testing {
 namespace {
 
@@ -129,6 +131,15 @@ std::vector<cache::StoreEntry> all_grids(const cache::StoreReader& store) {
         if (entries) all.insert(all.end(), entries->begin(), entries->end());
     }
     return all;
+}
+
+std::vector<std::string> short_names(const std::vector<cache::StoreEntry>& grids) {
+    std::vector<std::string> names;
+    for (const cache::StoreEntry& grid : grids) {
+        const auto after_noon = std::chrono::floor<std::chrono::minutes>(grid.time - noon);
+        names.push_back(fmt::format("{}{:+}", grid.domain, after_noon.count()));
+    }
+    return names;
 }
 
 std::string trouble_in(const cache::StoreEntry& entry) {

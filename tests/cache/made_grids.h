@@ -38,6 +38,9 @@ inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 // Every grid of a cache, by domain, moment and time.
 [[nodiscard]] std::vector<cache::StoreEntry> all_grids(const cache::StoreReader& store);
 
+// "A+5": domain and minutes after noon of each grid.
+[[nodiscard]] std::vector<std::string> short_names(const std::vector<cache::StoreEntry>& grids);
+
 // Opens and verifies a grid, and expects the cells of a sized one. Returns "" or what is wrong.
 [[nodiscard]] std::string trouble_in(const cache::StoreEntry& entry);
 

@@ -45,14 +45,8 @@ class RollingStoreTest : public ::testing::Test {
     Result<fs::path> commit(StoreWriter& store, const std::string& domain, int minute) {
         return testing::commit_sized(store, domain, noon + minutes{minute});
     }
-    // "A+5": domain and minutes after noon of each grid.
     static std::vector<std::string> grids(const StoreReader& store) {
-        std::vector<std::string> names;
-        for (const StoreEntry& entry : testing::all_grids(store)) {
-            names.push_back(fmt::format("{}{:+}", entry.domain,
-                                        std::chrono::floor<minutes>(entry.time - noon).count()));
-        }
-        return names;
+        return testing::short_names(testing::all_grids(store));
     }
     [[nodiscard]] fs::path path(const std::string& domain, int minute) const {
         return cache_ /
