@@ -1,6 +1,7 @@
 #include "service/config_keys.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,15 @@ void read_bytes(TomlTable& table, std::string_view key, std::uint64_t& bytes) {
     }
 }
 
+void read_path_beside(TomlTable& table, std::string_view key, const std::filesystem::path& file,
+                      std::filesystem::path& path) {
+    const auto text = table.text(key);
+    if (!text) return;
+    if (text->empty()) return table.complain(key, "must not be empty");
+    std::error_code ignored;
+    path = (std::filesystem::absolute(file, ignored).parent_path() / *text).lexically_normal();
+}
+
 void read_log_level(TomlTable root, std::string& level) {
     TomlTable log = root.section("log");
     const auto text = log.text("level");
@@ -48,6 +58,12 @@ void read_log_level(TomlTable root, std::string& level) {
         log.complain("level", fmt::format("\"{}\" must be one of debug, info, warning, error",
                                           printable(*text)));
     }
+}
+
+Status finish(TomlFile& toml, std::span<const std::string_view> tables_of_others) {
+    for (const std::string_view table : tables_of_others)
+        toml.root().leave(table);
+    return toml.finish();
 }
 
 }  // namespace stormcellar

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,7 +30,12 @@ void read_duration(TomlTable& table, std::string_view key, TomlRange range,
         into = Duration{std::llround(*count * static_cast<double>(unit.count()) * parts_of_second)};
     }
 }
+// Reads a path, which is relative to the directory of the configuration `file`.
+void read_path_beside(TomlTable& table, std::string_view key, const std::filesystem::path& file,
+                      std::filesystem::path& path);
 // Reads [log] level.
 void read_log_level(TomlTable root, std::string& level);
+// Leaves the tables of other programs to them, and reports the first complaint about the rest.
+[[nodiscard]] Status finish(TomlFile& toml, std::span<const std::string_view> tables_of_others);
 
 }  // namespace stormcellar

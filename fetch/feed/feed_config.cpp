@@ -1,7 +1,6 @@
 #include "fetch/feed/feed_config.h"
 
 #include <algorithm>
-#include <system_error>
 
 #include "base/printable.h"
 #include "base/toml_file.h"
@@ -17,9 +16,9 @@ constexpr std::size_t most_stations = 400;
 
 // tests/fetch/feed/feed_config_test.cpp loads the shipped file, which has all of these tables, so a
 // missing name fails there.
-constexpr const char* tables_of_others[] = {"ingest",  "cache", "domain",   "loop",
-                                            "catalog", "watch", "partials", "status",
-                                            "station", "web",   "pull"};
+constexpr std::string_view tables_of_others[] = {"ingest",  "cache", "domain",   "loop",
+                                                 "catalog", "watch", "partials", "status",
+                                                 "station", "web",   "pull"};
 
 void read_stations(TomlTable& feed, std::vector<std::string>& stations) {
     if (feed.is_text("stations")) {
@@ -37,14 +36,6 @@ void read_stations(TomlTable& feed, std::vector<std::string>& stations) {
             feed.complain("stations", fmt::format("\"{}\" is not an ICAO", printable(icao)));
         if (!std::ranges::count(stations, icao)) stations.push_back(icao);
     }
-}
-
-void read_path(TomlTable& feed, const char* key, const fs::path& file, fs::path& path) {
-    const auto text = feed.text(key);
-    if (!text) return;
-    if (text->empty()) feed.complain(key, "must not be empty");
-    std::error_code ignored;
-    path = (fs::absolute(file, ignored).parent_path() / *text).lexically_normal();
 }
 
 bool is_within(const fs::path& inner, const fs::path& outer) {
@@ -67,8 +58,8 @@ void read_addresses(TomlTable& feed, FeedConfig& config) {
 void read_feed(TomlTable feed, const fs::path& file, FeedConfig& config) {
     read_stations(feed, config.stations);
     read_addresses(feed, config);
-    read_path(feed, "drop", file, config.drop);
-    read_path(feed, "state", file, config.state);
+    read_path_beside(feed, "drop", file, config.drop);
+    read_path_beside(feed, "state", file, config.state);
     read_duration(feed, "every_seconds", {4, 60}, std::chrono::seconds{1}, config.every);
     read_duration(feed, "keep_hours", {0.5, 1e6}, std::chrono::hours{1}, config.keep);
     if (const auto seconds = feed.whole_number("stall_seconds", {1, 120}))
@@ -76,7 +67,7 @@ void read_feed(TomlTable feed, const fs::path& file, FeedConfig& config) {
     read_bytes(feed, "bytes", config.bytes);
     if (const auto text = feed.text("ca_file"); text && !text->empty()) {
         fs::path path;
-        read_path(feed, "ca_file", file, path);
+        read_path_beside(feed, "ca_file", file, path);
         config.ca_file = path.native();
     }
 }
@@ -92,7 +83,7 @@ Result<FeedConfig> load_feed_config(const fs::path& file) {
     read_feed(feed, file, config);
     fs::path daemons = config.drop;
     TomlTable paths = root.section("paths");
-    read_path(paths, "drop", file, daemons);
+    read_path_beside(paths, "drop", file, daemons);
     if (!config.stations.empty() && !is_within(config.drop, daemons)) {
         feed.complain("drop", fmt::format("must be [paths] drop, {}, or below it: stormcellard "
                                           "reads nothing else",
@@ -101,9 +92,7 @@ Result<FeedConfig> load_feed_config(const fs::path& file) {
     paths.leave("state");
     paths.leave("cache");
     read_log_level(root, config.log_level);
-    for (const char* const table : tables_of_others)
-        root.leave(table);
-    if (const Status read = toml->finish(); !read) return pass_on(read);
+    if (const Status read = finish(*toml, tables_of_others); !read) return pass_on(read);
     return config;
 }
 

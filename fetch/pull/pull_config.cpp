@@ -1,7 +1,6 @@
 #include "fetch/pull/pull_config.h"
 
 #include <algorithm>
-#include <system_error>
 
 #include "base/printable.h"
 #include "base/toml_file.h"
@@ -18,9 +17,9 @@ constexpr std::size_t most_stations = 1024;
 
 // tests/fetch/pull/pull_config_test.cpp loads the shipped file, which has all of these tables, so a
 // missing name fails there.
-constexpr const char* tables_of_others[] = {"paths",  "ingest",  "cache", "domain",
-                                            "loop",   "catalog", "watch", "partials",
-                                            "status", "station", "web",   "feed"};
+constexpr std::string_view tables_of_others[] = {"paths",  "ingest",  "cache", "domain",
+                                                 "loop",   "catalog", "watch", "partials",
+                                                 "status", "station", "web",   "feed"};
 
 void read_domains(TomlTable& from, PullSource& source) {
     const auto domains = from.texts("domains");
@@ -67,12 +66,7 @@ void read_source(TomlTable from, std::vector<PullSource>& sources) {
 }
 
 void read_pull(TomlTable pull, const std::filesystem::path& file, PullConfig& config) {
-    if (const auto text = pull.text("directory")) {
-        if (text->empty()) pull.complain("directory", "must not be empty");
-        std::error_code ignored;
-        const auto path = std::filesystem::absolute(file, ignored).parent_path() / *text;
-        config.directory = path.lexically_normal();
-    }
+    read_path_beside(pull, "directory", file, config.directory);
     read_duration(pull, "every_seconds", {0.1, 3600}, std::chrono::seconds{1}, config.every);
     read_duration(pull, "age_hours", {0.1, 1e6}, std::chrono::hours{1}, config.age);
     if (const auto seconds = pull.whole_number("stall_seconds", {1, 600}))
@@ -93,9 +87,7 @@ Result<PullConfig> load_pull_config(const std::filesystem::path& file) {
     PullConfig config;
     read_pull(root.section("pull"), file, config);
     read_log_level(root, config.log_level);
-    for (const char* const table : tables_of_others)
-        root.leave(table);
-    if (const Status read = toml->finish(); !read) return pass_on(read);
+    if (const Status read = finish(*toml, tables_of_others); !read) return pass_on(read);
     return config;
 }
 
