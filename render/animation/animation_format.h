@@ -12,14 +12,13 @@
 #include <vector>
 
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/interface.h"
 #include "stormcellar/render/animation.h"
 
 namespace stormcellar::render {
 
-class FrameEncoder {
+class FrameEncoder : public Interface {
   public:
-    virtual ~FrameEncoder() = default;
-
     // Adds a frame. All frames have one size. An error has a reason but no file name.
     virtual Status add(const Image& frame) = 0;
     // Returns the whole file. Called once, after at least one frame.

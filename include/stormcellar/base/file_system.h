@@ -20,17 +20,13 @@
 #include <string_view>
 #include <vector>
 
+#include "stormcellar/base/interface.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar {
 
-class FileSystem {
+class FileSystem : public Interface {
   public:
-    FileSystem() = default;
-    FileSystem(const FileSystem&) = delete;
-    FileSystem& operator=(const FileSystem&) = delete;
-    virtual ~FileSystem() = default;
-
     // Each function returns io, no_space, permission or not_found, with the path and the system's
     // reason.
     virtual Result<int> create_exclusive(const std::filesystem::path& path) = 0;

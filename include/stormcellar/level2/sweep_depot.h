@@ -8,18 +8,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "stormcellar/base/interface.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/volume.h"
 
 namespace stormcellar::level2 {
 
-class SweepDepot {
+class SweepDepot : public Interface {
   public:
-    SweepDepot() = default;
-    SweepDepot(const SweepDepot&) = delete;
-    SweepDepot& operator=(const SweepDepot&) = delete;
-    virtual ~SweepDepot() = default;
-
     // Stores a sweep and returns its place, or none if there is no room; the caller then keeps it.
     [[nodiscard]] virtual std::optional<std::uint64_t> put(const Sweep& sweep) = 0;
     // Returns, bit for bit, the sweep that was stored there. Errors: io, corrupt.

@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/interface.h"
 #include "stormcellar/base/number_range.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
@@ -62,7 +63,7 @@ struct AnimationOptions {
 // without its "/". Names of videos pass in every build.
 [[nodiscard]] Status check_animation_name(const std::string& output);
 
-class AnimationWriter {
+class AnimationWriter : public Interface {
   public:
     // Creates a writer. `file_system` must outlive it. Errors: bad_argument for an ending that this
     // build does not know (the message lists the endings that it knows) or options outside their
@@ -71,10 +72,6 @@ class AnimationWriter {
     static Result<std::unique_ptr<AnimationWriter>> create(
         const std::string& output, const AnimationOptions& options,
         FileSystem& file_system = real_file_system());
-    AnimationWriter() = default;
-    AnimationWriter(const AnimationWriter&) = delete;
-    AnimationWriter& operator=(const AnimationWriter&) = delete;
-    virtual ~AnimationWriter() = default;
 
     // Adds a frame. All frames must have the size of the first, or add() returns bad_argument.
     // After an error the writer is useless: every later call returns the same error.
