@@ -6,26 +6,19 @@
 #include <gtest/gtest.h>
 
 #include "daemon/service/ingest_sink.h"
+#include "tests/daemon/made_config.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 
 namespace stormcellar::daemon {
 namespace {
 
-namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
 class CaretakerTest : public ::testing::Test {
   protected:
     CaretakerTest() {
-        Config config;
-        PathsConfig& paths = config.fixed.paths;
-        paths.drop = directory_ / "drop";
-        paths.state = directory_ / "state";
-        paths.cache = directory_ / "cache";
-        for (const fs::path& path : {paths.drop, paths.state, paths.cache})
-            fs::create_directories(path);
-        auto sink = IngestSink::open(config);
+        auto sink = IngestSink::open(config_in(directory_.path()));
         if (sink) sink_ = std::move(*sink);
     }
     [[nodiscard]] CareOf all() {

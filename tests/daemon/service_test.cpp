@@ -14,6 +14,7 @@
 #include <sys/inotify.h>
 
 #include "tests/daemon/fake_sink.h"
+#include "tests/daemon/made_config.h"
 #include "tests/daemon/write_file.h"
 #include "tests/service/fake_notifier.h"
 #include "tests/testing/temporary_directory.h"
@@ -29,11 +30,6 @@ using pipeline::IngestResult;
 class ServiceTest : public ::testing::Test {
   protected:
     ServiceTest() {
-        fs::create_directories(root_ / "drop");
-        fs::create_directories(root_ / "state");
-        config_.fixed.paths.drop = root_ / "drop";
-        config_.fixed.paths.state = root_ / "state";
-        config_.fixed.paths.cache = root_ / "cache";
         config_.reloadable.workers = 2;
         config_.reloadable.quiet = std::chrono::milliseconds{1000};
         config_.reloadable.reread = std::chrono::milliseconds{0};
@@ -73,7 +69,7 @@ class ServiceTest : public ::testing::Test {
     }
 
     testing::TemporaryDirectory root_;
-    Config config_;
+    Config config_ = config_in(root_.path());
     FakeNotifier notifier_;
     const Signals* signals_ = nullptr;
     Clock clock_ = real_clock();
