@@ -93,8 +93,7 @@ TEST(ArchiveReader, ZerosAreNone) {
 TEST(ArchiveReader, NoRealVolumeIsTakenForAnArchive) {
     STORMCELLAR_NEED_DATA();
     int seen = 0;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(*testing::data_directory() / "volumes")) {
+    for (const auto& entry : fs::directory_iterator(testing::real_file("volumes"))) {
         const auto bytes = read_file(entry.path());
         ASSERT_TRUE(bytes);
         EXPECT_FALSE(ArchiveReader::open(*bytes)) << entry.path();

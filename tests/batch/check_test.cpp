@@ -10,7 +10,6 @@
 namespace stormcellar::batch {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 

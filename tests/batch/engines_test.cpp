@@ -23,12 +23,7 @@ using ::testing::SizeIs;
 class BatchEngines : public ::testing::Test {
   protected:
     void SetUp() override {
-        Recipe recipe;
-        recipe.source = "/archive";
-        recipe.cache = "/share/cache";
-        recipe.from = at("2013-05-20T22:00Z");
-        recipe.to = at("2013-05-21T01:59Z");
-        recipe.domain = pipeline::small_domain();
+        const Recipe recipe = recipe_between("2013-05-20T22:00Z", "2013-05-21T01:59Z");
         std::vector<StationDay> days;
         for (const char* date : {"2013-05-20", "2013-05-21"}) {
             for (const char* station :
@@ -55,7 +50,7 @@ class BatchEngines : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    std::filesystem::path place_ = directory_ / "it's a $plan \\#1";
+    fs::path place_ = directory_ / "it's a $plan \\#1";
     std::optional<Plan> plan_;
 };
 

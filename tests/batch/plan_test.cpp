@@ -11,7 +11,6 @@
 namespace stormcellar::batch {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -20,12 +19,7 @@ std::chrono::sys_days day(const std::string& text) {
 }
 
 Recipe recipe_of_two_days() {
-    Recipe recipe;
-    recipe.source = "/archive";
-    recipe.cache = "/share/cache";
-    recipe.from = at("2013-05-20T23:30Z");
-    recipe.to = at("2013-05-21T01:30Z");
-    recipe.domain = pipeline::small_domain();
+    Recipe recipe = recipe_between("2013-05-20T23:30Z", "2013-05-21T01:30Z");
     recipe.domain->overlap = grid::Overlap::nearest;
     return recipe;
 }

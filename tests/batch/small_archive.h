@@ -26,12 +26,23 @@ inline UtcTime at(const std::string& text) {
     return *parse_utc(text, UtcTime{});
 }
 
+// Frames of the small domain, of an archive that no test reads.
+inline Recipe recipe_between(const std::string& from, const std::string& to) {
+    Recipe recipe;
+    recipe.source = "/archive";
+    recipe.cache = "/share/cache";
+    recipe.from = at(from);
+    recipe.to = at(to);
+    recipe.domain = pipeline::small_domain();
+    return recipe;
+}
+
 // The bytes of all files below a directory, by their paths.
-inline std::map<std::string, std::vector<std::byte>> tree_of(const std::filesystem::path& root) {
+inline std::map<std::string, std::vector<std::byte>> tree_of(const fs::path& root) {
     std::map<std::string, std::vector<std::byte>> tree;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
         if (entry.is_regular_file())
-            tree[std::filesystem::relative(entry.path(), root).native()] = *read_file(entry.path());
+            tree[fs::relative(entry.path(), root).native()] = *read_file(entry.path());
     }
     return tree;
 }
@@ -40,16 +51,15 @@ class SmallArchive : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        std::filesystem::create_directories(raw_ / "day");
+        fs::create_directories(raw_ / "day");
         for (const std::string& name : pipeline::sequence) {
-            const auto from = *testing::data_directory() / "sequence-kbgm" / name;
+            const auto from = testing::real_file("sequence-kbgm") / name;
             const auto to = raw_ / "day" / name;
-            std::filesystem::copy_file(from, to);
-            std::filesystem::permissions(to, std::filesystem::perms::owner_write,
-                                         std::filesystem::perm_options::add);
+            fs::copy_file(from, to);
+            fs::permissions(to, fs::perms::owner_write, fs::perm_options::add);
             // Tars keep whole seconds.
-            std::filesystem::last_write_time(to, std::chrono::floor<std::chrono::seconds>(
-                                                     std::filesystem::last_write_time(from)));
+            fs::last_write_time(
+                to, std::chrono::floor<std::chrono::seconds>(fs::last_write_time(from)));
         }
     }
 
@@ -89,7 +99,7 @@ class SmallArchive : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    std::filesystem::path raw_ = directory_ / "raw";
+    fs::path raw_ = directory_ / "raw";
     std::atomic<bool> stop_{false};
 };
 

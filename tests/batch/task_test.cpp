@@ -17,12 +17,12 @@
 #include "tests/batch/failing_reads.h"
 #include "tests/batch/small_archive.h"
 #include "tests/fetch/mock_bucket.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/waiting.h"
 
 namespace stormcellar::batch {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -32,6 +32,13 @@ class BatchTasks : public SmallArchive {
     // The directory of the partials.
     [[nodiscard]] fs::path partials(const std::string& cache) const {
         return directory_ / cache / "north.KBGM/REF/20050822";
+    }
+    // Expects that the task failed, but that another try may succeed.
+    static void expect_unreadable(const Result<TaskOutcome>& outcome,
+                                  const std::string& part = "") {
+        ASSERT_FALSE(outcome);
+        EXPECT_EQ(outcome.error().code, ErrorCode::io) << outcome.error().message;
+        EXPECT_THAT(outcome.error().message, HasSubstr(part));
     }
 };
 
@@ -172,10 +179,7 @@ TEST_F(BatchTasks, ASourceThatLacksFilesOfThePlanMayCome) {
     const Plan plan = plan_of(recipe("one"), "plan");
     fs::rename(raw_ / "day", directory_ / "unmounted");
     fs::create_directory(raw_ / "day");
-    const auto without = run(plan, 0);
-    ASSERT_FALSE(without);
-    EXPECT_EQ(without.error().code, ErrorCode::io);
-    EXPECT_THAT(without.error().message, HasSubstr("has 0 of the 3 files that the plan counted"));
+    expect_unreadable(run(plan, 0), "has 0 of the 3 files that the plan counted");
     EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
     fs::remove(raw_ / "day");
     fs::rename(directory_ / "unmounted", raw_ / "day");
@@ -187,10 +191,7 @@ TEST_F(BatchTasks, AFileThatCannotBeReadMayBeReadLater) {
     const Plan plan = plan_of(recipe("one"), "plan");
     {
         const testing::FailingReads reads(pipeline::sequence[1]);
-        const auto without = run(plan, 0);
-        ASSERT_FALSE(without);
-        EXPECT_EQ(without.error().code, ErrorCode::io);
-        EXPECT_THAT(without.error().message, HasSubstr(pipeline::sequence[1]));
+        expect_unreadable(run(plan, 0), pipeline::sequence[1]);
     }
     EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
     run_all(plan);
@@ -210,9 +211,7 @@ TEST_F(BatchTasks, ATarThatCannotBeReadMayBeReadLater) {
     const Plan plan = plan_of(from_tar, "plan");
     {
         const testing::FailingReads reads("20050822.tar");
-        const auto without = run(plan, 0);
-        ASSERT_FALSE(without);
-        EXPECT_EQ(without.error().code, ErrorCode::io) << without.error().message;
+        expect_unreadable(run(plan, 0));
         const auto listing = list_source(from_tar.source, from_tar.from, from_tar.to);
         ASSERT_FALSE(listing);
         EXPECT_EQ(listing.error().code, ErrorCode::io) << listing.error().message;
@@ -232,9 +231,7 @@ TEST_F(BatchTasks, FramesWaitForAGridThatCannotBeRead) {
     ASSERT_THAT(grids, SizeIs(3));
     {
         const testing::FailingReads reads(grids[0].filename());
-        const auto without = run(plan, 1);
-        ASSERT_FALSE(without);
-        EXPECT_EQ(without.error().code, ErrorCode::io) << without.error().message;
+        expect_unreadable(run(plan, 1));
     }
     EXPECT_FALSE(fs::exists(record_path(plan.directory(), 1)));
     run_all(plan);
@@ -249,10 +246,7 @@ TEST_F(BatchTasks, FramesAndStatisticsWaitForTheGridsOfTheirRecords) {
     ASSERT_TRUE(run(plan, 0));
     fs::rename(directory_ / "one", directory_ / "unmounted");
     fs::create_directory(directory_ / "one");
-    const auto frames = run(plan, 1);
-    ASSERT_FALSE(frames);
-    EXPECT_EQ(frames.error().code, ErrorCode::io);
-    EXPECT_THAT(frames.error().message, HasSubstr("has 0 of the 3 grids that task 0 made"));
+    expect_unreadable(run(plan, 1), "has 0 of the 3 grids that task 0 made");
     fs::remove_all(directory_ / "one");
     fs::rename(directory_ / "unmounted", directory_ / "one");
     ASSERT_TRUE(run(plan, 1));
@@ -276,10 +270,7 @@ TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
         ASSERT_TRUE(store->commit("north.KBGM", next, lost->view()));
     }
     fs::remove(grids->at(1).path);
-    const auto frames = run(plan, 1);
-    ASSERT_FALSE(frames);
-    EXPECT_EQ(frames.error().code, ErrorCode::io);
-    EXPECT_THAT(frames.error().message, HasSubstr("has 2 of the 3 grids that task 0 made"));
+    expect_unreadable(run(plan, 1), "has 2 of the 3 grids that task 0 made");
 }
 
 // Another plan's grid of the same day is one more, and does no harm; in place of ours it does.
@@ -372,9 +363,7 @@ TEST_F(BatchTasks, MembersOfATarGiveTheGridsOfTheFiles) {
 TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
     fetch::MockBucket bucket;
     for (const std::string& name : pipeline::sequence) {
-        const auto bytes = *read_file(raw_ / "day" / name);
-        bucket.put("2005/08/22/KBGM/" + name,
-                   {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        bucket.put("2005/08/22/KBGM/" + name, testing::file_text(raw_ / "day" / name));
     }
     for (const std::string cache : {"one", "two"}) {
         Recipe fetched = recipe(cache);

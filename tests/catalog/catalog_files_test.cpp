@@ -44,8 +44,8 @@ TEST_F(CatalogTest, WhatCouldOnlyBeOpenedForReadingIsOpenedAgain) {
 TEST_F(CatalogTest, ToReadersADatabaseThatIsJustBeingMadeIsEmptyAndFullSoonAfter) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
     const CatalogReader reader = *CatalogReader::open(directory_ / "catalog");
-    const std::filesystem::path path = directory_ / "catalog" / "KLBB.sqlite";
-    ASSERT_TRUE(std::filesystem::exists(directory_ / "catalog" / "KTLX.sqlite"));
+    const fs::path path = directory_ / "catalog" / "KLBB.sqlite";
+    ASSERT_TRUE(fs::exists(directory_ / "catalog" / "KTLX.sqlite"));
     {
         SQLite::Database made(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
         made.exec("PRAGMA journal_mode = WAL");
@@ -115,8 +115,8 @@ TEST_F(CatalogTest, RowsOfThousandsOfFilesThatWentAreDeletedInBatches) {
 TEST_F(CatalogTest, StationThatIsNoIcaoNeverBecomesAFileName) {
     ASSERT_TRUE(
         catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")}, "../../../tmp/x")));
-    EXPECT_TRUE(std::filesystem::exists(directory_ / "catalog" / "_unknown.sqlite"));
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_.path()), {}), 1);
+    EXPECT_TRUE(fs::exists(directory_ / "catalog" / "_unknown.sqlite"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(directory_.path()), {}), 1);
 }
 
 TEST_F(CatalogTest, ReaderSeesWhatTheWriterWroteAndWritesNothing) {
@@ -125,7 +125,7 @@ TEST_F(CatalogTest, ReaderSeesWhatTheWriterWroteAndWritesNothing) {
     ASSERT_TRUE(reader);
     EXPECT_EQ(reader->list("KTLX", {})->size(), 1U);
     EXPECT_EQ(reader->list("KOKX", {}).error().code, ErrorCode::not_found);
-    EXPECT_FALSE(std::filesystem::exists(directory_ / "catalog" / "KOKX.sqlite"));
+    EXPECT_FALSE(fs::exists(directory_ / "catalog" / "KOKX.sqlite"));
 }
 
 TEST(CatalogOpen, MissingDirectoryIsNotFoundForReaders) {
@@ -207,7 +207,7 @@ TEST_F(CatalogTest, AMisspeltStationIsNamedAndIsNotTheUnknownOnes) {
 
 // A watchdog goes by the steps: one a station at least, and no more than 1,000 files between two.
 TEST_F(CatalogTest, LookingForFilesThatWentSaysThatItMovesOn) {
-    const std::filesystem::path drop = directory_ / "drop";
+    const fs::path drop = directory_ / "drop";
     ASSERT_TRUE(catalog_.register_file(file(drop / "a", {volume("2022-03-17T00:00")})));
     int steps = 0;
     EXPECT_EQ(*catalog_.mark_missing(drop, [&] { ++steps; }), 1);
@@ -224,8 +224,8 @@ TEST_F(CatalogTest, LookingForFilesThatWentSaysThatItMovesOn) {
 }
 
 TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {
-    const std::filesystem::path drop = directory_ / "drop";
-    std::filesystem::create_directory(drop);
+    const fs::path drop = directory_ / "drop";
+    fs::create_directory(drop);
     std::ofstream(drop / "stays") << "x";
     for (const char* name : {"stays", "went"})
         ASSERT_TRUE(catalog_.register_file(file(drop / name, {volume("2022-03-17T00:00")})));
@@ -243,13 +243,13 @@ TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {
 // A file behind a link is none of the raw files, whatever its name.
 TEST_F(CatalogTest, FilesBehindADirectoryThatBecameALinkAreGone) {
     const testing::TemporaryDirectory place;
-    const std::filesystem::path drop = place / "drop";
-    std::filesystem::create_directories(drop / "day");
+    const fs::path drop = place / "drop";
+    fs::create_directories(drop / "day");
     std::ofstream(drop / "day/a") << "x";
     ASSERT_TRUE(catalog_.register_file(file(drop / "day/a", {volume("2022-03-17T00:00")})));
     EXPECT_EQ(*catalog_.mark_missing(drop), 0);
-    std::filesystem::rename(drop / "day", place / "elsewhere");
-    std::filesystem::create_directory_symlink(place / "elsewhere", drop / "day");
+    fs::rename(drop / "day", place / "elsewhere");
+    fs::create_directory_symlink(place / "elsewhere", drop / "day");
     EXPECT_EQ(*catalog_.mark_missing(drop), 1);
 }
 }  // namespace

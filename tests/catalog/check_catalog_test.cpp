@@ -11,8 +11,6 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
-
 class CheckCatalog : public ::testing::Test {
   protected:
     // A file on disk and its row, as the daemon leaves them.

@@ -10,12 +10,11 @@
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/catalog/catalog.h"
 #include "tests/catalog/power_cut_vfs.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::catalog {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t page = 4096;
 
@@ -45,9 +44,7 @@ class DamagedDatabase : public ::testing::Test {
     }
     std::vector<std::byte> bytes() { return *read_file(database_); }
     void overwrite(const std::vector<std::byte>& changed) {
-        std::ofstream(database_, std::ios::binary | std::ios::trunc)
-            .write(reinterpret_cast<const char*>(changed.data()),
-                   static_cast<std::streamsize>(changed.size()));
+        testing::write_bytes(database_, changed);
     }
     // The pages of the table `file` that hold this file's row; indices have its path, too.
     void damage_page_with(const std::string& text) {

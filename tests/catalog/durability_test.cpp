@@ -19,7 +19,6 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::Kept;
 
 FileFacts facts_of(int number, FileState state, const std::string& station = "KTLX") {

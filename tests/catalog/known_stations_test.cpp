@@ -11,8 +11,6 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
-
 class KnownStations : public ::testing::Test {
   protected:
     CatalogWriter open(StationRule rule = {}) {

@@ -10,8 +10,6 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
-
 class Neighbors : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -50,6 +48,12 @@ class Neighbors : public ::testing::Test {
         EXPECT_TRUE(catalog.troubles().empty());
         EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 2U);
     }
+    // Does the same once the database that was set aside is back in its place.
+    void expect_that_it_is_over_with_its_own(CatalogWriter& catalog) {
+        fs::remove(database_);
+        fs::rename(directory_ / "aside", database_);
+        expect_that_it_is_over(catalog);
+    }
     testing::TemporaryDirectory directory_;
     fs::path catalog_ = directory_ / "catalog";
     fs::path database_ = catalog_ / "KTLX.sqlite";
@@ -66,9 +70,7 @@ TEST_F(Neighbors, AFifoInPlaceOfADatabaseHoldsNobodyUp) {
     EXPECT_EQ(reader.stations()->size(), 2U);
     EXPECT_EQ(reader.troubles().size(), 1U);
     EXPECT_EQ(examine_database(database_).error().code, ErrorCode::not_a_file);
-    fs::remove(database_);
-    fs::rename(directory_ / "aside", database_);
-    expect_that_it_is_over(catalog);
+    expect_that_it_is_over_with_its_own(catalog);
 }
 
 TEST_F(Neighbors, FifosBesideADatabaseHoldNobodyUp) {
@@ -88,9 +90,7 @@ TEST_F(Neighbors, ADirectoryInPlaceOfADatabaseHoldsNobodyUp) {
     fs::create_directory(database_);
     auto catalog = *CatalogWriter::open(catalog_);
     expect_that_others_go_on(catalog, ErrorCode::not_a_file);
-    fs::remove(database_);
-    fs::rename(directory_ / "aside", database_);
-    expect_that_it_is_over(catalog);
+    expect_that_it_is_over_with_its_own(catalog);
 }
 
 // 2026-11-24: a database of root's, as `sudo stormcellar catalog rebuild` left it, stopped the new
@@ -124,9 +124,7 @@ TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
     }
     auto catalog = *CatalogWriter::open(catalog_);
     expect_that_others_go_on(catalog, ErrorCode::unsupported);
-    fs::remove(database_);
-    fs::rename(directory_ / "aside", database_);
-    expect_that_it_is_over(catalog);
+    expect_that_it_is_over_with_its_own(catalog);
 }
 
 // A worker that waits for a lock serves no other station meanwhile.

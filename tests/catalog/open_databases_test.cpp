@@ -18,8 +18,6 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string station(int k) {
     return fmt::format("X{:03}", k);
 }

@@ -54,9 +54,9 @@ TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
         if (is_opened_again) catalog_ = *CatalogWriter::open(directory_ / "catalog");
         EXPECT_FALSE(*catalog_.is_known("/d/KOUN_c"));
         // Whoever asks a database notes that its file is another.
-        const std::filesystem::path database = directory_ / "catalog/KTLX.sqlite";
-        std::filesystem::copy_file(database, directory_ / "copy");
-        std::filesystem::rename(directory_ / "copy", database);
+        const fs::path database = directory_ / "catalog/KTLX.sqlite";
+        fs::copy_file(database, directory_ / "copy");
+        fs::rename(directory_ / "copy", database);
         EXPECT_FALSE(*catalog_.is_known("/d/KOUN_d"));
         EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_e"), 0);
         EXPECT_TRUE(catalog_.take_repairs().empty());

@@ -9,6 +9,7 @@
 #include <sqlite3.h>
 
 #include "stormcellar/base/file_system.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::testing {
 namespace {
@@ -258,9 +259,7 @@ void PowerCutVfs::power_cut(Kept kept, unsigned seed) {
         // If the deletion was not kept, the file has its synced contents.
         const std::vector<std::byte> bytes =
             file.exists ? after_cut(file, kept, random) : file.synced;
-        std::ofstream(path, std::ios::binary | std::ios::trunc)
-            .write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
+        testing::write_bytes(path, bytes);
         // The index of the WAL is never synced and never trusted.
         if (path.ends_with(".sqlite")) fs::remove(path + "-shm");
     }

@@ -6,25 +6,23 @@
 
 #include "base/checksum.h"
 #include "stormcellar/base/file_system.h"
+#include "tests/catalog/catalog_fixture.h"
 #include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::catalog {
 namespace {
 
 // The five real volumes of one site, registered in the wrong order.
-class RadarSetTest : public ::testing::Test {
+class RadarSetTest : public CatalogTest {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        std::filesystem::create_directory(drop_);
-        auto catalog = CatalogWriter::open(directory_.path());
-        ASSERT_TRUE(catalog);
+        fs::create_directory(drop_);
         for (const char* name :
              {"KBGM20050822_030830.gz", "KBGM20050822_024414.gz", "KBGM20050822_030243.gz",
               "KBGM20050822_025549.gz", "KBGM20050822_025001.gz"}) {
             const auto path = drop_ / name;
-            std::filesystem::copy_file(*testing::data_directory() / "sequence-kbgm" / name, path);
+            fs::copy_file(testing::real_file("sequence-kbgm") / name, path);
             const auto decoded = level2::decode_file(path);
             ASSERT_TRUE(decoded);
             const auto bytes = *read_file(path);
@@ -35,31 +33,28 @@ class RadarSetTest : public ::testing::Test {
             facts.content_hash = xxh3_64(bytes);
             facts.state = FileState::complete;
             facts.volumes.emplace_back().start_time = decoded->volume.start_time();
-            ASSERT_TRUE(catalog->register_file(facts));
+            ASSERT_TRUE(catalog_.register_file(facts));
         }
     }
-    testing::TemporaryDirectory directory_;
-    std::filesystem::path drop_ = directory_ / "drop";
+    fs::path drop_ = directory_ / "drop";
 };
 
 TEST_F(RadarSetTest, ListsFilesOldestFirstWithinInclusiveTimes) {
-    const auto set = RadarSet::open(directory_.path(), "KBGM");
+    const auto set = RadarSet::open(directory_ / "catalog", "KBGM");
     ASSERT_TRUE(set);
     EXPECT_EQ(*set->oldest_file_name(), "KBGM20050822_024414.gz");
-    const auto names = set->build_data_list(*parse_utc("2005-08-22T02:50:01", UtcTime{}),
-                                            *parse_utc("2005-08-22T03:02:43", UtcTime{}));
+    const auto names = set->build_data_list(at("2005-08-22T02:50:01"), at("2005-08-22T03:02:43"));
     ASSERT_TRUE(names);
     EXPECT_EQ(*names, (std::vector<std::string>{"KBGM20050822_025001.gz", "KBGM20050822_025549.gz",
                                                 "KBGM20050822_030243.gz"}));
 }
 
 TEST_F(RadarSetTest, GivesRawBytesAndTheDecodedVolume) {
-    const auto set = RadarSet::open(directory_.path(), "KBGM");
+    const auto set = RadarSet::open(directory_ / "catalog", "KBGM");
     ASSERT_TRUE(set);
     const auto bytes = set->radar_file("KBGM20050822_024414.gz");
     ASSERT_TRUE(bytes);
-    EXPECT_EQ(*bytes,
-              *read_file(*testing::data_directory() / "sequence-kbgm" / "KBGM20050822_024414.gz"));
+    EXPECT_EQ(*bytes, *read_file(testing::real_file("sequence-kbgm/KBGM20050822_024414.gz")));
     const auto decoded = set->read_radar("KBGM20050822_024414.gz");
     ASSERT_TRUE(decoded);
     EXPECT_EQ(decoded->volume.sweeps.size(), 11U);  // golden: n_sweeps
@@ -67,8 +62,7 @@ TEST_F(RadarSetTest, GivesRawBytesAndTheDecodedVolume) {
 
 // 2026-11-24: a link in a file's place was followed, and what it leads to was given as the file.
 TEST_F(RadarSetTest, WhatIsNotTheCatalogedFileIsNotGiven) {
-    namespace fs = std::filesystem;
-    const auto set = RadarSet::open(directory_.path(), "KBGM");
+    const auto set = RadarSet::open(directory_ / "catalog", "KBGM");
     ASSERT_TRUE(set);
     const std::string linked = "KBGM20050822_024414.gz", changed = "KBGM20050822_025001.gz";
     fs::rename(drop_ / linked, directory_ / "elsewhere");
@@ -87,16 +81,16 @@ TEST_F(RadarSetTest, WhatIsNotTheCatalogedFileIsNotGiven) {
 }
 
 TEST_F(RadarSetTest, UnknownNamesAndStationsAreNotFound) {
-    const auto set = RadarSet::open(directory_.path(), "KBGM");
+    const auto set = RadarSet::open(directory_ / "catalog", "KBGM");
     ASSERT_TRUE(set);
     EXPECT_EQ(set->radar_file("KBGM20050822_999999.gz").error().code, ErrorCode::not_found);
-    EXPECT_EQ(RadarSet::open(directory_.path(), "KTLX").error().code, ErrorCode::not_found);
-    EXPECT_EQ(RadarSet::open_all(directory_.path())->size(), 1U);
+    EXPECT_EQ(RadarSet::open(directory_ / "catalog", "KTLX").error().code, ErrorCode::not_found);
+    EXPECT_EQ(RadarSet::open_all(directory_ / "catalog")->size(), 1U);
     // A station whose database cannot be opened is no other's trouble, and is not called unknown.
-    std::filesystem::create_directory(directory_ / "KOUN.sqlite");
-    EXPECT_EQ(RadarSet::open_all(directory_.path())->size(), 1U);
-    EXPECT_TRUE(RadarSet::open(directory_.path(), "KBGM"));
-    EXPECT_EQ(RadarSet::open(directory_.path(), "KOUN").error().code, ErrorCode::not_a_file);
+    fs::create_directory(directory_ / "catalog/KOUN.sqlite");
+    EXPECT_EQ(RadarSet::open_all(directory_ / "catalog")->size(), 1U);
+    EXPECT_TRUE(RadarSet::open(directory_ / "catalog", "KBGM"));
+    EXPECT_EQ(RadarSet::open(directory_ / "catalog", "KOUN").error().code, ErrorCode::not_a_file);
 }
 
 }  // namespace

@@ -13,8 +13,6 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
-
 class ReadCataloged : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -46,6 +44,11 @@ class ReadCataloged : public ::testing::Test {
         EXPECT_EQ(found.error().code, code) << found.error().message;
         EXPECT_NE(found.error().message.find(reason), std::string::npos) << found.error().message;
         EXPECT_EQ(found.error().message.find(raw_.native()), 0U) << found.error().message;
+    }
+    void expect_a_linked_drop_directory_refused() {
+        fs::rename(drop_, directory_ / "moved");
+        fs::create_directory_symlink(directory_ / "moved", drop_);
+        expect_refused(ErrorCode::not_found, "");
     }
     testing::TemporaryDirectory directory_;
     fs::path drop_ = directory_ / "drop";
@@ -101,17 +104,13 @@ TEST_F(ReadCataloged, OnlyWhatLiesBelowTheDropDirectoryMayBeNoLink) {
 TEST_F(ReadCataloged, WithoutADropDirectoryNoPartOfThePathMayBeALink) {
     fs::remove(directory_ / "catalog/drop-directory");
     EXPECT_TRUE(read());
-    fs::rename(drop_, directory_ / "moved");
-    fs::create_directory_symlink(directory_ / "moved", drop_);
-    expect_refused(ErrorCode::not_found, "");
+    expect_a_linked_drop_directory_refused();
 }
 
 TEST_F(ReadCataloged, AFileOfAnotherDropDirectoryIsReadWithoutLinks) {
     reopen("/elsewhere");
     EXPECT_TRUE(read());
-    fs::rename(drop_, directory_ / "moved");
-    fs::create_directory_symlink(directory_ / "moved", drop_);
-    expect_refused(ErrorCode::not_found, "");
+    expect_a_linked_drop_directory_refused();
 }
 
 TEST_F(ReadCataloged, AFileThatGrowsIsComparedAsFarAsItsRowGoes) {

@@ -14,8 +14,6 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
-
 // A call that a reader may not make does not compile.
 template <class Catalog>
 concept Registers = requires(Catalog& catalog, const FileFacts& facts) {

@@ -6,13 +6,9 @@
 namespace stormcellar::catalog {
 namespace {
 
-namespace fs = std::filesystem;
-
 class RowsBound : public ::testing::Test {
   protected:
-    CatalogWriter open(const CatalogOptions& options) {
-        return *CatalogWriter::open(directory_ / "catalog", options);
-    }
+    CatalogWriter open() { return *CatalogWriter::open(directory_ / "catalog", options_); }
     static std::string path(int k) { return fmt::format("/d/{:06}", k); }
     // Describes a file of an attack, which is only seen, so that its row is not synced.
     static FileFacts unknown(int k) {
@@ -24,13 +20,13 @@ class RowsBound : public ::testing::Test {
         return fs::file_size(directory_ / "catalog" / (name + ".sqlite"));
     }
     testing::TemporaryDirectory directory_;
+    CatalogOptions options_;
 };
 
 // 2026-11-24: each file with a new name took some 300 bytes of disk, for ever.
 TEST_F(RowsBound, AtItsBoundTheDatabaseOfUnknownFilesLeavesNewOnesOut) {
-    CatalogOptions options;
-    options.most_unknown_bytes = 200'000;
-    auto catalog = open(options);
+    options_.most_unknown_bytes = 200'000;
+    auto catalog = open();
     int added = 0;
     while (added < 4000 && *catalog.register_file(unknown(added)) == Registered::added)
         ++added;
@@ -50,14 +46,13 @@ TEST_F(RowsBound, AtItsBoundTheDatabaseOfUnknownFilesLeavesNewOnesOut) {
     EXPECT_EQ(*catalog.register_file(changed), Registered::updated) << "what has a row keeps it";
     EXPECT_EQ(*catalog.register_file(file("/d/KTLX", {})), Registered::added) << "others go on";
     EXPECT_TRUE(catalog.troubles().empty());
-    catalog = open(options);
+    catalog = open();
     EXPECT_LT(bytes_of("_unknown"), 220'000U);
 }
 
 TEST_F(RowsBound, RowsOfFilesThatAreGoneMakeRoomTheOldestFirst) {
-    CatalogOptions options;
-    options.most_unknown_bytes = 600'000;
-    auto catalog = open(options);
+    options_.most_unknown_bytes = 600'000;
+    auto catalog = open();
     for (int k = 0; k < 2000; ++k)
         ASSERT_EQ(*catalog.register_file(unknown(k)), Registered::added);
     ASSERT_EQ(*catalog.mark_missing("/d"), 2000);
@@ -71,14 +66,13 @@ TEST_F(RowsBound, RowsOfFilesThatAreGoneMakeRoomTheOldestFirst) {
     EXPECT_TRUE(*catalog.is_known(path(11'999)));
     EXPECT_TRUE(catalog.examine_all());
     EXPECT_TRUE(catalog.take_repairs().empty());
-    catalog = open(options);
+    catalog = open();
     EXPECT_LT(bytes_of("_unknown"), 650'000U);
 }
 
 TEST_F(RowsBound, AStationsOwnDatabaseHasItsBoundToo) {
-    CatalogOptions options;
-    options.most_station_bytes = 200'000;
-    auto catalog = open(options);
+    options_.most_station_bytes = 200'000;
+    auto catalog = open();
     Registered last = Registered::added;
     for (int k = 0; k < 3000 && last == Registered::added; ++k) {
         FileFacts facts = unknown(k);
@@ -90,9 +84,8 @@ TEST_F(RowsBound, AStationsOwnDatabaseHasItsBoundToo) {
 }
 
 TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
-    CatalogOptions options;
     {
-        auto catalog = open(options);
+        auto catalog = open();
         std::vector<FileFacts> many, few;
         for (int k = 0; k < 6000; ++k)
             many.push_back(file(path(k), {volume("2022-03-17T00:00", k % 1000)}));
@@ -105,15 +98,15 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
         ASSERT_TRUE(all);
         EXPECT_EQ(all->rows, 0) << "there is no bound";
         EXPECT_GT(all->used_bytes, 500'000U);
-        options.most_bytes = all->used_bytes / 2;
+        options_.most_bytes = all->used_bytes / 2;
     }
-    auto catalog = open(options);
+    auto catalog = open();
     int steps = 0;
     const auto rolled = catalog.roll([&] { ++steps; });
     ASSERT_TRUE(rolled);
     EXPECT_GE(rolled->rows, 2000);
     EXPECT_LE(rolled->rows, 5000);
-    EXPECT_LE(rolled->used_bytes, options.most_bytes);
+    EXPECT_LE(rolled->used_bytes, options_.most_bytes);
     EXPECT_GE(steps, 4);
     EXPECT_FALSE(*catalog.is_known(path(0)));
     EXPECT_TRUE(*catalog.is_known(path(5999)));
@@ -123,8 +116,8 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
     EXPECT_TRUE(catalog.take_repairs().empty());
 
     // Rows of files that are there stay, whatever they take.
-    options.most_bytes = 1;
-    catalog = open(options);
+    options_.most_bytes = 1;
+    catalog = open();
     ASSERT_TRUE(catalog.register_file(file("/d/there", {})));
     EXPECT_TRUE(catalog.roll());
     EXPECT_TRUE(*catalog.is_known("/d/there"));
@@ -133,9 +126,8 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
 
 // 2026-11-25: rubbish under one station's name took the rows of another station's files that went.
 TEST_F(RowsBound, RowsThatStandTakeNoOtherStationsHistory) {
-    CatalogOptions options;
     {
-        auto catalog = open(options);
+        auto catalog = open();
         std::vector<FileFacts> standing, history;
         for (int k = 0; k < 4000; ++k)
             standing.push_back(file(path(k), {}));
@@ -144,15 +136,15 @@ TEST_F(RowsBound, RowsThatStandTakeNoOtherStationsHistory) {
         ASSERT_TRUE(catalog.register_files("KTLX", standing));
         ASSERT_TRUE(catalog.register_files("KOUN", history));
         ASSERT_EQ(*catalog.mark_missing("/e"), 100);
-        options.most_bytes = catalog.roll()->used_bytes * 3 / 4;
+        options_.most_bytes = catalog.roll()->used_bytes * 3 / 4;
     }
-    auto catalog = open(options);
+    auto catalog = open();
     EXPECT_EQ(catalog.roll()->rows, 0);
     EXPECT_EQ(catalog.list("KOUN", {{}, {}, true})->size(), 100U);
 }
 
 TEST_F(RowsBound, OfAFileWithVeryManyVolumesTheFirstGetRows) {
-    auto catalog = open({});
+    auto catalog = open();
     FileFacts facts = unknown(1);
     facts.station = "KTLX";
     for (int k = 0; k < 1500; ++k) {
@@ -167,17 +159,16 @@ TEST_F(RowsBound, OfAFileWithVeryManyVolumesTheFirstGetRows) {
 
 // A database from before there were bounds.
 TEST_F(RowsBound, RollingBringsADatabaseBelowItsOwnBound) {
-    CatalogOptions options;
     {
-        auto catalog = open(options);
+        auto catalog = open();
         std::vector<FileFacts> many;
         for (int k = 0; k < 4000; ++k)
             many.push_back(file(path(k), {}, ""));
         ASSERT_TRUE(catalog.register_files("", many));
         ASSERT_EQ(*catalog.mark_missing("/d"), 4000);
     }
-    options.most_unknown_bytes = 300'000;
-    auto catalog = open(options);
+    options_.most_unknown_bytes = 300'000;
+    auto catalog = open();
     const auto rolled = catalog.roll();
     ASSERT_TRUE(rolled);
     EXPECT_GE(rolled->rows, 1000);

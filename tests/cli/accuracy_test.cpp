@@ -10,6 +10,7 @@
 
 #include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
@@ -17,18 +18,7 @@ namespace {
 
 using testing::ProgramResult;
 
-std::string volume(const std::string& name) {
-    return (*testing::data_directory() / "volumes" / name).string();
-}
-
-const std::vector<std::string> small = {"--extent-km", "300,300",   "--spacing-km",
-                                        "5",           "--threads", "1"};
-
-std::vector<std::string> with(std::vector<std::string> first,
-                              const std::vector<std::string>& more) {
-    first.insert(first.end(), more.begin(), more.end());
-    return first;
-}
+const Words small = {"--extent-km", "300,300", "--spacing-km", "5", "--threads", "1"};
 
 TEST(Accuracy, BadUsageIsNamed) {
     EXPECT_EQ(run({"accuracy"}).status, 2);
@@ -36,8 +26,7 @@ TEST(Accuracy, BadUsageIsNamed) {
     EXPECT_EQ(run({"accuracy", "a", "b"}).status, 1);
     EXPECT_EQ(run({"accuracy", "nosuch"}).status, 1);
     EXPECT_EQ(run({"accuracy", "a", "--scene", "b"}).status, 2);
-    const auto expect_refused = [](const std::vector<std::string>& options,
-                                   const std::string& part) {
+    const auto expect_refused = [](const Words& options, const std::string& part) {
         const ProgramResult ran = run(with({"accuracy", "a"}, options));
         EXPECT_EQ(ran.status, 2) << part;
         EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err;
@@ -74,8 +63,8 @@ TEST(Accuracy, AGridWithoutValuesIsNoted) {
         << ran.err;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
+Words lines_of(const std::string& text) {
+    Words lines;
     std::istringstream stream(text);
     for (std::string line; std::getline(stream, line);)
         lines.push_back(line);
@@ -89,8 +78,7 @@ TEST(Accuracy, MarkdownIsWhatThePageShows) {
                                         "2", "--columns", "300", "--markdown"},
                                        small));
     ASSERT_EQ(ran.status, 0) << ran.err;
-    std::ifstream page(testing::source_directory() / "docs/accuracy.md");
-    const std::string text{std::istreambuf_iterator<char>(page), {}};
+    const std::string text = testing::file_text(testing::source_directory() / "docs/accuracy.md");
     const auto head = ran.out.find("| step |");
     ASSERT_NE(head, std::string::npos) << ran.out;
     const auto printed = lines_of(ran.out.substr(head));
@@ -114,11 +102,9 @@ TEST(Accuracy, PrintsALadderForARealVolume) {
     STORMCELLAR_NEED_DATA();
     const testing::TemporaryDirectory directory;
     const std::string plot = (directory.path() / "plot.svg").string();
-    const ProgramResult ran = run(with({"accuracy", volume("KTLX19990503_235621.gz"), "--json",
+    const auto json = json_of(run(with({"accuracy", volume("KTLX19990503_235621.gz"), "--json",
                                         "--rounds", "1", "--columns", "300", "--plot", plot},
-                                       small));
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto json = nlohmann::json::parse(ran.out);
+                                       small)));
     EXPECT_EQ(json["value_unit"], "dB");
     EXPECT_TRUE(json["truth"].empty());
     std::map<std::string, int> rungs;
@@ -149,8 +135,7 @@ TEST(Accuracy, PrintsALadderForAPictureWithItsLight) {
     const ProgramResult ran = run(
         with({"accuracy", volume("KTLX19990503_235621.gz"), "--picture", "--rounds", "1", "--json"},
              small));
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto json = nlohmann::json::parse(ran.out);
+    const auto json = json_of(ran);
     std::map<std::string, std::vector<double>> steps;
     for (const auto& row : json["rows"]) {
         EXPECT_TRUE(row["time_s"].is_number());
@@ -187,8 +172,7 @@ peak_dbz = 50
     const ProgramResult ran = run(
         with({"accuracy", "--scene", scene, "--json", "--rounds", "1", "--columns", "300"}, small));
     if (ran.status == 2) GTEST_FAIL() << ran.err;
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto json = nlohmann::json::parse(ran.out);
+    const auto json = json_of(ran);
     ASSERT_EQ(json["truth"].size(), 6U) << "every chain but the traced one";
     for (const auto& row : json["truth"]) {
         EXPECT_GT(row["count"].get<int>(), 50);
@@ -196,11 +180,24 @@ peak_dbz = 50
     }
 }
 
-TEST(Effects, ATolerancePicksAndSaysWhatItPicked) {
+class Effects : public ::testing::Test {
+  protected:
+    // Writes a sounding of two levels, the first at this height.
+    [[nodiscard]] std::string sounding_from(int height_m) const {
+        const fs::path path = directory_ / "own.csv";
+        std::ofstream(path) << "height_m,refractivity\n"
+                            << height_m << ",320\n"
+                            << height_m + 1000 << ",270\n";
+        return path;
+    }
+
+    const testing::TemporaryDirectory directory_;
+    const std::string out_ = directory_ / "out.nc";
+};
+
+TEST_F(Effects, ATolerancePicksAndSaysWhatItPicked) {
     STORMCELLAR_NEED_DATA();
-    const testing::TemporaryDirectory directory;
-    const std::string out = (directory.path() / "out.nc").string();
-    const ProgramResult ran = run(with({"grid", volume("KTLX19990503_235621.gz"), "-o", out,
+    const ProgramResult ran = run(with({"grid", volume("KTLX19990503_235621.gz"), "-o", out_,
                                         "--tolerance", "9 km, 20 dB", "--explain", "--json"},
                                        small));
     ASSERT_EQ(ran.status, 0) << ran.err;
@@ -208,23 +205,21 @@ TEST(Effects, ATolerancePicksAndSaysWhatItPicked) {
     const auto json = nlohmann::json::parse(ran.out);
     EXPECT_NE(json["predicted_error"].get<std::string>().find("dB"), std::string::npos);
     EXPECT_NE(json["effects"].get<std::string>().find("frame: "), std::string::npos);
-    EXPECT_TRUE(std::filesystem::exists(out));
+    EXPECT_TRUE(fs::exists(out_));
 }
 
-TEST(Effects, ABudgetOutOfReachIsExit1AndWritesNothing) {
+TEST_F(Effects, ABudgetOutOfReachIsExit1AndWritesNothing) {
     STORMCELLAR_NEED_DATA();
-    const testing::TemporaryDirectory directory;
-    const std::string out = (directory.path() / "out.nc").string();
-    const ProgramResult ran = run(with({"grid", volume("KTLX19990503_235621.gz"), "-o", out,
+    const ProgramResult ran = run(with({"grid", volume("KTLX19990503_235621.gz"), "-o", out_,
                                         "--tolerance", "1 m", "--effect", "refraction=off"},
                                        small));
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.err.find("set off: refraction"), std::string::npos) << ran.err;
-    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_FALSE(fs::exists(out_));
 }
 
-TEST(Effects, MisspeltOptionsAreNamed) {
-    const auto expect_usage = [](const std::vector<std::string>& options, const std::string& part) {
+TEST_F(Effects, MisspeltOptionsAreNamed) {
+    const auto expect_usage = [](const Words& options, const std::string& part) {
         const ProgramResult ran = run(with({"grid", "a", "-o", "b.nc"}, options));
         EXPECT_EQ(ran.status, 2) << part;
         EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err;
@@ -244,28 +239,16 @@ TEST(Effects, MisspeltOptionsAreNamed) {
                  "horizontal_interpolation, which is off\n");
 }
 
-// A sounding of two levels, the first at this height.
-std::string sounding_from(const testing::TemporaryDirectory& directory, int height_m) {
-    const std::string path = (directory.path() / "own.csv").string();
-    std::ofstream(path) << "height_m,refractivity\n"
-                        << height_m << ",320\n"
-                        << height_m + 1000 << ",270\n";
-    return path;
-}
-
 // 2026-11-21: a sounding was read but not used.
-TEST(Effects, AProfileOfOnesOwnTurnsRefractionOn) {
+TEST_F(Effects, AProfileOfOnesOwnTurnsRefractionOn) {
     STORMCELLAR_NEED_DATA();
-    const testing::TemporaryDirectory directory;
-    const std::string sounding = sounding_from(directory, 300);
-    const auto gridded = [&](const std::vector<std::string>& options) {
-        return run(with({"grid", volume("KTLX19990503_235621.gz"), "-o",
-                         (directory.path() / "out.nc").string(), "--json"},
+    const std::string sounding = sounding_from(300);
+    const auto gridded = [&](const Words& options) {
+        return run(with({"grid", volume("KTLX19990503_235621.gz"), "-o", out_, "--json"},
                         with(small, options)));
     };
     const auto beam_of = [](const ProgramResult& ran) {
-        EXPECT_EQ(ran.status, 0) << ran.err;
-        return nlohmann::json::parse(ran.out)["beam_model"].get<std::string>();
+        return json_of(ran)["beam_model"].get<std::string>();
     };
     EXPECT_EQ(beam_of(gridded({})), "4/3 earth");
     EXPECT_EQ(beam_of(gridded({"--profile", "exponential"})), "4/3 earth") << "the default";
@@ -287,19 +270,17 @@ TEST(Effects, AProfileOfOnesOwnTurnsRefractionOn) {
         << "the planner finds it small enough";
 }
 
-TEST(Effects, ASoundingFarAboveTheAntennaIsNoted) {
+TEST_F(Effects, ASoundingFarAboveTheAntennaIsNoted) {
     STORMCELLAR_NEED_DATA();
-    const testing::TemporaryDirectory directory;
-    const auto noted = [&](int height_m, const std::vector<std::string>& command) {
-        const ProgramResult ran =
-            run(with(with(command, {volume("KTLX19990503_235621.gz"), "--profile",
-                                    sounding_from(directory, height_m)}),
-                     small));
+    const auto noted = [&](int height_m, const Words& command) {
+        const ProgramResult ran = run(
+            with(command, {volume("KTLX19990503_235621.gz"), "--profile", sounding_from(height_m)},
+                 small));
         EXPECT_EQ(ran.status, 0) << ran.err;
         return ran.err;
     };
-    const std::vector<std::string> grid = {"grid", "-o", (directory.path() / "out.nc").string()};
-    const std::vector<std::string> ladder = {"accuracy", "--rounds", "1", "--columns", "50"};
+    const Words grid = {"grid", "-o", out_};
+    const Words ladder = {"accuracy", "--rounds", "1", "--columns", "50"};
     const std::string note =
         "stormcellar: note: the sounding own.csv is extrapolated from its first level, at 900 m, "
         "down to the antenna, at 390 m above mean sea level\n";
@@ -309,15 +290,14 @@ TEST(Effects, ASoundingFarAboveTheAntennaIsNoted) {
 }
 
 // 2026-11-21: some of these were reported as failed work, some as bad usage.
-TEST(Effects, AProfileThatIsNoneIsBadUsage) {
-    const testing::TemporaryDirectory directory;
+TEST_F(Effects, AProfileThatIsNoneIsBadUsage) {
     const auto written = [&](const std::string& name, const std::string& text) {
-        const std::string path = (directory.path() / name).string();
+        const std::string path = (directory_.path() / name).string();
         std::ofstream(path) << text;
         return path;
     };
     for (const std::string& profile :
-         {std::string{"exponental"}, written("empty.csv", ""), directory.path().string(),
+         {std::string{"exponental"}, written("empty.csv", ""), directory_.path().string(),
           written("head.csv", "height_m,refractivity\n"), written("words.csv", "no sounding\n"),
           written("large.csv", std::string(2 << 20, '#'))}) {
         const ProgramResult ran = run({"grid", "a", "-o", "b.nc", "--profile", profile});
@@ -329,9 +309,8 @@ TEST(Effects, AProfileThatIsNoneIsBadUsage) {
     }
 }
 
-TEST(Effects, EveryMethodMakesAGridThatNamesIt) {
+TEST_F(Effects, EveryMethodMakesAGridThatNamesIt) {
     STORMCELLAR_NEED_DATA();
-    const testing::TemporaryDirectory directory;
     const std::vector<std::pair<std::string, std::string>> methods = {
         {"nearest", "column-nearest"},
         {"linear", "column-linear"},
@@ -339,12 +318,9 @@ TEST(Effects, EveryMethodMakesAGridThatNamesIt) {
         {"beam-weighted", "beam-weighted"},
         {"area", "area, beam-weighted"}};
     for (const auto& [option, name] : methods) {
-        const std::string out = (directory.path() / (option + ".nc")).string();
-        const ProgramResult ran = run(with(
-            {"grid", volume("KTLX19990503_235621.gz"), "-o", out, "--method", option, "--json"},
-            small));
-        ASSERT_EQ(ran.status, 0) << ran.err;
-        const auto json = nlohmann::json::parse(ran.out);
+        const auto json = json_of(run(with(
+            {"grid", volume("KTLX19990503_235621.gz"), "-o", out_, "--method", option, "--json"},
+            small)));
         EXPECT_EQ(json["method"], name);
         EXPECT_GT(json["cells"]["value"].get<int>(), 100);
         EXPECT_NE(json["predicted_error"].get<std::string>().find("values not predicted"),

@@ -7,18 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include "stormcellar/cache/store.h"
+#include "tests/cli/run_stormcellar.h"
 #include "tests/pipeline/small_house.h"
-#include "tests/testing/program.h"
 
-namespace stormcellar {
+namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-const std::vector<std::string> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
-                                           "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
-                                           "KBGM20050822_030830.gz"};
+const Words sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
+                        "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
+                        "KBGM20050822_030830.gz"};
+
+const Words two_hours = {"--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00"};
 
 class ArchiveLoop : public ::testing::Test {
   protected:
@@ -29,25 +30,18 @@ class ArchiveLoop : public ::testing::Test {
         ::setenv("XDG_CACHE_HOME", (directory_ / "home").c_str(), 1);
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }
-    [[nodiscard]] std::vector<std::string> arguments(std::vector<std::string> more) const {
-        const std::vector<std::string> common = {
-            "loop",        "--catalog", (directory_ / "catalog").string(),
-            "--product",   "composite", "--width",
-            "300",         "--height",  "200",
-            "--no-labels", "-o",        out()};
-        more.insert(more.begin(), common.begin(), common.end());
-        return more;
+    [[nodiscard]] Words arguments(const Words& more) const {
+        return with({"loop", "--catalog", directory_ / "catalog", "--product", "composite",
+                     "--width", "300", "--height", "200", "--no-labels", "-o", out()},
+                    more);
     }
-    [[nodiscard]] testing::ProgramResult run(const std::vector<std::string>& more) const {
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments(more));
+    [[nodiscard]] testing::ProgramResult run(const Words& more) const {
+        return cli::run(arguments(more));
     }
     // Makes a loop of one station with a coarse grid, which is quick.
-    [[nodiscard]] testing::ProgramResult run_station(std::vector<std::string> more) const {
-        const std::vector<std::string> station = {
-            "--stations", "KBGM",   "--spacing-km",     "4",    "--extent-km",
-            "400,400",    "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00"};
-        more.insert(more.begin(), station.begin(), station.end());
-        return run(more);
+    [[nodiscard]] testing::ProgramResult run_station(const Words& more) const {
+        const Words station = {"--stations", "KBGM", "--spacing-km", "4", "--extent-km", "400,400"};
+        return run(with(station, two_hours, more));
     }
     [[nodiscard]] std::string out() const { return directory_ / "a.webp"; }
     [[nodiscard]] fs::path loops() const { return directory_ / "home" / "stormcellar" / "loops"; }
@@ -56,9 +50,7 @@ class ArchiveLoop : public ::testing::Test {
 };
 
 TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
-    const auto first = run_station({"--json"});
-    ASSERT_EQ(first.status, 0) << first.err;
-    const auto made = nlohmann::json::parse(first.out);
+    const auto made = json_of(run_station({"--json"}));
     EXPECT_EQ(made["volumes"], 5);
     EXPECT_EQ(made["grids_made"], 5);
     EXPECT_EQ(made["grids_found"], 0);
@@ -84,8 +76,7 @@ TEST_F(ArchiveLoop, LeavesOutWhatIsNotTheFileThatWasCataloged) {
     fs::copy_file(raw(sequence[4]), raw(sequence[1]), fs::copy_options::overwrite_existing);
     fs::resize_file(raw(sequence[1]), size);
     const auto ran = run_station({"--json"});
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_EQ(nlohmann::json::parse(ran.out)["grids_made"], 3);
+    EXPECT_EQ(json_of(ran)["grids_made"], 3);
     EXPECT_THAT(ran.err, HasSubstr(sequence[0] + ": is a symbolic link"));
     EXPECT_THAT(ran.err, HasSubstr(sequence[1] + ": is not the file that was cataloged"));
 }
@@ -93,8 +84,7 @@ TEST_F(ArchiveLoop, LeavesOutWhatIsNotTheFileThatWasCataloged) {
 TEST_F(ArchiveLoop, DrawsWhatTheCacheDraws) {
     ASSERT_EQ(run_station({"--cache", (directory_ / "c").string(), "--quiet"}).status, 0);
     const auto bytes = *read_file(out());
-    const auto cached = testing::run_program(
-        STORMCELLAR_PROGRAM,
+    const auto cached = testing::run_stormcellar(
         {"loop", "KBGM", "--cache", (directory_ / "c").string(), "--product", "composite",
          "--width", "300", "--height", "200", "--no-labels", "-o", out()});
     ASSERT_EQ(cached.status, 0) << cached.err;
@@ -104,16 +94,14 @@ TEST_F(ArchiveLoop, DrawsWhatTheCacheDraws) {
 
 // 2026-11-22: every raw file was called gone, for a cache's directory had no parent to be synced.
 TEST_F(ArchiveLoop, TheCacheMayBeNamedByOneWord) {
-    const fs::path before = fs::current_path();
-    fs::current_path(directory_ / "drop");
+    const testing::WorkingDirectory inside(directory_ / "drop");
     const auto result = run_station({"--cache", "word", "--quiet"});
-    fs::current_path(before);
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_TRUE(fs::exists(directory_ / "drop" / "word" / "KBGM"));
 }
 
 TEST_F(ArchiveLoop, GoesOnWhereItWasInterrupted) {
-    std::vector<std::string> all =
+    Words all =
         arguments({"--stations", "KBGM", "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00",
                    "--threads", "1", "--cache", (directory_ / "c").string()});
     const fs::path grids = directory_ / "c" / "KBGM" / "REF" / "20050822";
@@ -127,9 +115,7 @@ TEST_F(ArchiveLoop, GoesOnWhereItWasInterrupted) {
     EXPECT_EQ(testing::interrupt_program(STORMCELLAR_PROGRAM, all, has_one), SIGINT);
     EXPECT_FALSE(fs::exists(out()));
     all.emplace_back("--json");
-    const auto second = testing::run_program(STORMCELLAR_PROGRAM, all);
-    ASSERT_EQ(second.status, 0) << second.err;
-    const auto json = nlohmann::json::parse(second.out);
+    const auto json = json_of(testing::run_stormcellar(all));
     EXPECT_GE(json["grids_found"], 1);
     EXPECT_EQ(json["grids_found"].get<int>() + json["grids_made"].get<int>(), 5);
     EXPECT_EQ(json["frames"], 5);
@@ -162,12 +148,7 @@ TEST_F(ArchiveLoop, NothingInTheRangeIsNothingThatMatched) {
 }
 
 TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
-    const std::vector<std::string> range = {"--from", "2005-08-22T02:00", "--to",
-                                            "2005-08-22T04:00"};
-    const auto with_range = [&](std::vector<std::string> more) {
-        more.insert(more.end(), range.begin(), range.end());
-        return run(more);
-    };
+    const auto with_range = [&](const Words& more) { return run(with(more, two_hours)); };
     const auto unknown = with_range({"--stations", "KBGM,KZZZ"});
     EXPECT_EQ(unknown.status, 3);
     EXPECT_THAT(unknown.err, HasSubstr("the catalog has no volume of KZZZ"));
@@ -182,8 +163,7 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     const auto drop = run_station({"--cache", (directory_ / "ldm").string()});
     EXPECT_EQ(drop.status, 2);
     EXPECT_THAT(drop.err, HasSubstr("is not a cache: it holds KBGM"));
-    const auto no_catalog = testing::run_program(
-        STORMCELLAR_PROGRAM,
+    const auto no_catalog = testing::run_stormcellar(
         {"loop", "--catalog", (directory_ / "ldm").string(), "--stations", "KBGM", "--from",
          "2005-08-22T02:00", "--to", "2005-08-22T04:00", "-o", out()});
     EXPECT_EQ(no_catalog.status, 1);
@@ -194,21 +174,19 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
 // 2026-11-22: frames were not counted when all volumes stood, and all of a year's were, of which
 // two had a volume.
 TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
-    const std::vector<std::string> mosaic = {"--bounds=-77,41,-75,43",
-                                             "--spacing-km",
-                                             "4",
-                                             "--levels-km",
-                                             "1,3,5",
-                                             "--domain",
-                                             "south",
-                                             "--from",
-                                             "2005-01-01",
-                                             "--to",
-                                             "2005-12-31"};
+    const Words mosaic = {"--bounds=-77,41,-75,43",
+                          "--spacing-km",
+                          "4",
+                          "--levels-km",
+                          "1,3,5",
+                          "--domain",
+                          "south",
+                          "--from",
+                          "2005-01-01",
+                          "--to",
+                          "2005-12-31"};
     const auto at = [&](const std::string& interval) {
-        auto more = mosaic;
-        more.insert(more.end(), {"--interval", interval});
-        return run(more);
+        return run(with(mosaic, {"--interval", interval}));
     };
     const auto first = at("10min");
     ASSERT_EQ(first.status, 0) << first.err;
@@ -231,11 +209,10 @@ TEST_F(ArchiveLoop, AGridWhoseFileBrokeSinceStaysAndThatIsSaid) {
 }
 
 TEST_F(ArchiveLoop, MakesAMosaicOfTheStationsThatReachTheBounds) {
-    const auto result = run({"--bounds=-77,41,-75,43", "--spacing-km", "4", "--levels-km", "1,3,5",
-                             "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00", "--interval",
-                             "10min", "--json", "--domain", "south"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto json = nlohmann::json::parse(result.out);
+    const auto json =
+        json_of(run({"--bounds=-77,41,-75,43", "--spacing-km", "4", "--levels-km", "1,3,5",
+                     "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00", "--interval",
+                     "10min", "--json", "--domain", "south"}));
     EXPECT_EQ(json["domain"], "south");
     EXPECT_EQ(json["frames"], 3);  // 02:50, 03:00 and 03:10
     EXPECT_EQ(json["mosaics_made"], 3);
@@ -246,9 +223,7 @@ TEST_F(ArchiveLoop, MakesAMosaicOfTheStationsThatReachTheBounds) {
 }
 
 TEST_F(ArchiveLoop, MakesFramesBetweenTheVolumesOfAStation) {
-    const auto result = run_station({"--interval", "2min", "--json"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto json = nlohmann::json::parse(result.out);
+    const auto json = json_of(run_station({"--interval", "2min", "--json"}));
     EXPECT_EQ(json["frames"], 12);  // 02:48, behind the first middle, to 03:10
     EXPECT_EQ(json["interpolated"], 12);
     EXPECT_EQ(json["from"], "2005-08-22T02:48:00Z");
@@ -272,13 +247,8 @@ TEST_F(ArchiveLoop, OneProcessFillsACache) {
 }
 
 TEST_F(ArchiveLoop, RefusesOptionsThatMakeNoSense) {
-    const auto status = [&](const std::vector<std::string>& more) { return run(more).status; };
-    const std::vector<std::string> range = {"--from", "2005-08-22T02:00", "--to",
-                                            "2005-08-22T04:00"};
-    const auto with_range = [&](std::vector<std::string> more) {
-        more.insert(more.end(), range.begin(), range.end());
-        return status(more);
-    };
+    const auto status = [&](const Words& more) { return run(more).status; };
+    const auto with_range = [&](const Words& more) { return status(with(more, two_hours)); };
     EXPECT_EQ(with_range({}), 2);  // neither stations nor bounds
     EXPECT_EQ(status({"--stations", "KBGM"}), 2);
     EXPECT_EQ(with_range({"--stations", "kbgm"}), 2);
@@ -287,14 +257,13 @@ TEST_F(ArchiveLoop, RefusesOptionsThatMakeNoSense) {
     EXPECT_EQ(with_range({"--bounds", "1,2,3,4", "--center", "2,2"}), 2);
     EXPECT_EQ(with_range({"--stations", "KBGM", "--interval", "5 furlongs"}), 2);
     EXPECT_EQ(with_range({"--stations", "KBGM", "--time-method", "magic"}), 2);
-    EXPECT_EQ(testing::run_program(STORMCELLAR_PROGRAM, {"loop", "KBGM", "--cache", "x",
-                                                         "--stations", "KBGM", "-o", out()})
+    EXPECT_EQ(testing::run_stormcellar(
+                  {"loop", "KBGM", "--cache", "x", "--stations", "KBGM", "-o", out()})
                   .status,
               2);
     // There is no such cache.
-    EXPECT_EQ(
-        testing::run_program(STORMCELLAR_PROGRAM, {"loop", "--cache", "x", "-o", out()}).status, 1);
+    EXPECT_EQ(testing::run_stormcellar({"loop", "--cache", "x", "-o", out()}).status, 1);
 }
 
 }  // namespace
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

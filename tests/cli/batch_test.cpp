@@ -16,14 +16,13 @@
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::ProgramResult;
 
-const std::vector<std::string> five_volumes = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
-                                               "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
-                                               "KBGM20050822_030830.gz"};
+const Words five_volumes = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
+                            "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
+                            "KBGM20050822_030830.gz"};
 
 // The grids below a cache, by their paths.
 std::map<std::string, std::vector<std::byte>> grids_of(const fs::path& cache) {
@@ -45,7 +44,7 @@ class Batch : public ::testing::Test {
         return (directory_ / name).string();
     }
     // Grids of 4 km, and frames every five minutes.
-    [[nodiscard]] static std::vector<std::string> grid() {
+    [[nodiscard]] static Words grid() {
         return {"--bounds=-79,40,-73,44.5",
                 "--spacing-km",
                 "4",
@@ -58,29 +57,22 @@ class Batch : public ::testing::Test {
                 "--to",
                 "2005-08-22T03:05"};
     }
-    [[nodiscard]] ProgramResult plan(const std::string& name,
-                                     std::vector<std::string> more = {}) const {
-        std::vector<std::string> arguments{"batch",    "plan",       "--source", place("drop"),
-                                           "--mosaic", "KBGM-alone", "-o",       place(name)};
-        const auto of_grid = grid();
-        arguments.insert(arguments.end(), of_grid.begin(), of_grid.end());
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return run(arguments);
+    [[nodiscard]] ProgramResult plan(const std::string& name, const Words& more = {}) const {
+        const Words plan{"batch",    "plan",       "--source", place("drop"),
+                         "--mosaic", "KBGM-alone", "-o",       place(name)};
+        return run(with(plan, grid(), more));
     }
     [[nodiscard]] ProgramResult batch(const std::string& command, const std::string& name,
-                                      std::vector<std::string> more = {}) const {
-        more.insert(more.begin(), {"batch", command, "--plan", place(name)});
-        return run(more);
+                                      const Words& more = {}) const {
+        return run(with({"batch", command, "--plan", place(name)}, more));
     }
     // Returns the grids that a loop makes of the same files.
     [[nodiscard]] std::map<std::string, std::vector<std::byte>> grids_of_a_loop() const {
-        std::vector<std::string> arguments{
+        Words arguments{
             "loop",     "--catalog",   place("catalog"), "--stations", "KBGM",         "--cache",
             place("c"), "--product",   "composite",      "--width",    "200",          "--height",
             "150",      "--no-labels", "--quiet",        "-o",         place("a.webp")};
-        const auto of_grid = grid();
-        arguments.insert(arguments.end(), of_grid.begin(), of_grid.end());
-        const auto looped = run(arguments);
+        const auto looped = run(with(arguments, grid()));
         EXPECT_EQ(looped.status, 0) << looped.err;
         return grids_of(directory_ / "c");
     }
@@ -89,9 +81,7 @@ class Batch : public ::testing::Test {
 };
 
 TEST_F(Batch, PlansRunsMergesAndChecks) {
-    const ProgramResult planned = plan("p", {"--json"});
-    ASSERT_EQ(planned.status, 0) << planned.err;
-    const auto facts = nlohmann::json::parse(planned.out);
+    const auto facts = json_of(plan("p", {"--json"}));
     EXPECT_EQ(facts["grid_tasks"], 1);
     EXPECT_EQ(facts["frame_tasks"], 2);
     EXPECT_EQ(facts["volumes"], 5);
@@ -195,16 +185,14 @@ TEST_F(Batch, WritesTheClimatologyOfItsFrames) {
 }
 
 TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {
-    const std::vector<std::string> arguments{
+    const Words arguments{
         "batch",        "plan",   "--source",         place("drop"), "-o",
         place("own"),   "--from", "2005-08-22T02:50", "--to",        "2005-08-22T03:05",
         "--spacing-km", "4"};
     ASSERT_EQ(run(arguments).status, 0);
     ASSERT_EQ(batch("submit", "own", {"--engine", "local"}).status, 0);
     EXPECT_EQ(grids_of(directory_ / "own/cache").size(), 3U) << "those that begin in the range";
-    auto wrong = arguments;
-    wrong.insert(wrong.end(), {"--center", "42,-76"});
-    const ProgramResult refused = run(wrong);
+    const ProgramResult refused = run(with(arguments, {"--center", "42,-76"}));
     EXPECT_EQ(refused.status, 2);
     EXPECT_THAT(refused.err, HasSubstr("add --mosaic NAME"));
     EXPECT_EQ(plan("own").status, 2) << "another plan is there";

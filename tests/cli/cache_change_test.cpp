@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cache/made_grids.h"
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/metered_file_system.h"
-#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
@@ -26,14 +26,11 @@ class CacheChangeTest : public ::testing::Test {
         EXPECT_TRUE(testing::commit_sized(store_, "northeast.KBOX", noon));
         grid_bytes_ = testing::all_grids(store_).front().bytes_on_disk;
     }
-    ProgramResult run(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), "cache");
-        arguments.insert(arguments.end(), {"--cache", directory_.path()});
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    ProgramResult run(const Words& arguments) {
+        return cli::run(with({"cache"}, arguments, {"--cache", directory_.path()}));
     }
-    json facts(std::vector<std::string> arguments, int status = 0) {
-        arguments.emplace_back("--json");
-        const ProgramResult ran = run(std::move(arguments));
+    json facts(const Words& arguments, int status = 0) {
+        const ProgramResult ran = run(with(arguments, {"--json"}));
         EXPECT_EQ(ran.status, status) << ran.err;
         return json::parse(ran.out);
     }
@@ -70,7 +67,7 @@ TEST_F(CacheChangeTest, EvictTakesWhatIsAskedForAndADryRunTakesNothing) {
 
     const json done = facts({"evict", "--older-than", "1.5"});
     EXPECT_EQ(done["evicted"], dry["evicted"]);
-    EXPECT_FALSE(std::filesystem::exists(done["evicted"][0]["path"].get<std::string>()));
+    EXPECT_FALSE(fs::exists(done["evicted"][0]["path"].get<std::string>()));
     EXPECT_EQ(count(), 4U);
     EXPECT_EQ(facts({"evict", "--domain", "northeast", "--to", "now"})["evicted"].size(), 2U);
     EXPECT_EQ(count(), 2U);
@@ -95,11 +92,11 @@ TEST_F(CacheChangeTest, PinnedGridsAndTheNewestStayAndThatIsSaid) {
 }
 
 TEST_F(CacheChangeTest, BadUsageIsTwoAndNothingMatchedIsThree) {
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"evict"},
-                                                      {"evict", "--bytes", "much"},
-                                                      {"evict", "--to", "yesterday"},
-                                                      {"evict", "--older-than", "-1"},
-                                                      {"pin"}}) {
+    for (const Words& arguments : {Words{"evict"},
+                                   {"evict", "--bytes", "much"},
+                                   {"evict", "--to", "yesterday"},
+                                   {"evict", "--older-than", "-1"},
+                                   {"pin"}}) {
         EXPECT_EQ(run(arguments).status, 2) << arguments.back();
     }
     EXPECT_EQ(run({"evict", "--domain", "KTLX", "--to", "now"}).status, 3);

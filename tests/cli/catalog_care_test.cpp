@@ -10,14 +10,13 @@
 #include "pipeline/keep/instance_lock.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/catalog/catalog.h"
-#include "tests/testing/program.h"
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/small_sequence.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::ProgramResult;
 
@@ -32,14 +31,12 @@ class CatalogCare : public ::testing::Test {
         ASSERT_EQ(rebuilt.status, 0) << rebuilt.err;
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return drop_ / "KBGM" / name; }
-    ProgramResult run(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), "catalog");
-        arguments.insert(arguments.end(), {"--catalog", catalog_});
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    ProgramResult run(const Words& arguments) {
+        return cli::run(with({"catalog"}, arguments, {"--catalog", catalog_}));
     }
     // Copies, or decodes, what the catalog has of KBGM.
     ProgramResult get(const std::string& out, bool decode) {
-        std::vector<std::string> arguments = {"get", "--station", "KBGM", "-o", directory_ / out};
+        Words arguments = {"get", "--station", "KBGM", "-o", directory_ / out};
         if (decode) arguments.emplace_back("--decode");
         return run(arguments);
     }
@@ -135,9 +132,10 @@ TEST_F(CatalogCare, DatabasesOfUnknownStationsAreSaidAndCleared) {
         EXPECT_EQ(refused.status, 1);
         EXPECT_NE(refused.err.find("while no daemon runs"), std::string::npos) << refused.err;
     }
-    const auto some = run({"check", "--clear-unknown", "--stations", "known,XBBB", "--json"});
-    EXPECT_EQ(some.status, 0) << some.err;
-    EXPECT_EQ(json::parse(some.out)["cleared"].size(), 2U);
+    EXPECT_EQ(
+        json_of(run({"check", "--clear-unknown", "--stations", "known,XBBB", "--json"}))["cleared"]
+            .size(),
+        2U);
     EXPECT_TRUE(fs::exists(catalog_ / "XBBB.sqlite"));
     const auto rest = run({"check", "--clear-unknown"});
     EXPECT_EQ(rest.status, 0) << rest.err;

@@ -21,12 +21,12 @@ class CompletedNames : public ::testing::Test {
     void SetUp() override {
         ::unsetenv("STORMCELLAR_CONFIG");
         for (const char* domain : {"KTLX", "oklahoma", "KFDR"})
-            std::filesystem::create_directories(cache() / domain / "REF");
+            fs::create_directories(cache() / domain / "REF");
         std::ofstream(config()) << "[paths]\ndrop = \"drop\"\ncache = \"cache\"\n";
     }
     void TearDown() override { ::unsetenv("STORMCELLAR_CONFIG"); }
-    [[nodiscard]] std::filesystem::path cache() const { return scratch_.path() / "cache"; }
-    [[nodiscard]] std::filesystem::path config() const { return scratch_.path() / "d.toml"; }
+    [[nodiscard]] fs::path cache() const { return scratch_.path() / "cache"; }
+    [[nodiscard]] fs::path config() const { return scratch_.path() / "d.toml"; }
 
     testing::TemporaryDirectory scratch_;
 };

@@ -9,8 +9,6 @@
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 class KeptFramesTest : public ::testing::Test {
   protected:
     fs::path grid(const std::string& name, const std::string& text = "grid") {

@@ -23,7 +23,7 @@ class FetchCommand : public ::testing::Test {
         bucket_.put("2017/01/01/KTLX/KTLX20170101_030627_V06", std::string(6000, 'b'));
         bucket_.put("2017/01/01/KFDR/KFDR20170101_030127_V06", std::string(7000, 'c'));
     }
-    ProgramResult fetch(std::vector<std::string> more) {
+    ProgramResult fetch(Words more) {
         more.insert(more.begin(),
                     {"fetch", "--from", "2017-01-01T03:00", "--to", "2017-01-01T03:30", "--source",
                      bucket_.address(), "-o", (directory_ / "files").string()});
@@ -34,14 +34,12 @@ class FetchCommand : public ::testing::Test {
 };
 
 TEST_F(FetchCommand, BringsStationsByNameAndByBounds) {
-    const ProgramResult named = fetch({"--stations", "KTLX", "--json"});
-    ASSERT_EQ(named.status, 0) << named.err;
-    EXPECT_EQ(nlohmann::json::parse(named.out)["fetched"], 2);
-    EXPECT_TRUE(std::filesystem::exists(directory_ / "files/KTLX20170101_030627_V06"));
+    EXPECT_EQ(json_of(fetch({"--stations", "KTLX", "--json"}))["fetched"], 2);
+    EXPECT_TRUE(fs::exists(directory_ / "files/KTLX20170101_030627_V06"));
     const ProgramResult within = fetch({"--bounds=-100,34,-97,36"});
     ASSERT_EQ(within.status, 0) << within.err;
     EXPECT_THAT(within.err, HasSubstr("2 were there already"));
-    EXPECT_TRUE(std::filesystem::exists(directory_ / "files/KFDR20170101_030127_V06"));
+    EXPECT_TRUE(fs::exists(directory_ / "files/KFDR20170101_030127_V06"));
 }
 
 TEST_F(FetchCommand, SaysWhatFailedAndWhatWasNotThere) {

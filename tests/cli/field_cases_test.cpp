@@ -15,7 +15,6 @@
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -26,7 +25,7 @@ class FieldCases : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        cases_ = *testing::data_directory() / "cases";
+        cases_ = testing::real_file("cases");
         fs::create_directory(directory_ / "catalog");
         if (!fs::exists(cases_)) GTEST_SKIP() << "no cases beside the real volumes";
     }
@@ -34,15 +33,25 @@ class FieldCases : public ::testing::Test {
     [[nodiscard]] std::string out(const std::string& name) const {
         return (directory_ / name).string();
     }
-    nlohmann::json json_of(const std::vector<std::string>& arguments) {
+    nlohmann::json json_of(const Words& arguments) {
         const ProgramResult ran = run(arguments);
         EXPECT_EQ(ran.status, 0) << ran.err;
         errors_ = ran.err;
         return nlohmann::json::parse(ran.out, nullptr, false);
     }
-    nlohmann::json info(const std::string& file, std::vector<std::string> more = {}) {
-        more.insert(more.begin(), {"info", file, "--json"});
-        return json_of(more);
+    void rebuild(const std::string& catalog, const std::string& drop, const Words& more = {}) {
+        const auto ran =
+            run(with({"catalog", "rebuild", "--catalog", catalog, "--drop", drop}, more));
+        ASSERT_EQ(ran.status, 0) << ran.err;
+    }
+    nlohmann::json latest_of_ktlx(const std::string& catalog) {
+        return json_of({"catalog", "latest", "--catalog", catalog, "--station", "KTLX", "--json"});
+    }
+    nlohmann::json list(const std::string& catalog, const Words& more = {}) {
+        return json_of(with({"catalog", "list", "--catalog", catalog, "--json"}, more));
+    }
+    nlohmann::json info(const std::string& file, const Words& more = {}) {
+        return json_of(with({"info", file, "--json"}, more));
     }
 
     fs::path cases_;
@@ -52,7 +61,7 @@ class FieldCases : public ::testing::Test {
 
 TEST_F(FieldCases, RadialsMayNameTheirStationInLowerCase) {
     const auto lower = info(in("0-lower-case-station/klbb_chunk"));
-    auto whole = info((*testing::data_directory() / "volumes/Level2_KLBB_single_chunk").string());
+    auto whole = info(testing::real_file("volumes/Level2_KLBB_single_chunk").string());
     EXPECT_EQ(lower["n_radials"], 120);
     EXPECT_EQ(lower["site"], "KLBB");
     EXPECT_EQ(lower["sweeps"], whole["sweeps"]);
@@ -64,33 +73,27 @@ TEST_F(FieldCases, AMosaicAboutACenterNeedsNoStationOfTheTable) {
     const std::string catalog = out("catalog");
     for (const auto& [drop, status] :
          {std::pair{"1-segfault-center/drop", 3}, std::pair{"6-bounds-without-unlisted/drop", 0}}) {
-        ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop", in(drop), "--stations",
-                       "any"})
-                      .status,
-                  0);
-        for (const std::vector<std::string>& place :
-             {std::vector<std::string>{"--center", "35,-97"},
-              {"--center", "35,-97", "--extent-km", "200,200"},
-              {"--center", "35,-97", "--projection", "lat-lon"}}) {
-            std::vector<std::string> arguments = {
-                "loop",
-                "--catalog",
-                catalog,
-                "--stations",
-                "NOP4",
-                "--from",
-                "2017-01-01",
-                "--to",
-                "2017-01-02",
-                "--cache",
-                out(fmt::format("cache-{}-{}", status, place.back())),
-                "-o",
-                out("a.webp"),
-                "--spacing-km",
-                "4",
-                "--quiet"};
-            arguments.insert(arguments.end(), place.begin(), place.end());
-            const ProgramResult ran = run(arguments);
+        rebuild(catalog, in(drop), {"--stations", "any"});
+        for (const Words& place : {Words{"--center", "35,-97"},
+                                   {"--center", "35,-97", "--extent-km", "200,200"},
+                                   {"--center", "35,-97", "--projection", "lat-lon"}}) {
+            Words arguments = {"loop",
+                               "--catalog",
+                               catalog,
+                               "--stations",
+                               "NOP4",
+                               "--from",
+                               "2017-01-01",
+                               "--to",
+                               "2017-01-02",
+                               "--cache",
+                               out(fmt::format("cache-{}-{}", status, place.back())),
+                               "-o",
+                               out("a.webp"),
+                               "--spacing-km",
+                               "4",
+                               "--quiet"};
+            const ProgramResult ran = run(with(arguments, place));
             EXPECT_EQ(ran.status, status) << ran.err;
         }
     }
@@ -105,48 +108,36 @@ TEST_F(FieldCases, ASiteThatMovedHasItsOwnHeight) {
 
 TEST_F(FieldCases, MetadataAloneAreNoVolumeAndHideNone) {
     const std::string catalog = out("catalog");
-    ASSERT_EQ(
-        run({"catalog", "rebuild", "--catalog", catalog, "--drop", in("3-mdm-is-latest/drop")})
-            .status,
-        0);
-    const auto latest =
-        json_of({"catalog", "latest", "--catalog", catalog, "--station", "KTLX", "--json"});
+    rebuild(catalog, in("3-mdm-is-latest/drop"));
+    const auto latest = latest_of_ktlx(catalog);
     EXPECT_THAT(latest["path"].get<std::string>(), Not(HasSubstr("_MDM")));
     EXPECT_GT(latest["n_radials"], 0);
-    EXPECT_EQ(json_of({"catalog", "list", "--catalog", catalog, "--json"}).size(), 1U);
+    EXPECT_EQ(list(catalog).size(), 1U);
 }
 
 TEST_F(FieldCases, WhatLiesInTheFutureIsNotTheLatest) {
     const std::string catalog = out("catalog");
-    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop",
-                   in("5-future-volume-is-latest/drop")})
-                  .status,
-              0);
-    const auto latest =
-        json_of({"catalog", "latest", "--catalog", catalog, "--station", "KTLX", "--json"});
+    rebuild(catalog, in("5-future-volume-is-latest/drop"));
+    const auto latest = latest_of_ktlx(catalog);
     EXPECT_THAT(latest["path"].get<std::string>(), HasSubstr("KTLX_now"));
     const auto stations = json_of({"catalog", "stations", "--catalog", catalog, "--json"});
     EXPECT_THAT(stations[0]["latest"].get<std::string>(), Not(HasSubstr("2049")));
-    EXPECT_EQ(json_of({"catalog", "list", "--catalog", catalog, "--json"}).size(), 2U);
+    EXPECT_EQ(list(catalog).size(), 2U);
 }
 
 TEST_F(FieldCases, WhereAllLiesInTheFutureTheNewestIsShownWithAWarning) {
     fs::create_directory(out("drop"));
     fs::copy(in("5-future-volume-is-latest/drop/KTLX_radials_of_2049"), out("drop"));
     const std::string catalog = out("catalog");
-    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop", out("drop")}).status, 0);
-    const auto latest =
-        json_of({"catalog", "latest", "--catalog", catalog, "--station", "KTLX", "--json"});
+    rebuild(catalog, out("drop"));
+    const auto latest = latest_of_ktlx(catalog);
     EXPECT_THAT(latest["start_time"].get<std::string>(), HasSubstr("2049"));
     EXPECT_THAT(errors_, HasSubstr("lies in the future"));
 }
 
 TEST_F(FieldCases, BoundsTakeStationsThatOnlyTheirFilesPlace) {
     const std::string catalog = out("catalog");
-    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop",
-                   in("6-bounds-without-unlisted/drop"), "--stations", "any"})
-                  .status,
-              0);
+    rebuild(catalog, in("6-bounds-without-unlisted/drop"), {"--stations", "any"});
     const auto made =
         json_of({"loop", "--catalog", catalog, "--bounds=-98,35,-97,36", "--from",
                  "2017-01-01T02:00", "--to", "2017-01-01T04:00", "--product", "composite",
@@ -161,19 +152,16 @@ TEST_F(FieldCases, OldFilesAreNamedAndPlacedByTheirNameOrByOptions) {
     const std::string nameless = directory + "KUNR19910720_160529.gz";
     EXPECT_TRUE(info(nameless)["site"].is_null());
     EXPECT_EQ(info(nameless, {"--station", "kunr"})["site"], "KUNR");
-    const std::vector<std::string> grid = {"grid",        nameless, "-o",          out("a.nc"),
-                                           "--levels-km", "1",      "--extent-km", "50,50"};
+    const Words grid = {"grid",        nameless, "-o",          out("a.nc"),
+                        "--levels-km", "1",      "--extent-km", "50,50"};
     const ProgramResult unknown = run(grid);
     EXPECT_EQ(unknown.status, 1);
     EXPECT_THAT(unknown.err, HasSubstr("--position LAT,LON,HEIGHT"));
-    std::vector<std::string> placed = grid;
-    placed.insert(placed.end(), {"--station", "KUNR", "--position", "35.33,-97.28,390", "--json"});
-    const auto made = json_of(placed);
+    const auto made =
+        json_of(with(grid, {"--station", "KUNR", "--position", "35.33,-97.28,390", "--json"}));
     EXPECT_EQ(made["station"], "KUNR");
     EXPECT_NEAR(made["center"][0], 35.33, 1e-6);
-    std::vector<std::string> half = grid;
-    half.insert(half.end(), {"--position", "35.33,-97.28,390"});
-    const ProgramResult no_name = run(half);
+    const ProgramResult no_name = run(with(grid, {"--position", "35.33,-97.28,390"}));
     EXPECT_EQ(no_name.status, 2);
     EXPECT_THAT(no_name.err, HasSubstr("--station"));
 }
@@ -184,9 +172,8 @@ TEST_F(FieldCases, AStationThatNoTableHasIsFiledByWhatItsFileSays) {
     fs::copy_file(in("files/6-station-not-in-the-table/ROP420240601_220000_V06"),
                   directory_ / "drop/mine.ar2v");
     const std::string catalog = out("catalog");
-    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop", out("drop")}).status, 0);
-    const auto volumes =
-        json_of({"catalog", "list", "--catalog", catalog, "--station", "ROP4", "--json"});
+    rebuild(catalog, out("drop"));
+    const auto volumes = list(catalog, {"--station", "ROP4"});
     ASSERT_EQ(volumes.size(), 1U);
     const auto made = json_of({"loop",
                                "--catalog",
@@ -226,10 +213,9 @@ TEST_F(FieldCases, TheStationOfAnOldFileMayBeAnyWordOfItsName) {
 // was refused.
 TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     const std::string chunks = in("files/8-chunks-of-two-volumes/KTLX/589");
-    const auto start = [&](std::vector<std::string> words) {
-        words.insert(words.begin(), "info");
-        words.emplace_back("--json");
-        return json_of(words)["volume_header"]["time"].get<std::string>().substr(11, 5);
+    const auto start = [&](const Words& words) {
+        const auto json = json_of(with({"info", "--json"}, words));
+        return json["volume_header"]["time"].get<std::string>().substr(11, 5);
     };
     EXPECT_EQ(start({chunks}), "22:02");
     EXPECT_EQ(start({chunks, "--volume", "1"}), "22:00");
@@ -237,16 +223,16 @@ TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     EXPECT_EQ(none.status, 2);
     EXPECT_THAT(none.err, HasSubstr("holds chunks of only 2 volumes"));
     EXPECT_THAT(run({"info", chunks}).err, HasSubstr("holds chunks of 2 volumes"));
-    const auto time_of_frame = [&](std::vector<std::string> words) {
-        words.insert(words.begin(), "frame");
-        words.insert(words.end(), {"--product", "composite", "--width", "400", "--height", "300",
-                                   "-o", out("a.png"), "--json"});
-        return json_of(words)["time"].get<std::string>().substr(11, 5);
+    const auto time_of_frame = [&](const Words& words) {
+        const auto json = json_of(with({"frame", "--product", "composite", "--width", "400",
+                                        "--height", "300", "-o", out("a.png"), "--json"},
+                                       words));
+        return json["time"].get<std::string>().substr(11, 5);
     };
     EXPECT_EQ(time_of_frame({chunks}), "22:02");
     EXPECT_EQ(time_of_frame({chunks, "--volume", "1"}), "22:00");
     // The shell's pattern 20240601-220000-* names these.
-    std::vector<std::string> named;
+    Words named;
     for (const auto& entry : fs::directory_iterator(chunks)) {
         if (entry.path().filename().native().starts_with("20240601-220000-"))
             named.push_back(entry.path());
@@ -254,9 +240,9 @@ TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     ASSERT_EQ(named.size(), 16U);
     EXPECT_EQ(start(named), "22:00");
     EXPECT_EQ(time_of_frame(named), "22:00");
-    named.insert(named.end(), {"-o", out("b.nc"), "--extent-km", "100,100", "--json"});
-    named.insert(named.begin(), "grid");
-    EXPECT_EQ(json_of(named)["station"], "KTLX");
+    const auto gridded =
+        json_of(with({"grid", "-o", out("b.nc"), "--extent-km", "100,100", "--json"}, named));
+    EXPECT_EQ(gridded["station"], "KTLX");
 }
 
 // --volume also chooses among the volumes of one file.
@@ -275,23 +261,19 @@ TEST_F(FieldCases, AVolumeOfAFileMayBeChosen) {
 
 TEST_F(FieldCases, ChunksNamedByTheirLdmKeyAreOneVolume) {
     const std::string catalog = out("catalog");
-    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop",
-                   in("9-ldm-key-chunk-names/drop")})
-                  .status,
-              0);
-    const auto volumes = json_of({"catalog", "list", "--catalog", catalog, "--json"});
+    rebuild(catalog, in("9-ldm-key-chunk-names/drop"));
+    const auto volumes = list(catalog);
     ASSERT_EQ(volumes.size(), 1U);
     EXPECT_EQ(volumes[0]["n_radials"], 360);
-    EXPECT_EQ(json_of({"catalog", "list", "--catalog", catalog, "--json", "--rejected"}).size(), 1U)
+    EXPECT_EQ(list(catalog, {"--rejected"}).size(), 1U)
         << "the other chunks have no line of their own";
     // A single chunk under a meaningless name is distinguished from a volume.
     fs::create_directory(directory_ / "drop");
     fs::create_directory(directory_ / "other");
     fs::copy_file(in("9-ldm-key-chunk-names/drop/L2-BZIP2_KLOT_20201019054806_34_2_I_V06_0"),
                   directory_ / "drop" / "KLOT_part");
-    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", out("other"), "--drop", out("drop")}).status,
-              0);
-    const auto lone = json_of({"catalog", "list", "--catalog", out("other"), "--json"});
+    rebuild(out("other"), out("drop"));
+    const auto lone = list(out("other"));
     EXPECT_THAT(lone[0]["reason"].get<std::string>(), HasSubstr("looks like one chunk"));
 }
 
@@ -303,12 +285,8 @@ TEST_F(FieldCases, AMessage5ThatCountsMoreCutsThanItHoldsIsNotBelieved) {
 
 TEST_F(FieldCases, AnOutputsEndingDecidesItsFormat) {
     const std::string file = in("11-grid-output-name/KTLX_any");
-    const std::vector<std::string> small = {"--levels-km", "1", "--extent-km", "50,50"};
-    const auto grid = [&](std::vector<std::string> more) {
-        more.insert(more.begin(), {"grid", file});
-        more.insert(more.end(), small.begin(), small.end());
-        return run(more);
-    };
+    const Words small = {"--levels-km", "1", "--extent-km", "50,50"};
+    const auto grid = [&](const Words& more) { return run(with({"grid", file}, more, small)); };
     const ProgramResult tif = grid({"-o", out("picture.tif")});
     EXPECT_EQ(tif.status, 2);
     EXPECT_THAT(tif.err, HasSubstr(".nc"));
@@ -327,31 +305,30 @@ TEST_F(FieldCases, AnOutputsEndingDecidesItsFormat) {
 }
 
 TEST_F(FieldCases, VolumesFarApartInTimeDoNotBlend) {
-    const std::vector<std::string> two = {"grid",
-                                          in("13-mosaic-years-apart/KTLX_2017"),
-                                          in("13-mosaic-years-apart/NOP4_2021"),
-                                          "-o",
-                                          out("a.nc"),
-                                          "--levels-km",
-                                          "1",
-                                          "--spacing-km",
-                                          "4",
-                                          "--json"};
+    const Words two = {"grid",
+                       in("13-mosaic-years-apart/KTLX_2017"),
+                       in("13-mosaic-years-apart/NOP4_2021"),
+                       "-o",
+                       out("a.nc"),
+                       "--levels-km",
+                       "1",
+                       "--spacing-km",
+                       "4",
+                       "--json"};
     const auto made = json_of(two);
     EXPECT_THAT(made["time"].get<std::string>(), HasSubstr("2021"));
-    EXPECT_EQ(made["stations"], std::vector<std::string>{"NOP4"});
+    EXPECT_EQ(made["stations"], Words{"NOP4"});
     EXPECT_THAT(made["notes"].dump(), HasSubstr("KTLX_2017 is left out"));
 }
 
 TEST_F(FieldCases, TheSevenOfTheMosaicStaySeven) {
-    std::vector<std::string> arguments = {"grid"};
-    for (const auto& entry :
-         fs::directory_iterator(*testing::data_directory() / "mosaic-northeast"))
+    Words arguments = {"grid"};
+    for (const auto& entry : fs::directory_iterator(testing::real_file("mosaic-northeast")))
         arguments.push_back(entry.path().string());
     const std::size_t count = arguments.size() - 1;
-    arguments.insert(arguments.end(),
-                     {"-o", out("a.nc"), "--levels-km", "1", "--spacing-km", "8", "--json"});
-    EXPECT_EQ(json_of(arguments)["stations"].size(), count);
+    const auto made = json_of(
+        with(arguments, {"-o", out("a.nc"), "--levels-km", "1", "--spacing-km", "8", "--json"}));
+    EXPECT_EQ(made["stations"].size(), count);
 }
 
 }  // namespace

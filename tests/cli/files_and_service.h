@@ -26,16 +26,11 @@ class FilesAndService : public ::testing::Test {
             << "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n";
     }
 
-    // Returns the path of a real volume.
-    [[nodiscard]] std::string volume(const char* name) const {
-        return (data_ / "volumes" / name).native();
-    }
     // Returns a path in the test's own directory, where config.toml is.
     [[nodiscard]] std::string out(const char* name) const { return (directory_ / name).native(); }
 
     // Runs the daemon on a copy of the raw file until the cache has a grid of it.
     void ingest(const std::string& file) {
-        namespace fs = std::filesystem;
         fs::create_directories(directory_ / "drop");
         fs::copy_file(file, directory_ / "drop" / fs::path(file).filename());
         testing::RunningProgram daemon(STORMCELLARD, {"--config", out("config.toml")});
@@ -47,7 +42,7 @@ class FilesAndService : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    std::filesystem::path data_;
+    fs::path data_;
 };
 
 }  // namespace stormcellar::cli

@@ -7,14 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "stormcellar/base/file_system.h"
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
-namespace stormcellar {
+namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 class FilesLoop : public ::testing::Test {
@@ -24,23 +23,16 @@ class FilesLoop : public ::testing::Test {
         ::setenv("XDG_CACHE_HOME", (directory_ / "home").c_str(), 1);
     }
     [[nodiscard]] static std::string sequence(const std::string& name = "") {
-        return (*testing::data_directory() / "sequence-kbgm" / name).string();
+        return (testing::real_file("sequence-kbgm") / name).string();
     }
-    [[nodiscard]] testing::ProgramResult run(std::vector<std::string> sources,
-                                             const std::vector<std::string>& more = {}) const {
-        sources.insert(sources.begin(), "loop");
-        for (const char* word : {"--product", "composite", "--width", "400", "--height", "300",
-                                 "--spacing-km", "4", "--extent-km", "400,400", "--json"})
-            sources.emplace_back(word);
-        sources.insert(sources.end(), {"-o", out()});
-        sources.insert(sources.end(), more.begin(), more.end());
-        return testing::run_program(STORMCELLAR_PROGRAM, sources);
+    [[nodiscard]] testing::ProgramResult run(const Words& sources, const Words& more = {}) const {
+        const Words small = {"loop",     "--product", "composite",    "--width", "400",
+                             "--height", "300",       "--spacing-km", "4",       "--extent-km",
+                             "400,400",  "--json",    "-o",           out()};
+        return cli::run(with(small, sources, more));
     }
-    [[nodiscard]] nlohmann::json json_of(const std::vector<std::string>& sources,
-                                         const std::vector<std::string>& more = {}) const {
-        const auto result = run(sources, more);
-        EXPECT_EQ(result.status, 0) << result.err;
-        return nlohmann::json::parse(result.out, nullptr, false);
+    [[nodiscard]] nlohmann::json json_of(const Words& sources, const Words& more = {}) const {
+        return testing::json_of(run(sources, more));
     }
     [[nodiscard]] std::string out() const { return directory_ / "a.webp"; }
     [[nodiscard]] std::vector<std::byte> loop() const { return *read_file(out()); }
@@ -57,7 +49,7 @@ TEST_F(FilesLoop, ADirectoryItsFilesAndTheirArchiveGiveTheSameLoop) {
     EXPECT_EQ(made["to"], "2005-08-22T03:08:30Z");
     const auto by_directory = loop();
 
-    std::vector<std::string> files;
+    Words files;
     for (const auto& entry : fs::directory_iterator(sequence())) {
         files.push_back(entry.path().string());
     }
@@ -84,8 +76,8 @@ TEST_F(FilesLoop, OnlyTheFilesThatAreNamedAreShown) {
 }
 
 TEST_F(FilesLoop, FilesOfSeveralSitesGiveAMosaic) {
-    const auto made = json_of({(*testing::data_directory() / "mosaic-northeast").string()},
-                              {"--center", "42,-75"});
+    const auto made =
+        json_of({testing::real_file("mosaic-northeast").string()}, {"--center", "42,-75"});
     EXPECT_EQ(made["domain"], "mosaic-of-7");
     EXPECT_EQ(made["volumes"], 7);
     EXPECT_GE(made["frames"], 4);
@@ -137,4 +129,4 @@ TEST_F(FilesLoop, SaysWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

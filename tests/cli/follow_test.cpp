@@ -12,44 +12,25 @@
 #include <unistd.h>
 
 #include "stormcellar/base/descriptor.h"
-#include "tests/cli/uniform_grid.h"
-#include "tests/testing/program.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/cli/loop_fixture.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/waiting.h"
 
-namespace stormcellar {
+namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::RunningProgram;
 
-class Follow : public ::testing::Test {
+class Follow : public Loop {
   protected:
-    fs::path commit(const std::string& compact_time, float dbz) {
-        const auto path = testing::commit_grid(store_, testing::uniform_grid(compact_time, dbz));
-        EXPECT_TRUE(path) << path.error().message;
-        return path ? *path : fs::path{};
-    }
-    [[nodiscard]] std::vector<std::string> arguments(std::vector<std::string> more) const {
+    [[nodiscard]] Words arguments(const Words& more) const {
         // Few slices are quick; only volumes have any.
-        if (std::find(more.begin(), more.end(), "--product") == more.end()) {
-            more.insert(more.begin(), {"--slices", "16"});
-        }
-        more.insert(more.begin(), {"loop", "KBGM", "--cache", (directory_ / "cache").string(),
-                                   "--follow", "--json"});
-        return more;
-    }
-    [[nodiscard]] std::string out(const std::string& name) const {
-        return (directory_ / "out" / name).string();
-    }
-    [[nodiscard]] std::vector<std::string> written() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(directory_ / "out"))
-            names.push_back(entry.path().filename());
-        return names;
+        const Words few = has(more, "--product") ? Words{} : Words{"--slices", "16"};
+        return with({"loop", "KBGM", "--cache", directory_ / "cache", "--follow", "--json"}, few,
+                    more);
     }
     // One a remake.
     static std::vector<nlohmann::json> documents(const RunningProgram& program) {
@@ -62,11 +43,6 @@ class Follow : public ::testing::Test {
     static bool wait_for_remakes(const RunningProgram& program, std::size_t count) {
         return testing::eventually([&] { return documents(program).size() >= count; });
     }
-    void SetUp() override { fs::create_directory(directory_ / "out"); }
-
-    testing::TemporaryDirectory directory_;
-    cache::StoreWriter store_ =
-        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
 };
 
 // Before that a signal just ends it.
@@ -77,11 +53,6 @@ bool catches_sigterm(pid_t id) {
         return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1U) != 0;
     }
     return false;
-}
-
-std::string contents(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 // Counts how often the directory is opened, from now on. The program opens it at each look.
@@ -135,28 +106,25 @@ TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
 // The view is typed: a loop that is followed keeps the view that it began with as long as that
 // suits.
 TEST_F(Follow, IsTheLoopThatOneMakesAtOnce) {
-    const std::vector<std::string> view = {
-        "--azimuth", "180", "--tilt", "55",     "--zoom",          "1", "--exaggeration", "5",
-        "--opacity", "1",   "--sun",  "225,40", "--field-of-view", "0"};
+    const Words view = {"--azimuth",       "180", "--tilt",    "55", "--zoom", "1",
+                        "--exaggeration",  "5",   "--opacity", "1",  "--sun",  "225,40",
+                        "--field-of-view", "0"};
     for (const char* more : {"--orbit=90", "--ping-pong", "--product=volume"}) {
         auto plain = view;
         plain.emplace_back(more);
         commit("20050822_024400", 22);
         const auto middle = commit("20050822_025000", 33);
-        auto words = plain;
-        words.insert(words.end(), {"-o", out("a.webp")});
-        RunningProgram program(STORMCELLAR_PROGRAM, arguments(words));
+        RunningProgram program(STORMCELLAR_PROGRAM, arguments(with(plain, {"-o", out("a.webp")})));
         ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
         commit("20050822_025600", 44);
         ASSERT_TRUE(wait_for_remakes(program, 2)) << program.err();
         fs::remove(middle);
         ASSERT_TRUE(wait_for_remakes(program, 3)) << program.err();
         EXPECT_EQ(program.end(SIGINT), 0);
-        plain.insert(plain.end(), {"-o", out("b.webp")});
-        auto once = arguments(plain);
+        auto once = arguments(with(plain, {"-o", out("b.webp")}));
         once.erase(std::find(once.begin(), once.end(), "--follow"));
-        ASSERT_EQ(testing::run_program(STORMCELLAR_PROGRAM, once).status, 0);
-        EXPECT_TRUE(contents(out("a.webp")) == contents(out("b.webp"))) << more;
+        ASSERT_EQ(testing::run_stormcellar(once).status, 0);
+        EXPECT_TRUE(testing::file_text(out("a.webp")) == testing::file_text(out("b.webp"))) << more;
     }
 }
 
@@ -199,8 +167,7 @@ TEST_F(Follow, WaitsForTheCache) {
     EXPECT_THAT(written(), ElementsAre("a.webp"));
     EXPECT_EQ(program.end(SIGINT), 0);
     fs::remove_all(directory_ / "cache");
-    const auto refused =
-        testing::run_program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif"), "--from", "eve"}));
+    const auto refused = testing::run_stormcellar(arguments({"-o", out("a.gif"), "--from", "eve"}));
     EXPECT_EQ(refused.status, 2) << "what makes no sense does without a cache too";
 }
 
@@ -253,9 +220,7 @@ TEST_F(Follow, ASignalWhileItDrawsLeavesNothingUnfinished) {
 }
 
 TEST_F(Follow, WhatCanNeverBeMadeIsRefusedAtOnce) {
-    const auto refused = [&](std::vector<std::string> more) {
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments(std::move(more)));
-    };
+    const auto refused = [&](const Words& more) { return cli::run(arguments(more)); };
     EXPECT_EQ(refused({"-o", out("a.xyz")}).status, 2);
     EXPECT_EQ(refused({"-o", out("a.gif"), "--from", "yesterday"}).status, 2);
     EXPECT_EQ(refused({"-o", out("a.gif"), "--zoom", "0"}).status, 2);
@@ -267,8 +232,8 @@ TEST_F(Follow, WhatCanNeverBeMadeIsRefusedAtOnce) {
 TEST_F(Follow, EndsWithItsParent) {
     commit("20050822_024400", 22);
     // Process 1 did not start the program, so the program assumes that its parent has ended.
-    const auto orphan = testing::run_program(STORMCELLAR_PROGRAM,
-                                             arguments({"--with-parent", "1", "-o", out("a.gif")}));
+    const auto orphan =
+        testing::run_stormcellar(arguments({"--with-parent", "1", "-o", out("a.gif")}));
     EXPECT_EQ(orphan.status, 0);
     EXPECT_EQ(orphan.out, "");
     RunningProgram program(
@@ -279,4 +244,4 @@ TEST_F(Follow, EndsWithItsParent) {
 }
 
 }  // namespace
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

@@ -8,23 +8,18 @@
 #include <unistd.h>
 
 #include "tests/cli/files_and_service.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 class FrameFiles : public FilesAndService {
   protected:
-    [[nodiscard]] std::string bytes_of(const std::string& path) const {
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-
     // The compressed pixels of a PNG, without what its texts say of the grid.
     [[nodiscard]] std::string pixels_of(const std::string& path) const {
-        const std::string png = bytes_of(path);
+        const std::string png = testing::file_text(path);
         std::string pixels;
         for (std::size_t at = 8; at + 12 <= png.size();) {
             std::size_t length = 0;
@@ -55,22 +50,19 @@ TEST_F(FrameFiles, IsThePictureOfTheStoredGrid) {
 
 TEST_F(FrameFiles, SeveralSitesAreAMosaic) {
     const fs::path northeast = data_ / "mosaic-northeast";
-    const auto drawn =
-        run({"frame", (northeast / "KBGM20100911_012056_V03.gz").native(),
-             (northeast / "KENX20100911_011108_V03.gz").native(), "--product", "composite",
-             "--spacing-km", "4", "--levels-km", "1:9:2", "--json", "-o", out("a.png")});
-    ASSERT_EQ(drawn.status, 0) << drawn.err;
-    const auto json = nlohmann::json::parse(drawn.out);
+    const auto json =
+        json_of(run({"frame", (northeast / "KBGM20100911_012056_V03.gz").native(),
+                     (northeast / "KENX20100911_011108_V03.gz").native(), "--product", "composite",
+                     "--spacing-km", "4", "--levels-km", "1:9:2", "--json", "-o", out("a.png")}));
     EXPECT_EQ(json["domain"], "KBGM+KENX");
-    EXPECT_THAT(bytes_of(out("a.png")), HasSubstr("KBGM KENX"));
+    EXPECT_THAT(testing::file_text(out("a.png")), HasSubstr("KBGM KENX"));
 }
 
 TEST_F(FrameFiles, TheGridIsWhereItWasAskedFor) {
-    const auto probed = run({"frame", volume("KTLX19990503_235621.gz"), "--center", "35.3,-97.6",
-                             "--extent-km", "60,40", "--spacing-km", "0.5", "--product",
-                             "composite", "--probe-at", "35.3,-97.6", "--json"});
-    ASSERT_EQ(probed.status, 0) << probed.err;
-    const auto json = nlohmann::json::parse(probed.out);
+    const auto json =
+        json_of(run({"frame", volume("KTLX19990503_235621.gz"), "--center", "35.3,-97.6",
+                     "--extent-km", "60,40", "--spacing-km", "0.5", "--product", "composite",
+                     "--probe-at", "35.3,-97.6", "--json"}));
     EXPECT_EQ(json["probe"]["status"], "value");
     EXPECT_NEAR(json["probe"]["latitude_deg"].get<double>(), 35.3, 0.003);
     const auto outside =

@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "tests/cli/run_in_process.h"
 #include "tests/cli/uniform_grid.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 class Frame : public ::testing::Test {
   protected:
@@ -21,8 +20,7 @@ class Frame : public ::testing::Test {
         ASSERT_TRUE(store) << store.error().message;
         for (const char* time : {"20050822_024400", "20050822_025000"}) {
             const grid::Grid grid = testing::uniform_grid(time, 33);
-            const auto path = testing::commit_grid(*store, grid);
-            ASSERT_TRUE(path) << path.error().message;
+            testing::commit_grid(*store, grid);
             if (time == std::string("20050822_024400")) commit_velocity(*store, grid);
         }
     }
@@ -36,28 +34,18 @@ class Frame : public ::testing::Test {
             const std::size_t ix = i / levels % static_cast<std::size_t>(grid.spec.nx);
             if (ix >= 30) grid.status[i] = grid::CellStatus::not_seen;
         }
-        const auto path = testing::commit_grid(store, grid);
-        ASSERT_TRUE(path) << path.error().message;
+        testing::commit_grid(store, grid);
     }
 
     int run(const std::string& arguments) {
-        CLI::App app;
-        const Command command = add_subcommand(app, *find_subcommand("frame"));
-        app.parse("frame --cache " + (directory_ / "cache").string() + " " + arguments);
-        ::testing::internal::CaptureStderr();
-        ::testing::internal::CaptureStdout();
-        const int status = command.run();
-        messages_ = ::testing::internal::GetCapturedStderr();
-        facts_ = ::testing::internal::GetCapturedStdout();
-        return status;
+        const auto ran =
+            run_in_process("frame --cache " + (directory_ / "cache").string() + " " + arguments);
+        messages_ = ran.err;
+        facts_ = ran.out;
+        return ran.status;
     }
 
     [[nodiscard]] std::string out(const char* name) const { return (directory_ / name).string(); }
-
-    std::string text_of(const std::string& path) const {
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
 
     testing::TemporaryDirectory directory_;
     std::string messages_;
@@ -66,7 +54,7 @@ class Frame : public ::testing::Test {
 
 TEST_F(Frame, DrawsTheLatestGridAsPng) {
     EXPECT_EQ(run("--domain KBGM -o " + out("a.png")), exit_done) << messages_;
-    const std::string png = text_of(out("a.png"));
+    const std::string png = testing::file_text(out("a.png"));
     EXPECT_THAT(png, ::testing::StartsWith("\x89PNG"));
     EXPECT_THAT(png, ::testing::HasSubstr("2005-08-22T02:50:00Z"));
 }
@@ -76,17 +64,17 @@ TEST_F(Frame, TheEndingOfTheOutputIsItsFormat) {
     using ::testing::StartsWith;
     const auto made = [&](const char* name, const std::string& more) {
         EXPECT_EQ(run("--domain KBGM -o " + out(name) + more), exit_done) << messages_;
-        return text_of(out(name));
+        return testing::file_text(out(name));
     };
     for (const char* name : {"a.jpg", "a.webp"})
         EXPECT_THAT(made(name, " --slices 16"), HasSubstr("2005-08-22T02:50:00Z")) << name;
-    EXPECT_THAT(text_of(out("a.jpg")), StartsWith("\xFF\xD8\xFF"));
-    EXPECT_THAT(text_of(out("a.webp")), StartsWith("RIFF"));
+    EXPECT_THAT(testing::file_text(out("a.jpg")), StartsWith("\xFF\xD8\xFF"));
+    EXPECT_THAT(testing::file_text(out("a.webp")), StartsWith("RIFF"));
     const std::string map = " --product composite";
     EXPECT_THAT(made("a.tif", map), HasSubstr("2005-08-22T02:50:00Z"));
-    EXPECT_THAT(text_of(out("a.tif")), StartsWith("II*"));
+    EXPECT_THAT(testing::file_text(out("a.tif")), StartsWith("II*"));
     EXPECT_THAT(made("a.kmz", map), HasSubstr("<when>2005-08-22T02:50:00Z</when>"));
-    const std::string values = text_of(out("a.tif"));
+    const std::string values = testing::file_text(out("a.tif"));
     EXPECT_NE(made("a.tif", map + " --geotiff states"), values);
     EXPECT_NE(made("a.tif", map + " --geotiff colors"), values);
     EXPECT_EQ(made("a.tif", map + " --geotiff values"), values);
@@ -107,7 +95,7 @@ TEST_F(Frame, WhatAFormatCannotHoldIsBadUsage) {
 TEST_F(Frame, TakesTheGridAtOrBeforeTheTime) {
     EXPECT_EQ(run("--domain KBGM --time 2005-08-22T02:49 --product composite -o " + out("a.png")),
               exit_done);
-    EXPECT_THAT(text_of(out("a.png")), ::testing::HasSubstr("2005-08-22T02:44:00Z"));
+    EXPECT_THAT(testing::file_text(out("a.png")), ::testing::HasSubstr("2005-08-22T02:44:00Z"));
 }
 
 TEST_F(Frame, PanelsOfOneMomentAreNamedOnceAndHaveNoProbe) {
@@ -136,7 +124,7 @@ TEST_F(Frame, PanelsOfOneMomentAreNamedOnceAndHaveNoProbe) {
 TEST_F(Frame, ThemesDiffer) {
     EXPECT_EQ(run("--domain KBGM --product composite -o " + out("a.png")), exit_done);
     EXPECT_EQ(run("--domain KBGM --product composite --theme light -o " + out("b.png")), exit_done);
-    EXPECT_NE(text_of(out("a.png")), text_of(out("b.png")));
+    EXPECT_NE(testing::file_text(out("a.png")), testing::file_text(out("b.png")));
     EXPECT_EQ(run("--domain KBGM --theme sepia -o " + out("c.png")), exit_bad_usage);
 }
 
@@ -208,8 +196,8 @@ TEST_F(Frame, ASectionOutsideTheGridIsRefused) {
 TEST_F(Frame, TakesTheNewestGridOfTheMoment) {
     EXPECT_EQ(run("--domain KBGM --moment VEL --product cappi -o " + out("a.png")), exit_done)
         << messages_;
-    EXPECT_THAT(text_of(out("a.png")), ::testing::HasSubstr("2005-08-22T02:44:00Z"));
-    EXPECT_THAT(text_of(out("a.png")), ::testing::HasSubstr("Radial velocity at 3 km"));
+    EXPECT_THAT(testing::file_text(out("a.png")), ::testing::HasSubstr("2005-08-22T02:44:00Z"));
+    EXPECT_THAT(testing::file_text(out("a.png")), ::testing::HasSubstr("Radial velocity at 3 km"));
     EXPECT_EQ(run("--domain KBGM --moment RHO -o " + out("b.png")), exit_nothing_matched);
     EXPECT_THAT(messages_, ::testing::HasSubstr("there is no grid of RHO of domain 'KBGM'"));
     EXPECT_THAT(messages_, ::testing::HasSubstr("its grids are of REF, VEL"));

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
@@ -17,24 +17,17 @@ using testing::ProgramResult;
 
 class GridTest : public ::testing::Test {
   protected:
-    static ProgramResult grid(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), "grid");
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
-    }
+    static ProgramResult grid(const Words& arguments) { return run(with({"grid"}, arguments)); }
     [[nodiscard]] std::string file(const std::string& name) const {
         return (directory_.path() / name).string();
     }
-    static std::string volume(const std::string& name) {
-        return (*testing::data_directory() / "volumes" / name).string();
-    }
     // Bad usage: exit 2 and one line that names what is wrong; nothing is written.
-    void expect_usage(std::vector<std::string> arguments, const std::string& part) {
-        arguments.insert(arguments.end(), {"-o", file("out.nc")});
-        const ProgramResult ran = grid(arguments);
+    void expect_usage(const Words& arguments, const std::string& part) {
+        const ProgramResult ran = grid(with(arguments, {"-o", file("out.nc")}));
         EXPECT_EQ(ran.status, 2) << part;
         EXPECT_EQ(ran.out, "");
         EXPECT_NE(ran.err.find(part), std::string::npos) << part << " in " << ran.err;
-        EXPECT_FALSE(std::filesystem::exists(file("out.nc")));
+        EXPECT_FALSE(fs::exists(file("out.nc")));
     }
     testing::TemporaryDirectory directory_;
 };
@@ -75,12 +68,10 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "--spacing-deg", "0.01"}, "--spacing-deg");
     expect_usage({"a", "--extent-deg", "4,4", "--projection", "lcc"}, "--extent-deg");
     expect_usage({"a", "--parallels", "30,60"}, "--parallels");
-    const std::vector<std::string> degrees = {"a", "--projection", "lat-lon", "--center", "35,-97"};
-    const auto expect_usage_of = [&](std::vector<std::string> arguments,
-                                     const std::vector<std::string>& more,
+    const Words degrees = {"a", "--projection", "lat-lon", "--center", "35,-97"};
+    const auto expect_usage_of = [&](const Words& arguments, const Words& more,
                                      const std::string& part) {
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        expect_usage(arguments, part);
+        expect_usage(with(arguments, more), part);
     };
     expect_usage_of(degrees, {"--spacing-deg", "0"}, "--spacing-deg");
     expect_usage_of(degrees, {"--spacing-deg", "1", "--spacing-km", "1"}, "the extent once");
@@ -93,7 +84,7 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage_of(degrees, {"--extent-deg", "400,1", "--spacing-deg", "0.1"}, "360 degrees");
     expect_usage_of(degrees, {"--extent-deg", "4,120", "--spacing-deg", "0.1"},
                     "ends at the poles");
-    const std::vector<std::string> cone = {"a", "--projection", "lambert", "--center", "35,-97"};
+    const Words cone = {"a", "--projection", "lambert", "--center", "35,-97"};
     expect_usage_of(cone, {"--parallels", "30"}, "--parallels takes");
     expect_usage_of(cone, {"--parallels", "30,-30"}, "opposite");
     expect_usage_of(cone, {"--parallels", "30,90"}, "not at 90");
@@ -126,7 +117,7 @@ TEST_F(GridTest, AFileThatCannotBeReadIsExit1AndNamed) {
         EXPECT_EQ(ran.out, "");
         EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
         EXPECT_NE(ran.err.find(bad), std::string::npos) << ran.err;
-        EXPECT_FALSE(std::filesystem::exists(file("out.nc")));
+        EXPECT_FALSE(fs::exists(file("out.nc")));
     }
 }
 
@@ -152,23 +143,20 @@ TEST_F(GridTest, ReportsFactsAndTimings) {
     EXPECT_LE(json["read_s"].get<double>() + json["decode_s"].get<double>() +
                   json["grid_s"].get<double>() + json["write_s"].get<double>(),
               json["total_s"].get<double>());
-    EXPECT_TRUE(std::filesystem::exists(file("out.nc")));
+    EXPECT_TRUE(fs::exists(file("out.nc")));
 }
 
 TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
     STORMCELLAR_NEED_DATA();
-    const auto moments_of = [&](const std::vector<std::string>& arguments) {
-        std::vector<std::string> all = {"-o", file("out.nc"), "--json", "--extent-km", "60,60"};
-        all.insert(all.begin(), arguments.begin(), arguments.end());
-        const ProgramResult ran = grid(all);
-        EXPECT_EQ(ran.status, 0) << ran.err;
-        const auto json = nlohmann::json::parse(ran.out);
-        std::vector<std::string> names;
+    const auto moments_of = [&](const Words& arguments) {
+        const auto json = json_of(
+            grid(with(arguments, {"-o", file("out.nc"), "--json", "--extent-km", "60,60"})));
+        Words names;
         for (const auto& one : json["moments"])
             names.push_back(one["moment"]);
         return names;
     };
-    using Names = std::vector<std::string>;
+    using Names = Words;
     const std::string of_1999 = volume("KTLX19990503_235621.gz");
     EXPECT_EQ(moments_of({of_1999, "--moment", "all"}), (Names{"REF", "VEL", "SW"}));
     EXPECT_EQ(moments_of({of_1999, "--moment", "VEL,REF,VEL"}), (Names{"REF", "VEL"}));
@@ -181,8 +169,8 @@ TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
     const ProgramResult missing = grid({of_1999, "-o", file("no.nc"), "--moment", "REF,RHO"});
     EXPECT_EQ(missing.status, 1);
     EXPECT_NE(missing.err.find("has no sweep with RHO"), std::string::npos) << missing.err;
-    EXPECT_FALSE(std::filesystem::exists(file("no.nc")));
-    std::filesystem::remove(file("out.nc"));
+    EXPECT_FALSE(fs::exists(file("no.nc")));
+    fs::remove(file("out.nc"));
     expect_usage({of_1999, "--moment", "REF,ALL"}, "--moment must be REF");
     expect_usage({of_1999, "--moment", "REF,"}, "--moment must be REF");
     expect_usage({of_1999, "--moment", "REF,VEL", "--tolerance", "0.5 dB"}, "VEL is in");
@@ -190,22 +178,16 @@ TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
 
 TEST_F(GridTest, AFrameTimeChoosesSweepsAndIsNamed) {
     STORMCELLAR_NEED_DATA();
-    const std::vector<std::string> common = {
+    const Words common = {
         volume("KLOT20220317_000842_V06"), "-o", file("out.nc"), "--json", "--extent-km", "60,60"};
-    const auto facts = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> arguments = common;
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const ProgramResult ran = grid(arguments);
-        EXPECT_EQ(ran.status, 0) << ran.err;
-        return nlohmann::json::parse(ran.out);
-    };
+    const auto facts = [&](const Words& more) { return json_of(grid(with(common, more))); };
     const auto plain = facts({});
     EXPECT_EQ(plain["frame_time"], plain["time"]);
     EXPECT_EQ(plain["fields"].size(), 0U);
     const auto framed = facts({"--time", "2022-03-17T00:10:00Z", "--fields", "weight,age,age"});
     EXPECT_EQ(framed["time"], plain["time"]);
     EXPECT_EQ(framed["frame_time"], "2022-03-17T00:10:00Z");
-    EXPECT_EQ(framed["fields"], (std::vector<std::string>{"age", "weight"}));
+    EXPECT_EQ(framed["fields"], (Words{"age", "weight"}));
     EXPECT_EQ(facts({"--fields", "all"})["fields"].size(), 4U);
 }
 
@@ -233,24 +215,22 @@ TEST_F(GridTest, AVolumeThatNobodyPlacesSaysHowToNameIt) {
     const ProgramResult ran = grid({nameless, "-o", file("out.nc")});
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.err.find("name the radar with --station ICAO"), std::string::npos) << ran.err;
-    std::filesystem::copy_file(nameless, file("KTLX_msg1.bz2"));
-    const ProgramResult named = grid({file("KTLX_msg1.bz2"), "-o", file("out.nc"), "--json"});
-    ASSERT_EQ(named.status, 0) << named.err;
-    EXPECT_EQ(nlohmann::json::parse(named.out)["station"], "KTLX");
+    fs::copy_file(nameless, file("KTLX_msg1.bz2"));
+    EXPECT_EQ(json_of(grid({file("KTLX_msg1.bz2"), "-o", file("out.nc"), "--json"}))["station"],
+              "KTLX");
 }
 
 TEST_F(GridTest, OddVolumesAreGriddedOrRefusedWithAReason) {
     STORMCELLAR_NEED_DATA();
-    for (const auto& entry :
-         std::filesystem::directory_iterator(*testing::data_directory() / "volumes")) {
+    for (const auto& entry : fs::directory_iterator(testing::real_file("volumes"))) {
         const ProgramResult ran =
             grid({entry.path(), "-o", file("out.nc"), "--extent-km", "60,60"});
         EXPECT_TRUE(ran.status == 0 || ran.status == 1) << entry.path() << " " << ran.status;
-        EXPECT_EQ(ran.status == 0, std::filesystem::exists(file("out.nc"))) << entry.path();
+        EXPECT_EQ(ran.status == 0, fs::exists(file("out.nc"))) << entry.path();
         if (ran.status == 1) {
             EXPECT_NE(ran.err.find(entry.path()), std::string::npos) << ran.err;
         }
-        std::filesystem::remove(file("out.nc"));
+        fs::remove(file("out.nc"));
     }
 }
 
@@ -263,11 +243,11 @@ TEST_F(GridTest, AVolumeWithoutRadialsHasNothingToGrid) {
 
 TEST_F(GridTest, OfSeveralVolumesTheFirstIsTakenAndSaidSo) {
     STORMCELLAR_NEED_DATA();
-    const ProgramResult ran =
-        grid({volume("KBBX20060113_170337.gz"), "-o", file("out.nc"), "--json"});
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(nlohmann::json::parse(ran.out)["notes"].dump().find("this is number 1"),
-              std::string::npos);
+    EXPECT_NE(
+        json_of(grid({volume("KBBX20060113_170337.gz"), "-o", file("out.nc"), "--json"}))["notes"]
+            .dump()
+            .find("this is number 1"),
+        std::string::npos);
 }
 
 TEST_F(GridTest, WhatCannotBeWrittenIsExit1) {
@@ -280,15 +260,15 @@ TEST_F(GridTest, WhatCannotBeWrittenIsExit1) {
 
 TEST_F(GridTest, TheVolumeItselfAndThingsThatAreNoFilesStay) {
     STORMCELLAR_NEED_DATA();
-    std::filesystem::copy_file(volume("KLBB20160601_150025_V06"), file("volume"));
-    const auto size = std::filesystem::file_size(file("volume"));
+    fs::copy_file(volume("KLBB20160601_150025_V06"), file("volume"));
+    const auto size = fs::file_size(file("volume"));
     const auto itself = grid({file("volume"), "-o", file("volume")});
     EXPECT_EQ(itself.status, 2);
     EXPECT_NE(itself.err.find("this is the input file itself"), std::string::npos);
-    EXPECT_EQ(std::filesystem::file_size(file("volume")), size);
+    EXPECT_EQ(fs::file_size(file("volume")), size);
     ASSERT_EQ(::mkfifo(file("fifo").c_str(), 0600), 0);
     EXPECT_EQ(grid({file("volume"), "-o", file("fifo")}).status, 1);
-    EXPECT_TRUE(std::filesystem::is_fifo(file("fifo")));
+    EXPECT_TRUE(fs::is_fifo(file("fifo")));
     expect_usage({file("volume"), "--extent-km", "16384,16384"}, "cells, more than");
 }
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "stormcellar/base/file_system.h"
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
@@ -17,17 +17,14 @@ using testing::ProgramResult;
 
 class InfoTest : public ::testing::Test {
   protected:
-    static ProgramResult info(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), "info");
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
-    }
+    static ProgramResult info(const Words& arguments) { return run(with({"info"}, arguments)); }
     std::string write(const std::string& name, const std::string& text) {
         const auto path = directory_ / name;
         std::ofstream(path, std::ios::binary) << text;
         return path;
     }
     // Expects one line on stderr with all of these parts, nothing on stdout, and exit status 1.
-    static void expect_refused(const ProgramResult& ran, const std::vector<std::string>& parts) {
+    static void expect_refused(const ProgramResult& ran, const Words& parts) {
         EXPECT_EQ(ran.status, 1);
         EXPECT_EQ(ran.out, "");
         EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
@@ -61,7 +58,7 @@ TEST_F(InfoTest, BadUsageIsExit2) {
 TEST_F(InfoTest, JsonIsOneDocumentWithTheFactsAndNoProblems) {
     STORMCELLAR_NEED_DATA();
     const ProgramResult ran =
-        info({*testing::data_directory() / "volumes" / "KLOT20220317_000842_V06", "--json"});
+        info({testing::real_file("volumes/KLOT20220317_000842_V06"), "--json"});
     EXPECT_EQ(ran.status, 0);
     EXPECT_EQ(ran.err, "");
     const auto json = nlohmann::json::parse(ran.out);
@@ -74,7 +71,7 @@ TEST_F(InfoTest, JsonIsOneDocumentWithTheFactsAndNoProblems) {
 
 TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
     STORMCELLAR_NEED_DATA();
-    const auto file = *testing::data_directory() / "volumes" / "KTLX19910720_160529.gz";
+    const auto file = testing::real_file("volumes/KTLX19910720_160529.gz");
     const ProgramResult ran = info({file, "--json"});
     EXPECT_EQ(ran.status, 0);
     const auto json = nlohmann::json::parse(ran.out);
@@ -93,7 +90,7 @@ TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
 
 TEST_F(InfoTest, WritesTheVolumeAndStillPrintsItsFacts) {
     STORMCELLAR_NEED_DATA();
-    const auto file = *testing::data_directory() / "volumes" / "KIWX20160429_194300_V06.gz";
+    const auto file = testing::real_file("volumes/KIWX20160429_194300_V06.gz");
     const std::string to = directory_ / "x.nc";
     const ProgramResult plain = info({file});
     const ProgramResult ran = info({file, "--to", to});
@@ -110,10 +107,10 @@ TEST_F(InfoTest, WritesTheVolumeAndStillPrintsItsFacts) {
 
 TEST_F(InfoTest, AsksWhichOfSeveralVolumesToWrite) {
     STORMCELLAR_NEED_DATA();
-    const auto file = *testing::data_directory() / "volumes" / "KBBX20060113_170337.gz";
+    const auto file = testing::real_file("volumes/KBBX20060113_170337.gz");
     const std::string to = directory_ / "x.nc";
     for (const bool json : {false, true}) {
-        std::vector<std::string> arguments = {file, "--to", to};
+        Words arguments = {file, "--to", to};
         if (json) arguments.emplace_back("--json");
         const ProgramResult asked = info(arguments);
         EXPECT_EQ(asked.status, 2);
@@ -125,9 +122,9 @@ TEST_F(InfoTest, AsksWhichOfSeveralVolumesToWrite) {
     EXPECT_EQ(info({file, "--to", to, "--volume", "5"}).status, 2);
     EXPECT_EQ(info({file, "--to", to, "--volume", "0"}).status, 2);
     EXPECT_EQ(info({file, "--volume", "2"}).status, 2) << "nothing is written without --to";
-    EXPECT_FALSE(std::filesystem::exists(to));
+    EXPECT_FALSE(fs::exists(to));
     EXPECT_EQ(info({file, "--to", to, "--volume", "4"}).status, 0);
-    EXPECT_TRUE(std::filesystem::exists(to));
+    EXPECT_TRUE(fs::exists(to));
 }
 
 TEST_F(InfoTest, RefusesATargetBeforeItDecodes) {
@@ -143,13 +140,12 @@ TEST_F(InfoTest, RefusesATargetBeforeItDecodes) {
     EXPECT_EQ(refused(directory_.path()), 1);
     EXPECT_EQ(refused(directory_ / "missing" / "x.nc"), 1);
     EXPECT_EQ(refused("/dev/null"), 1);
-    EXPECT_EQ(std::filesystem::file_size(file), 100U);
+    EXPECT_EQ(fs::file_size(file), 100U);
 }
 
 TEST_F(InfoTest, TheTableHasALineForEachSweep) {
     STORMCELLAR_NEED_DATA();
-    const ProgramResult ran =
-        info({*testing::data_directory() / "volumes" / "KBBX20060113_170337.gz"});
+    const ProgramResult ran = info({testing::real_file("volumes/KBBX20060113_170337.gz")});
     EXPECT_EQ(ran.status, 0);
     EXPECT_NE(ran.out.find("68 sweeps, 13623 radials; partial\n  volume 1  from sweep 0 on"),
               std::string::npos)

@@ -17,7 +17,6 @@
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::ProgramResult;
@@ -28,7 +27,7 @@ class InputFilesTest : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
     [[nodiscard]] static std::string real(const std::string& name) {
-        return (*testing::data_directory() / "mosaic-northeast" / name).string();
+        return (testing::real_file("mosaic-northeast") / name).string();
     }
     [[nodiscard]] std::string at(const std::string& name) const {
         return (directory_ / name).string();
@@ -41,11 +40,10 @@ class InputFilesTest : public ::testing::Test {
             write_file_atomically(real_file_system(), at(name), archive::make_archive(kind, puts)));
         return at(name);
     }
-    nlohmann::json grid(const std::vector<std::string>& files) {
-        std::vector<std::string> arguments = {"grid", "--spacing-km", "8",  "--levels-km",
-                                              "1,3",  "--json",       "-o", at("out.nc")};
-        arguments.insert(arguments.end(), files.begin(), files.end());
-        const ProgramResult ran = run(arguments);
+    nlohmann::json grid(const Words& files) {
+        Words arguments = {"grid", "--spacing-km", "8",  "--levels-km",
+                           "1,3",  "--json",       "-o", at("out.nc")};
+        const ProgramResult ran = run(with(arguments, files));
         EXPECT_EQ(ran.status, 0) << ran.err;
         errors_ = ran.err;
         return ran.status == 0 ? nlohmann::json::parse(ran.out) : nlohmann::json::object();
@@ -80,9 +78,7 @@ TEST_F(InputFilesTest, ADirectoryStandsForItsFiles) {
 
 TEST_F(InputFilesTest, OneMemberIsNamedBehindItsArchive) {
     const std::string path = put_archive("order.tar", archive::Kind::tar);
-    const ProgramResult one = run({"info", path + "!order/" + two_of_them[1], "--json"});
-    ASSERT_EQ(one.status, 0) << one.err;
-    EXPECT_EQ(nlohmann::json::parse(one.out)["site"], "KENX");
+    EXPECT_EQ(json_of(run({"info", path + "!order/" + two_of_them[1], "--json"}))["site"], "KENX");
     const ProgramResult none = run({"info", path + "!order/other"});
     EXPECT_EQ(none.status, 1);
     EXPECT_THAT(none.err, HasSubstr("is not in the archive"));
@@ -101,8 +97,7 @@ TEST_F(InputFilesTest, OfAMemberThatCannotBeReadIsSaidWhy) {
 TEST_F(InputFilesTest, InfoTellsOfEachVolume) {
     const std::string path = put_archive("order.tar.gz", archive::Kind::tar_gz);
     const ProgramResult all = run({"info", path, "--json"});
-    ASSERT_EQ(all.status, 0) << all.err;
-    const auto documents = nlohmann::json::parse(all.out);
+    const auto documents = json_of(all);
     ASSERT_EQ(documents.size(), 2U);
     EXPECT_EQ(documents[0]["site"], "KBGM");
     EXPECT_EQ(documents[1]["site"], "KENX");
@@ -115,16 +110,12 @@ TEST_F(InputFilesTest, InfoTellsOfEachVolume) {
 TEST_F(InputFilesTest, StandardInputIsAFileOrAnArchive) {
     const std::string program = STORMCELLAR_PROGRAM;
     const std::string path = put_archive("order.zip", archive::Kind::zip);
-    const ProgramResult file = shell(program + " info - --json < " + real(two_of_them[0]));
-    ASSERT_EQ(file.status, 0) << file.err;
-    EXPECT_EQ(nlohmann::json::parse(file.out)["site"], "KBGM");
-    const ProgramResult packed = shell("cat " + path + " | " + program + " info - --json");
-    ASSERT_EQ(packed.status, 0) << packed.err;
-    EXPECT_EQ(nlohmann::json::parse(packed.out).size(), 2U);
-    const ProgramResult pipe = shell("mkfifo " + at("pipe") + "; cat " + path + " > " + at("pipe") +
-                                     " & exec " + program + " info " + at("pipe") + " --json");
-    ASSERT_EQ(pipe.status, 0) << pipe.err;
-    EXPECT_EQ(nlohmann::json::parse(pipe.out).size(), 2U);
+    EXPECT_EQ(json_of(shell(program + " info - --json < " + real(two_of_them[0])))["site"], "KBGM");
+    EXPECT_EQ(json_of(shell("cat " + path + " | " + program + " info - --json")).size(), 2U);
+    EXPECT_EQ(json_of(shell("mkfifo " + at("pipe") + "; cat " + path + " > " + at("pipe") +
+                            " & exec " + program + " info " + at("pipe") + " --json"))
+                  .size(),
+              2U);
     EXPECT_EQ(shell(program + " grid - - -o " + at("a.nc") + " < " + path).status, 2);
 }
 
@@ -132,7 +123,7 @@ TEST_F(InputFilesTest, OfACutArchiveWhatIsWholeIsTaken) {
     const std::string path = put_archive("order.tar", archive::Kind::tar);
     fs::resize_file(path, fs::file_size(path) - 100'000);
     const auto made = grid({path});
-    EXPECT_EQ(made["stations"], std::vector<std::string>{"KBGM"});
+    EXPECT_EQ(made["stations"], Words{"KBGM"});
     EXPECT_THAT(errors_, HasSubstr("cut or damaged"));
 }
 
@@ -146,8 +137,7 @@ TEST_F(InputFilesTest, AnArchiveIsReplayedMemberByMember) {
     }
     fs::create_directory(directory_ / "chunks");
     // Volumes that cannot be sent in chunks are named, and the others are replayed.
-    const std::string in_records =
-        (*testing::data_directory() / "volumes/KLBB20160601_150025_V06").string();
+    const std::string in_records = testing::real_file("volumes/KLBB20160601_150025_V06").string();
     const ProgramResult chunks =
         run({"replay", path, in_records, at("chunks"), "--interval", "0", "--as", "chunks"});
     EXPECT_EQ(chunks.status, 0) << chunks.err;

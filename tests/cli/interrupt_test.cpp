@@ -73,17 +73,17 @@ TEST(Interrupt, IgnoredSignalStaysIgnored) {
 
 // Makes a directory with a file in it and says in `name` where it is, for the parent of a process
 // that is about to end.
-void make_scratch_and_raise(int number, const std::filesystem::path& name) {
+void make_scratch_and_raise(int number, const fs::path& name) {
     const auto scratch = ScratchDirectory::make();
     std::ofstream(scratch->path() / "output.webp") << "half";
-    std::filesystem::create_directory(scratch->path() / "frames");
+    fs::create_directory(scratch->path() / "frames");
     std::ofstream(name) << scratch->path().native();
     ::raise(number);
 }
 
 class ScratchDirectoryDeathTest : public ::testing::Test {
   protected:
-    [[nodiscard]] std::filesystem::path made() const {
+    [[nodiscard]] fs::path made() const {
         std::string text;
         std::getline(std::ifstream(directory_ / "name"), text);
         return text;
@@ -96,7 +96,7 @@ TEST_F(ScratchDirectoryDeathTest, EverySignalThatEndsTheProgramRemovesIt) {
         EXPECT_EXIT(make_scratch_and_raise(number, directory_ / "name"),
                     ::testing::KilledBySignal(number), "");
         ASSERT_FALSE(made().empty());
-        EXPECT_FALSE(std::filesystem::exists(made())) << number;
+        EXPECT_FALSE(fs::exists(made())) << number;
     }
 }
 
@@ -111,7 +111,7 @@ TEST_F(ScratchDirectoryDeathTest, ASecondSignalBesideAnInterruptRemovesItToo) {
         },
         ::testing::KilledBySignal(SIGINT), "");
     ASSERT_FALSE(made().empty());
-    EXPECT_FALSE(std::filesystem::exists(made()));
+    EXPECT_FALSE(fs::exists(made()));
 }
 
 // 2026-11-29: a signal between making the directory and watching for signals left it behind.
@@ -125,27 +125,27 @@ TEST(ScratchDirectory, IsRemovedByASignalThatComesAtOnce) {
             for (;;)
                 ::pause();
         }
-        while (std::filesystem::is_empty(directory.path())) {
+        while (fs::is_empty(directory.path())) {
         }
         ::kill(child, SIGINT);
         int status = 0;
         ::waitpid(child, &status, 0);
         EXPECT_TRUE(WIFSIGNALED(status));
-        ASSERT_TRUE(std::filesystem::is_empty(directory.path())) << "round " << round;
+        ASSERT_TRUE(fs::is_empty(directory.path())) << "round " << round;
     }
     ::unsetenv("TMPDIR");
 }
 
 TEST(ScratchDirectory, GoesWithItsObject) {
-    std::filesystem::path path;
+    fs::path path;
     {
         auto scratch = ScratchDirectory::make();
         ASSERT_TRUE(scratch);
         const ScratchDirectory moved = std::move(*scratch);
         path = moved.path();
-        EXPECT_TRUE(std::filesystem::is_directory(path));
+        EXPECT_TRUE(fs::is_directory(path));
     }
-    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_FALSE(fs::exists(path));
 }
 
 TEST(ProgressLine, SaysRateAndTimeLeftOnceTheyAreKnown) {

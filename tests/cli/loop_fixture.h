@@ -9,44 +9,47 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/cli/run_stormcellar.h"
 #include "tests/cli/uniform_grid.h"
-#include "tests/testing/program.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
-namespace stormcellar {
-
-namespace fs = std::filesystem;
+namespace stormcellar::cli {
 
 class Loop : public ::testing::Test {
   protected:
-    void commit(const std::string& compact_time, float dbz, int cells = 40) {
+    fs::path commit(const std::string& compact_time, float dbz, int cells = 40) {
         grid::Grid grid = testing::uniform_grid(compact_time, dbz, cells);
         grid.start_time = grid.end_time = grid.time;
-        const auto path = testing::commit_grid(store_, grid);
-        ASSERT_TRUE(path) << path.error().message;
-        grids_.push_back(*path);
+        return grids_.emplace_back(testing::commit_grid(store_, grid));
+    }
+    // Returns the path of a grid of this many minutes after 3 UTC.
+    [[nodiscard]] fs::path path_at_minute(int minutes) const {
+        const UtcTime time = parse_compact("20050822_030000").value();
+        return store_.path_of("KBGM", level2::Moment::ref, time + std::chrono::minutes{minutes})
+            .value();
     }
     void commit_three() {
         commit("20050822_024400", 22);
         commit("20050822_025000", 33);
         commit("20050822_025600", 44);
     }
-    static bool has(const std::vector<std::string>& arguments, const char* option) {
+    static bool has(const Words& arguments, const char* option) {
         return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
     }
-    testing::ProgramResult run(std::vector<std::string> arguments) const {
+    testing::ProgramResult run(Words arguments) const {
         // Few slices are quick. Only volumes have any, and a tolerance chooses them.
         if (!has(arguments, "--product") && !has(arguments, "--tolerance")) {
             arguments.insert(arguments.begin(), {"--slices", "16"});
         }
         arguments.insert(arguments.begin(), {"loop", "--cache", (directory_ / "cache").string()});
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+        return testing::run_stormcellar(arguments);
     }
     [[nodiscard]] std::string out(const std::string& name) const {
         return (directory_ / "out" / name).string();
     }
-    [[nodiscard]] std::vector<std::string> written() const {
-        std::vector<std::string> names;
+    [[nodiscard]] Words written() const {
+        Words names;
         for (const auto& entry : fs::directory_iterator(directory_ / "out"))
             names.push_back(entry.path().filename());
         std::sort(names.begin(), names.end());
@@ -62,8 +65,7 @@ class Loop : public ::testing::Test {
 
 // Returns the texts of a PNG or APNG, by keyword.
 inline std::map<std::string, std::string> png_texts(const std::string& path) {
-    const auto bytes = *read_file(path);
-    const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string all = testing::file_text(path);
     std::map<std::string, std::string> texts;
     for (std::size_t at = 8; at + 12 <= all.size();) {
         const auto byte = [&](std::size_t i) {
@@ -79,4 +81,4 @@ inline std::map<std::string, std::string> png_texts(const std::string& path) {
     return texts;
 }
 
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

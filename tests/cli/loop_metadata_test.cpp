@@ -7,16 +7,16 @@
 
 #include "tests/cli/loop_fixture.h"
 #include "tests/render/decoded_animation.h"
+#include "tests/testing/file_bytes.h"
 
-namespace stormcellar {
+namespace stormcellar::cli {
 namespace {
 
 using ::testing::HasSubstr;
 
 // Returns the blocks of the first comment of a GIF.
 std::string gif_comment(const std::string& path) {
-    const auto bytes = *read_file(path);
-    const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string all = testing::file_text(path);
     std::string comment;
     for (std::size_t at = all.find("\x21\xFE") + 2; all[at] != '\0';) {
         const auto length = static_cast<std::size_t>(static_cast<unsigned char>(all[at]));
@@ -28,17 +28,14 @@ std::string gif_comment(const std::string& path) {
 
 TEST_F(Loop, EveryFormatSaysWhatItShowsAndHow) {
     commit_three();
-    std::vector<std::string> arguments = {"KBGM"};
+    Words arguments = {"KBGM"};
     for (const char* name : {"a.webp", "a.gif", "a.apng", "a.mp4", "a.webm", "a/"}) {
         arguments.emplace_back("-o");
         arguments.push_back(out(name));
     }
     const auto result = run(arguments);
     ASSERT_EQ(result.status, 0) << result.err;
-    const auto text_of = [&](const std::string& name) {
-        const auto bytes = *read_file(out(name));
-        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    };
+    const auto text_of = [&](const std::string& name) { return testing::file_text(out(name)); };
     std::map<std::string, std::string> texts = {
         {"webp", render::decode_webp(out("a.webp")).metadata.at("XMP")},
         {"gif", gif_comment(out("a.gif"))},
@@ -86,4 +83,4 @@ TEST_F(Loop, FramesOfADamagedGridAreNotCounted) {
 }
 
 }  // namespace
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

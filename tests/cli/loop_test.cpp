@@ -18,7 +18,7 @@
 #include "tests/render/decoded_animation.h"
 #include "tests/testing/waiting.h"
 
-namespace stormcellar {
+namespace stormcellar::cli {
 namespace {
 
 using ::testing::ElementsAre;
@@ -44,21 +44,17 @@ TEST_F(Loop, WritesTheSameFramesToEveryOutput) {
 }
 
 // A view that is not fitted, because a loop is fitted to all of its grids.
-const std::vector<std::string> plain_view = {"--zoom",         "1",    "--field-of-view", "0",
-                                             "--exaggeration", "5",    "--opacity",       "1",
-                                             "--light",        "none", "--tilt",          "55"};
+const Words plain_view = {"--zoom",    "1", "--field-of-view", "0",    "--exaggeration", "5",
+                          "--opacity", "1", "--light",         "none", "--tilt",         "55"};
 
 TEST_F(Loop, DrawsWhatFrameDraws) {
     commit_three();
-    std::vector<std::string> of_loop = {"KBGM", "--azimuth", "180", "-o", out("frames/")};
-    of_loop.insert(of_loop.end(), plain_view.begin(), plain_view.end());
-    ASSERT_EQ(run(of_loop).status, 0);
-    std::vector<std::string> of_frame = {
-        "frame",     "KBGM", "--cache", (directory_ / "cache").string(),
-        "--slices",  "16",   "--time",  "2005-08-22T02:50",
-        "--azimuth", "180",  "-o",      out("b.png")};
+    ASSERT_EQ(run(with({"KBGM", "--azimuth", "180", "-o", out("frames/")}, plain_view)).status, 0);
+    Words of_frame = {"frame",     "KBGM", "--cache", (directory_ / "cache").string(),
+                      "--slices",  "16",   "--time",  "2005-08-22T02:50",
+                      "--azimuth", "180",  "-o",      out("b.png")};
     of_frame.insert(of_frame.end(), plain_view.begin(), plain_view.end());
-    const auto frame = testing::run_program(STORMCELLAR_PROGRAM, of_frame);
+    const auto frame = testing::run_stormcellar(of_frame);
     ASSERT_EQ(frame.status, 0) << frame.err;
     EXPECT_EQ(render::decode_png_file(out("frames/frame_0001.png")).rgba,
               render::decode_png_file(out("b.png")).rgba);
@@ -78,11 +74,9 @@ TEST_F(Loop, GoesToStandardOutputToo) {
 
 TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
     commit_three();
-    const auto frames = [&](std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), {"--domain", "KBGM", "--json", "-o", out("a.gif")});
-        const auto result = run(arguments);
-        EXPECT_EQ(result.status, 0) << result.err;
-        const auto json = nlohmann::json::parse(result.out);
+    const auto frames = [&](const Words& range) {
+        const auto json =
+            json_of(run(with(range, {"--domain", "KBGM", "--json", "-o", out("a.gif")})));
         return std::pair<std::string, int>(json["from"], json["frames"]);
     };
     EXPECT_EQ(frames({"--from", "2005-08-22T02:50:00Z"}),
@@ -96,18 +90,16 @@ TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
 TEST_F(Loop, WhatLiesInTheFutureIsNotTheNewest) {
     commit_three();
     commit("20991231_000000", 50);
-    const auto frames = [&](std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), {"--domain", "KBGM", "--json", "-o", out("a.gif")});
-        const auto result = run(arguments);
-        EXPECT_EQ(result.status, 0) << result.err;
-        return nlohmann::json::parse(result.out)["to"].get<std::string>();
+    const auto frames = [&](const Words& range) {
+        return json_of(run(with(range, {"--domain", "KBGM", "--json", "-o", out("a.gif")})))["to"]
+            .get<std::string>();
     };
     EXPECT_EQ(frames({"--last", "1"}), "2005-08-22T02:56:00Z");
     EXPECT_EQ(frames({}), "2005-08-22T02:56:00Z");
     EXPECT_EQ(frames({"--to", "2100-01-01"}), "2099-12-31T00:00:00Z") << "asked for";
-    const auto frame = testing::run_program(
-        STORMCELLAR_PROGRAM, {"frame", "KBGM", "--cache", (directory_ / "cache").string(),
-                              "--slices", "16", "--json", "-o", out("b.png")});
+    const auto frame =
+        testing::run_stormcellar({"frame", "KBGM", "--cache", (directory_ / "cache").string(),
+                                  "--slices", "16", "--json", "-o", out("b.png")});
     EXPECT_EQ(nlohmann::json::parse(frame.out)["time"], "2005-08-22T02:56:00Z");
 }
 
@@ -121,12 +113,11 @@ TEST_F(Loop, WhereAllLiesInTheFutureItIsShownWithAWarning) {
 TEST_F(Loop, ColorsAndViewAreThoseOfAllFrames) {
     commit("20050822_024400", 5);
     commit("20050822_025000", 70);
-    for (const std::vector<std::string>& product :
-         {std::vector<std::string>{"--product", "composite"},
-          {"--product", "echotop"},
-          {"--product", "vil"},
-          {"--field-of-view", "60"}}) {
-        std::vector<std::string> arguments = {"KBGM", "-o", out("f/")};
+    for (const Words& product : {Words{"--product", "composite"},
+                                 {"--product", "echotop"},
+                                 {"--product", "vil"},
+                                 {"--field-of-view", "60"}}) {
+        Words arguments = {"KBGM", "-o", out("f/")};
         arguments.insert(arguments.end(), product.begin(), product.end());
         const auto result = run(arguments);
         ASSERT_EQ(result.status, 0) << result.err;
@@ -162,10 +153,8 @@ TEST_F(Loop, SaysThatGridsOfADomainDiffer) {
 
 TEST_F(Loop, MakesFramesBetweenGridsWhenCalledFor) {
     commit_three();
-    const auto result = run({"KBGM", "--interval", "3min", "--product", "composite", "--no-labels",
-                             "--json", "-o", out("frames/")});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto json = nlohmann::json::parse(result.out);
+    const auto json = json_of(run({"KBGM", "--interval", "3min", "--product", "composite",
+                                   "--no-labels", "--json", "-o", out("frames/")}));
     EXPECT_EQ(json["frames"], 4);  // 02:45, 02:48, 02:51, 02:54
     EXPECT_EQ(json["interpolated"], 4);
     EXPECT_EQ(png_texts(out("frames/frame_0000.png"))["Between grids"],
@@ -227,8 +216,8 @@ TEST_F(Loop, PingPongGoesThereAndBack) {
 TEST_F(Loop, AnOrbitTurnsTheCamera) {
     commit("20050822_024400", 40);
     commit("20050822_025000", 40);
-    const auto frames_of = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"KBGM", "-o", out("o.webp"), "--no-labels"};
+    const auto frames_of = [&](const Words& more) {
+        Words arguments{"KBGM", "-o", out("o.webp"), "--no-labels"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         arguments.insert(arguments.end(), plain_view.begin(), plain_view.end());
         EXPECT_EQ(run(arguments).status, 0);
@@ -243,9 +232,9 @@ TEST_F(Loop, AnOrbitTurnsTheCamera) {
 
 TEST_F(Loop, AnOrbitAroundOneGridHasAsManyFramesAsAskedFor) {
     commit("20050822_024400", 40);
-    const auto frames_of = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"KBGM",    "-o",  out("o.webp"), "--no-labels",
-                                           "--width", "200", "--height",    "150"};
+    const auto frames_of = [&](const Words& more) {
+        Words arguments{"KBGM",    "-o",  out("o.webp"), "--no-labels",
+                        "--width", "200", "--height",    "150"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto result = run(arguments);
         EXPECT_EQ(result.status, 0) << result.err;
@@ -381,8 +370,7 @@ TEST_F(Loop, PlaceThatCannotBeWrittenIsAFailureThatNamesIt) {
     const auto result = run({"KBGM", "-o", out("missing/a.webp")});
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.err, HasSubstr("there is no directory " + out("missing")));
-    const auto cache = testing::run_program(
-        STORMCELLAR_PROGRAM,
+    const auto cache = testing::run_stormcellar(
         {"loop", "KBGM", "--cache", (directory_ / "nowhere").string(), "-o", out("a.webp")});
     EXPECT_EQ(cache.status, 1);
     EXPECT_THAT(cache.err, HasSubstr("nowhere"));
@@ -392,12 +380,7 @@ TEST_F(Loop, PlaceThatCannotBeWrittenIsAFailureThatNamesIt) {
 TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
     commit("20050822_024400", 22);
     for (int i = 0; i < 400; ++i) {
-        const auto time =
-            UtcTime(parse_compact("20050822_030000").value()) + std::chrono::minutes(i);
-        const auto path = store_.path_of("KBGM", level2::Moment::ref, time);
-        ASSERT_TRUE(path);
-        fs::create_directories(path->parent_path());
-        fs::copy_file(grids_[0], *path);
+        fs::copy_file(grids_[0], path_at_minute(i));
     }
     const std::string cache = (directory_ / "cache").string();
     const std::string webp = out("a.webp"), frames = out("frames/");
@@ -436,11 +419,7 @@ TEST_F(Loop, InterruptedOnItsWayToStandardOutputItLeavesNoTemporaryDirectory) {
 TEST_F(Loop, GridsThatAreCutWhileTheyAreDrawnAreLeftOut) {
     commit("20050822_024400", 22);
     for (int i = 1; i < 40; ++i) {
-        const auto time =
-            UtcTime(parse_compact("20050822_030000").value()) + std::chrono::minutes(i);
-        const auto path = store_.path_of("KBGM", level2::Moment::ref, time);
-        ASSERT_TRUE(path);
-        fs::create_hard_link(grids_[0], *path);
+        fs::create_hard_link(grids_[0], path_at_minute(i));
     }
     const auto bytes = *read_file(grids_[0]);
     std::atomic<bool> done = false;
@@ -470,8 +449,7 @@ TEST_F(Loop, RealVolumesBecomeALoop) {
     ASSERT_TRUE(catalog) << catalog.error().message;
     pipeline::Ingestor ingestor(*catalog, store_, pipeline::small_grid());
     for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
-        const auto outcome =
-            ingestor.ingest(*testing::data_directory() / "sequence-kbgm" / name, false);
+        const auto outcome = ingestor.ingest(testing::real_file("sequence-kbgm") / name, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
         ASSERT_EQ(outcome->result(), pipeline::IngestResult::gridded) << outcome->reason;
     }
@@ -491,4 +469,4 @@ TEST_F(Loop, RealVolumesBecomeALoop) {
 }
 
 }  // namespace
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

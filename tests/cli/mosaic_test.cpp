@@ -16,20 +16,18 @@ namespace {
 using testing::ProgramResult;
 
 std::string real(const std::string& name) {
-    return (*testing::data_directory() / name).string();
+    return testing::real_file(name);
 }
 
 class Mosaic : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
-    nlohmann::json grid(std::vector<std::string> files, const std::vector<std::string>& options) {
+    nlohmann::json grid(Words files, const Words& options) {
         files.insert(files.begin(), "grid");
         files.insert(files.end(), {"--spacing-km", "8", "--levels-km", "1,3,6", "--json", "-o",
                                    (directory_ / "out.nc").string()});
         files.insert(files.end(), options.begin(), options.end());
-        const ProgramResult ran = run(files);
-        EXPECT_EQ(ran.status, 0) << ran.err;
-        return ran.status == 0 ? nlohmann::json::parse(ran.out) : nlohmann::json::object();
+        return json_of(run(files));
     }
     testing::TemporaryDirectory directory_;
 };
@@ -40,13 +38,12 @@ const std::string enx = "mosaic-northeast/KENX20100911_011108_V03.gz";
 TEST_F(Mosaic, HoldsAllSitesInAnyOrder) {
     const auto one = grid({real(bgm), real(enx)}, {});
     const auto other = grid({real(enx), real(bgm)}, {"--threads", "1"});
-    EXPECT_EQ(one["stations"], (std::vector<std::string>{"KBGM", "KENX"}));
+    EXPECT_EQ(one["stations"], (Words{"KBGM", "KENX"}));
     EXPECT_EQ(one["cells"], other["cells"]);
     EXPECT_EQ(one["time"], other["time"]);
     EXPECT_GT(one["cells"]["value"], 1000);
     // Each gives what it gives alone, on the same columns.
-    const std::vector<std::string> same_columns = {"--center", "42.5,-75", "--extent-km",
-                                                   "640,640"};
+    const Words same_columns = {"--center", "42.5,-75", "--extent-km", "640,640"};
     const auto both = grid({real(bgm), real(enx)}, same_columns);
     const auto alone = grid({real(bgm)}, same_columns);
     EXPECT_LT(both["cells"]["not_seen"], alone["cells"]["not_seen"]);
@@ -55,15 +52,14 @@ TEST_F(Mosaic, HoldsAllSitesInAnyOrder) {
 TEST_F(Mosaic, CountsAndWeightsAreWrittenOnDemand) {
     EXPECT_EQ(grid({real(bgm), real(enx)}, {})["fields"].size(), 0U);
     EXPECT_EQ(grid({real(bgm), real(enx)}, {"--fields", "counts,weights"})["fields"],
-              (std::vector<std::string>{"counts", "weights"}));
+              (Words{"counts", "weights"}));
     EXPECT_EQ(grid({real(bgm), real(enx)}, {"--fields", "all"})["fields"].size(), 2U);
-    EXPECT_EQ(grid({real(bgm), real(enx)}, {"--fields", "weights"})["fields"],
-              std::vector<std::string>{"weights"});
+    EXPECT_EQ(grid({real(bgm), real(enx)}, {"--fields", "weights"})["fields"], Words{"weights"});
 }
 
 TEST_F(Mosaic, OfASiteWithNoVolumeNearTheTimeSaysSo) {
     const auto made = grid({real(bgm), real(enx)}, {"--time", "2010-09-11T01:37:00Z"});
-    EXPECT_EQ(made["stations"], (std::vector<std::string>{"KBGM"}));
+    EXPECT_EQ(made["stations"], (Words{"KBGM"}));
     EXPECT_NE(made["notes"].dump().find("is more than 15 minutes from 2010-09-11T01:37:00Z"),
               std::string::npos);
     const ProgramResult none = run({"grid", real(bgm), real(enx), "--time", "2011-01-01T00:00:00Z",
@@ -74,13 +70,11 @@ TEST_F(Mosaic, OfASiteWithNoVolumeNearTheTimeSaysSo) {
 
 TEST_F(Mosaic, AToleranceChoosesOfTimeOverlapAndCodesToo) {
     const auto effects_by = [&](const std::string& tolerance) {
-        const ProgramResult ran =
-            run({"grid", real("sequence-kbgm/KBGM20050822_024414.gz"),
-                 real("sequence-kbgm/KBGM20050822_025001.gz"), "--time", "2005-08-22T02:50:00Z",
-                 "--spacing-km", "3", "--tolerance", tolerance, "--json", "-o",
-                 (directory_ / "out.nc").string()});
-        EXPECT_EQ(ran.status, 0) << ran.err;
-        const auto made = nlohmann::json::parse(ran.out);
+        const auto made =
+            json_of(run({"grid", real("sequence-kbgm/KBGM20050822_024414.gz"),
+                         real("sequence-kbgm/KBGM20050822_025001.gz"), "--time",
+                         "2005-08-22T02:50:00Z", "--spacing-km", "3", "--tolerance", tolerance,
+                         "--json", "-o", (directory_ / "out.nc").string()}));
         EXPECT_NE(made["predicted_error"].dump().find("(99th percentile)"), std::string::npos);
         return made["effects"].get<std::string>();
     };
@@ -134,7 +128,7 @@ TEST_F(Mosaic, ALadderShowsWhatAFrameCosts) {
              real("sequence-kbgm/KBGM20050822_025001.gz"), "--time", "2005-08-22T02:50:00Z",
              "--spacing-km", "4", "--rounds", "1", "--plot", plot, "--json"});
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_TRUE(std::filesystem::exists(plot));
+    EXPECT_TRUE(fs::exists(plot));
     const auto ladder = nlohmann::json::parse(ran.out);
     std::map<std::string, std::vector<nlohmann::json>> steps;
     for (const auto& row : ladder["rows"])

@@ -11,7 +11,6 @@
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 class Ppi : public FilesAndService {
@@ -26,11 +25,9 @@ class Ppi : public FilesAndService {
     }
 
     // Returns the facts of a frame, with what is at a place of the sweep that the words name.
-    [[nodiscard]] nlohmann::json probe(std::vector<std::string> words) const {
+    [[nodiscard]] nlohmann::json probe(Words words) const {
         words.insert(words.begin(), {"frame", "--product", "ppi", "--json"});
-        const auto ran = run(words);
-        EXPECT_EQ(ran.status, 0) << ran.err;
-        return ran.status == 0 ? nlohmann::json::parse(ran.out) : nlohmann::json{};
+        return json_of(run(words));
     }
 };
 
@@ -84,9 +81,8 @@ TEST_F(Ppi, PanelsShowTheSweepOfEachMoment) {
 TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {
     const std::string file = volume("KTLX20170101_030027_V06");
     ingest(file);
-    const std::vector<std::string> what = {"--elevation", "1.5",        "--moment",
-                                           "VEL",         "--probe-at", "35.5,-97.5"};
-    const auto with = [&](std::vector<std::string> words) {
+    const Words what = {"--elevation", "1.5", "--moment", "VEL", "--probe-at", "35.5,-97.5"};
+    const auto with = [&](Words words) {
         words.insert(words.end(), what.begin(), what.end());
         return probe(words);
     };
@@ -117,10 +113,8 @@ TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {
 // Each elevation is a frame, from the lowest up, and a split cut is one elevation.
 TEST_F(Ppi, ALoopGoesThroughTheElevations) {
     const std::string file = volume("KTLX20170101_030027_V06");
-    const auto made = run({"loop", file, "--product", "ppi", "--all-elevations", "--cache",
-                           out("own"), "--json", "--quiet", "-o", out("up/")});
-    ASSERT_EQ(made.status, 0) << made.err;
-    const auto json = nlohmann::json::parse(made.out);
+    const auto json = json_of(run({"loop", file, "--product", "ppi", "--all-elevations", "--cache",
+                                   out("own"), "--json", "--quiet", "-o", out("up/")}));
     EXPECT_EQ(json["frames"], 5) << "7 sweeps, of which two are split cuts";
     EXPECT_EQ(json["from"], "2017-01-01T03:00:27.187Z");
     EXPECT_EQ(json["domain"], "KTLX");
@@ -130,22 +124,19 @@ TEST_F(Ppi, ALoopGoesThroughTheElevations) {
     // A scene file says the same, and there and back is eight frames.
     std::ofstream(directory_ / "up.toml")
         << "[picture]\nproduct = \"ppi\"\n[loop]\nall_elevations = true\nping_pong = true\n";
-    const auto by_scene = run({"loop", "--scene", out("up.toml"), file, "--cache", out("own"),
-                               "--json", "--quiet", "-o", out("b.webp")});
-    ASSERT_EQ(by_scene.status, 0) << by_scene.err;
-    EXPECT_EQ(nlohmann::json::parse(by_scene.out)["frames"], 8);
+    EXPECT_EQ(json_of(run({"loop", "--scene", out("up.toml"), file, "--cache", out("own"), "--json",
+                           "--quiet", "-o", out("b.webp")}))["frames"],
+              8);
 }
 
 // The lowest two angles of this volume came twice (MRLE), each as a split cut.
 TEST_F(Ppi, ALoopShowsEachSweepThatTheRadarRepeated) {
     const std::string chunks = (data_ / "chunks/L2D_230").native();
-    const auto loop = [&](std::vector<std::string> words) {
+    const auto loop = [&](Words words) {
         words.insert(words.begin(),
                      {"loop", chunks, "--product", "ppi", "--width", "400", "--height", "300",
                       "--cache", out("own"), "--json", "--quiet", "-o", out("frames/")});
-        const auto made = run(words);
-        EXPECT_EQ(made.status, 0) << made.err;
-        return nlohmann::json::parse(made.out);
+        return json_of(run(words));
     };
     EXPECT_EQ(loop({})["frames"], 1);
     const auto repeats = loop({"--repeats"});
@@ -159,25 +150,22 @@ TEST_F(Ppi, ALoopShowsEachSweepThatTheRadarRepeated) {
 }
 
 TEST_F(Ppi, ALoopGoesThroughTheVolumesOfFilesAndOfADomain) {
-    const auto made =
-        run({"loop", (data_ / "sequence-kbgm").native(), "--product", "ppi", "--cache", out("own"),
-             "--last", "2", "--json", "--quiet", "-o", out("a/")});
-    ASSERT_EQ(made.status, 0) << made.err;
-    const auto json = nlohmann::json::parse(made.out);
+    const auto json =
+        json_of(run({"loop", (data_ / "sequence-kbgm").native(), "--product", "ppi", "--cache",
+                     out("own"), "--last", "2", "--json", "--quiet", "-o", out("a/")}));
     EXPECT_EQ(json["frames"], 2);
     EXPECT_THAT(json["from"].get<std::string>(), HasSubstr("2005-08-22T03:02:39"));
 
     ingest(volume("KTLX20170101_030027_V06"));
-    const auto of_domain =
-        run({"loop", "KTLX", "--config", out("config.toml"), "--product", "ppi", "--moment", "RHO",
-             "--all-elevations", "--json", "--quiet", "-o", out("b/")});
-    ASSERT_EQ(of_domain.status, 0) << of_domain.err;
-    EXPECT_EQ(nlohmann::json::parse(of_domain.out)["frames"], 5);
+    EXPECT_EQ(
+        json_of(run({"loop", "KTLX", "--config", out("config.toml"), "--product", "ppi", "--moment",
+                     "RHO", "--all-elevations", "--json", "--quiet", "-o", out("b/")}))["frames"],
+        5);
 }
 
 TEST_F(Ppi, ALoopRefusesWhatMakesNoSense) {
     const std::string file = volume("KTLX20170101_030027_V06");
-    const auto refused = [&](std::vector<std::string> words) {
+    const auto refused = [&](Words words) {
         words.insert(words.begin(), {"loop", file, "--cache", out("own"), "-o", out("a.webp")});
         const auto ran = run(words);
         EXPECT_EQ(ran.status, 2) << ran.err;

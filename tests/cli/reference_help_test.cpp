@@ -46,16 +46,16 @@ class ReferenceHelp : public ::testing::Test {
     std::vector<const CommandReference*> all_;
 };
 
-std::vector<std::string> names_of_options(const CommandReference& command) {
-    std::vector<std::string> names;
+Words names_of_options(const CommandReference& command) {
+    Words names;
     for (const OptionReference& option : command.options)
         names.insert(names.end(), option.names.begin(), option.names.end());
     return names;
 }
 
 // The words of a line as a shell makes them, without the program.
-std::vector<std::string> words_of(std::string_view line) {
-    std::vector<std::string> words{""};
+Words words_of(std::string_view line) {
+    Words words{""};
     bool quoted = false;
     for (const char c : line) {
         if (c == '\'') {
@@ -162,7 +162,7 @@ TEST_F(ReferenceHelp, GuidesNameWhatThereIs) {
 TEST_F(ReferenceHelp, ExamplesAreCommandLinesThatTheParserTakes) {
     for (const CommandGuide& guide : command_guides()) {
         for (const CommandExample& example : guide.examples) {
-            std::vector<std::string> words = words_of(example.line);
+            Words words = words_of(example.line);
             std::ranges::reverse(words);  // as the parser wants them
             EXPECT_NO_THROW(app_.parse(words)) << example.line;
         }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/scene_file_fixture.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -153,9 +154,8 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
     };
     // The picture says itself how many slices it has.
     const auto has_slices = [&](int count) {
-        const auto bytes = *read_file(at("a.png"));
-        const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        return all.find(fmt::format(", {} slices", count)) != std::string::npos;
+        return testing::file_text(at("a.png")).find(fmt::format(", {} slices", count)) !=
+               std::string::npos;
     };
     EXPECT_THAT(
         refused("--slices 40 --tolerance \"dE 9\""),

@@ -4,20 +4,16 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <string_view>
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include "cli/picture/scene_file.h"
-#include "cli/subcommands.h"
 #include "stormcellar/base/file_system.h"
+#include "tests/cli/run_in_process.h"
 #include "tests/cli/uniform_grid.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
-
-namespace fs = std::filesystem;
 
 struct AllSettings {
     SceneOptions scene;
@@ -47,29 +43,10 @@ class SceneFileTest : public ::testing::Test {
     void commit() {
         auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;
-        const auto path =
-            testing::commit_grid(*store, testing::uniform_grid("20050822_024400", 33));
-        ASSERT_TRUE(path) << path.error().message;
+        testing::commit_grid(*store, testing::uniform_grid("20050822_024400", 33));
     }
-    struct Ran {
-        int status = -1;
-        std::string out, err;
-    };
-    // The first of the arguments is the subcommand.
-    Ran run(const std::string& arguments) {
-        CLI::App app;
-        const Subcommand* subcommand =
-            find_subcommand(std::string_view(arguments).substr(0, arguments.find(' ')));
-        if (subcommand == nullptr) return {};
-        const Command command = add_subcommand(app, *subcommand);
-        app.parse(arguments);
-        ::testing::internal::CaptureStderr();
-        ::testing::internal::CaptureStdout();
-        Ran ran;
-        ran.status = command.run();
-        ran.out = ::testing::internal::GetCapturedStdout();
-        ran.err = ::testing::internal::GetCapturedStderr();
-        return ran;
+    static testing::ProgramResult run(const std::string& arguments) {
+        return run_in_process(arguments);
     }
     [[nodiscard]] std::string cache() const { return (directory_ / "cache").string(); }
     [[nodiscard]] std::string at(const std::string& name) const {

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/two_radar_files.h"
 
-namespace stormcellar {
+namespace stormcellar::cli {
 namespace {
 
 using ::testing::HasSubstr;
@@ -16,23 +16,20 @@ using ::testing::Not;
 
 class SitePairs : public ::testing::Test {
   protected:
-    static testing::ProgramResult compare(const std::vector<std::filesystem::path>& files,
-                                          const std::vector<std::string>& options) {
-        std::vector<std::string> arguments = {"accuracy", "--compare-sites", "--spacing-km", "2"};
+    static testing::ProgramResult compare(const std::vector<fs::path>& files,
+                                          const Words& options) {
+        Words arguments = {"accuracy", "--compare-sites", "--spacing-km", "2"};
         for (const auto& file : files)
             arguments.push_back(file.native());
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+        return run(with(arguments, options));
     }
     testing::TemporaryDirectory directory_;
 };
 
 TEST_F(SitePairs, AFaultIsMeasuredAndNamed) {
     const auto files = testing::write_two_radars(directory_.path(), 2);
-    const auto ran = compare(files, {"--json"});
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto document = nlohmann::json::parse(ran.out);
-    EXPECT_EQ(document["stations"], (std::vector<std::string>{"XSYA", "XSYB"}));
+    const auto document = json_of(compare(files, {"--json"}));
+    EXPECT_EQ(document["stations"], (Words{"XSYA", "XSYB"}));
     ASSERT_EQ(document["pairs"].size(), 1U);
     const auto& pair = document["pairs"][0];
     EXPECT_EQ(pair["a"], "XSYA");
@@ -57,9 +54,7 @@ TEST_F(SitePairs, AFaultIsMeasuredAndNamed) {
 TEST_F(SitePairs, WhatCannotBeToldSaysWhy) {
     auto files = testing::write_two_radars(directory_.path(), 0);
     files.resize(2);
-    const auto ran = compare(files, {"--json"});
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto document = nlohmann::json::parse(ran.out);
+    const auto document = json_of(compare(files, {"--json"}));
     const auto& pair = document["pairs"][0];
     EXPECT_EQ(pair["time_s"]["untold"], "the motion is not known");
     EXPECT_NEAR(pair["bias_db"]["value"].get<double>(), 0, 0.4);
@@ -86,13 +81,10 @@ TEST_F(SitePairs, BadUsageIsSaid) {
 // Seven sites of one night: most pairs have too little common echo, and the program does not fail.
 TEST_F(SitePairs, OfRealSitesEachPairHasARow) {
     STORMCELLAR_NEED_DATA();
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(*testing::data_directory() / "mosaic-northeast"))
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(testing::real_file("mosaic-northeast")))
         files.push_back(entry.path());
-    const auto ran = compare(files, {"--json"});
-    ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto document = nlohmann::json::parse(ran.out);
+    const auto document = json_of(compare(files, {"--json"}));
     EXPECT_EQ(document["stations"].size(), 7U);
     EXPECT_GE(document["pairs"].size(), 10U);
     EXPECT_THAT(compare(files, {}).out,
@@ -105,4 +97,4 @@ TEST_F(SitePairs, OfRealSitesEachPairHasARow) {
 }
 
 }  // namespace
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

@@ -40,25 +40,21 @@ TEST(SourceNames, AnyOtherWordIsADomain) {
 }
 
 TEST(SourceNames, AMemberOfAnArchiveIsAFile) {
-    testing::TemporaryDirectory directory;
-    const std::filesystem::path before = std::filesystem::current_path();
-    std::filesystem::current_path(directory.path());
+    const testing::TemporaryDirectory directory;
+    const testing::WorkingDirectory inside(directory.path());
     std::ofstream("day.tar") << "an archive";
     const auto names = tell_apart({"day.tar!KTLX.gz"}, "", no_domain);
-    std::filesystem::current_path(before);
     ASSERT_TRUE(names) << names.error().message;
     EXPECT_THAT(names->files, ElementsAre("day.tar!KTLX.gz"));
 }
 
 TEST(SourceNames, WhatCouldBeBothIsRefused) {
-    testing::TemporaryDirectory directory;
-    const std::filesystem::path before = std::filesystem::current_path();
-    std::filesystem::current_path(directory.path());
+    const testing::TemporaryDirectory directory;
+    const testing::WorkingDirectory inside(directory.path());
     std::ofstream("KTLX") << "a file";
     const auto both = tell_apart({"KTLX"}, "", is_ktlx);
     const auto file = tell_apart({"KTLX"}, "", no_domain);
     const auto domain = tell_apart({}, "KTLX", is_ktlx);
-    std::filesystem::current_path(before);
     ASSERT_FALSE(both);
     EXPECT_EQ(both.error().code, ErrorCode::bad_argument);
     EXPECT_THAT(both.error().message, HasSubstr("./KTLX"));

@@ -11,24 +11,22 @@
 #include <unistd.h>
 
 #include "cli/query/status_source.h"
+#include "tests/cli/run_stormcellar.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using daemon::RunningDaemon;
 using daemon::write_file;
 using nlohmann::json;
 
-testing::ProgramResult status(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "status");
-    return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+testing::ProgramResult status(const Words& arguments) {
+    return run(with({"status"}, arguments));
 }
 
 // The daemon is ready once it answers.
@@ -46,9 +44,7 @@ TEST(Status, TheRunningDaemonAnswers) {
     daemon.start("[ingest]\nquiet_seconds = 1\n");
     ASSERT_TRUE(daemon.wait_for(is_asked_for_files)) << daemon.log();
     ASSERT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
-    const auto by_state = status({"--state", daemon.root() / "state", "--json"});
-    ASSERT_EQ(by_state.status, 0) << by_state.err;
-    const json document = json::parse(by_state.out);
+    const json document = json_of(status({"--state", daemon.root() / "state", "--json"}));
     EXPECT_EQ(document["source"]["answered"], true);
     EXPECT_EQ(document["source"]["from"], (daemon.root() / "state/status.sock").native());
     EXPECT_EQ(document["rejected_by"], json({{"not_level2", 1}}));

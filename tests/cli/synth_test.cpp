@@ -7,15 +7,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 
-namespace stormcellar {
+namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -24,9 +24,6 @@ constexpr const char* second_volume = "XSYN20240601_220100_V06";
 
 class Synth : public ::testing::Test {
   protected:
-    static testing::ProgramResult run(const std::vector<std::string>& arguments) {
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
-    }
     static std::string scene() {
         return (testing::source_directory() / "scenes/small-storm.toml").string();
     }
@@ -40,8 +37,8 @@ class Synth : public ::testing::Test {
     testing::TemporaryDirectory directory_;
 };
 
-std::vector<std::string> names_in(const fs::path& directory) {
-    std::vector<std::string> names;
+Words names_in(const fs::path& directory) {
+    Words names;
     for (const auto& entry : fs::directory_iterator(directory))
         names.push_back(entry.path().filename());
     std::sort(names.begin(), names.end());
@@ -53,9 +50,7 @@ TEST_F(Synth, WritesVolumesThatInfoReads) {
     ASSERT_EQ(written.status, 0) << written.err;
     EXPECT_EQ(written.out,
               at("volumes/") + first_volume + "\n" + at("volumes/") + second_volume + "\n");
-    const auto info = run({"info", at("volumes/") + second_volume, "--json"});
-    ASSERT_EQ(info.status, 0) << info.err;
-    const auto volume = nlohmann::json::parse(info.out);
+    const auto volume = json_of(run({"info", at("volumes/") + second_volume, "--json"}));
     EXPECT_EQ(volume["site"], "XSYN");
     EXPECT_EQ(volume["n_sweeps"], 3);
     EXPECT_EQ(volume["sweeps"][0]["n_radials"], 360);
@@ -64,9 +59,8 @@ TEST_F(Synth, WritesVolumesThatInfoReads) {
 }
 
 TEST_F(Synth, SaysWhatItDidAsJson) {
-    const auto result = run({"synth", scene(), "-o", at("volumes"), "--threads", "2", "--json"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto report = nlohmann::json::parse(result.out);
+    const auto report =
+        json_of(run({"synth", scene(), "-o", at("volumes"), "--threads", "2", "--json"}));
     ASSERT_EQ(report["files"].size(), 2U);
     std::uintmax_t bytes = 0;
     for (const std::string file : report["files"])
@@ -88,8 +82,7 @@ TEST_F(Synth, MistakesAreNamed) {
 }
 
 TEST_F(Synth, InterruptedKeepsWholeVolumesAndEndsByTheSignal) {
-    std::ifstream in(scene());
-    std::string toml{std::istreambuf_iterator<char>(in), {}};
+    std::string toml = testing::file_text(scene());
     toml.replace(toml.find("count = 2"), 9, "count = 9000");
     std::ofstream(at("long.toml")) << toml;
     const fs::path volumes = at("volumes");
@@ -111,8 +104,7 @@ TEST_F(Synth, ReplayDeliversTheVolumes) {
     fs::create_directory(at("drop"));
     const auto result =
         run({"replay", at("volumes"), at("drop"), "--as", "growing", "--interval", "0", "--json"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(nlohmann::json::parse(result.out)["files"], 2);
+    EXPECT_EQ(json_of(result)["files"], 2);
     EXPECT_EQ(nlohmann::json::parse(result.out)["interrupted"], false);
     EXPECT_THAT(result.err, HasSubstr("stormcellar: 2 files of 2024-06-01T22:00:00Z to "
                                       "2024-06-01T22:01:00Z; the replay takes no time\n"));
@@ -132,9 +124,7 @@ TEST_F(Synth, ReplayMakesChunksWithFaultsAndNamesEachOne) {
         return run({"replay", at("volumes"), at(drop), "--as", "chunks", "--speed", "1000000",
                     "--faults", "drop=0.3,truncate=0.3,seed=3", "--json"});
     };
-    const auto result = play("drop");
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto report = nlohmann::json::parse(result.out);
+    const auto report = json_of(play("drop"));
     ASSERT_FALSE(report["faults"].empty());
     std::size_t dropped = 0;
     for (const auto& made : report["faults"]) {
@@ -210,4 +200,4 @@ TEST_F(Synth, AnInterruptedReplayNamesTheUnfinishedFile) {
 }
 
 }  // namespace
-}  // namespace stormcellar
+}  // namespace stormcellar::cli

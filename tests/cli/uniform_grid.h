@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "stormcellar/cache/store.h"
 #include "stormcellar/grid/brick_grid.h"
 
@@ -22,10 +24,11 @@ inline grid::Grid uniform_grid(const std::string& compact_time, float dbz, int c
     return grid;
 }
 
-inline Result<std::filesystem::path> commit_grid(cache::StoreWriter& store,
-                                                 const grid::Grid& grid) {
+inline std::filesystem::path commit_grid(cache::StoreWriter& store, const grid::Grid& grid) {
     const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
-    return store.commit("KBGM", cache::describe(grid), bricks.view());
+    const auto path = store.commit("KBGM", cache::describe(grid), bricks.view());
+    EXPECT_TRUE(path) << path.error().message;
+    return path ? *path : std::filesystem::path{};
 }
 
 }  // namespace stormcellar::testing

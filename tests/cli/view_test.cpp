@@ -17,8 +17,6 @@
 namespace stormcellar::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 // Sets a variable of the environment for as long as it lives.
 class Environment {
   public:

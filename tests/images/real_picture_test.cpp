@@ -16,7 +16,7 @@ namespace {
 
 void expect_reference(const std::string& file, const render::Scene& scene,
                       const std::string& name) {
-    auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / file);
+    auto decoded = level2::decode_file(testing::real_file("volumes") / file);
     ASSERT_TRUE(decoded) << decoded.error().message;
     const level2::Volume& volume = decoded->volume;
     const auto antenna = level2::antenna_position(volume);

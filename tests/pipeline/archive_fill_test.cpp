@@ -16,7 +16,6 @@
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -196,8 +195,8 @@ TEST_F(ArchiveFillTest, WhatIsNotTheFileThatWasCatalogedIsNamedAndLeftOut) {
     fs::create_symlink(directory_ / "elsewhere", raw(sequence[0]));
     // Another volume, which is as good, of the same size.
     const auto size = fs::file_size(raw(sequence[1]));
-    fs::copy_file(*testing::data_directory() / "sequence-kbgm" / "KBGM20050822_030830.gz",
-                  raw(sequence[1]), fs::copy_options::overwrite_existing);
+    fs::copy_file(testing::real_file("sequence-kbgm/KBGM20050822_030830.gz"), raw(sequence[1]),
+                  fs::copy_options::overwrite_existing);
     fs::permissions(raw(sequence[1]), fs::perms::owner_write, fs::perm_options::add);
     fs::resize_file(raw(sequence[1]), size);
     cache::StoreWriter filled = store("filled");

@@ -177,7 +177,7 @@ TEST_F(BetweenGridsTest, AGridThatDoesNotVerifyIsAnErrorOfItsFrames) {
     commit(0);
     commit(300);
     BetweenGrids between = open();
-    std::filesystem::resize_file(*store_.path_of("KTLX", moment, at(300)), 1000);
+    fs::resize_file(*store_.path_of("KTLX", moment, at(300)), 1000);
     EXPECT_FALSE(between.at(at(150)));
     std::vector<std::string> problems;
     ASSERT_TRUE(BetweenGrids::open(store_, "KTLX", moment, {}, problems));
@@ -198,8 +198,8 @@ class BetweenMosaics : public ::testing::Test {
         for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
             level2::DecodeOptions options;
             options.fallback_station = "KBGM";
-            auto decoded = level2::decode(
-                *read_file(*testing::data_directory() / "sequence-kbgm" / name), options);
+            auto decoded =
+                level2::decode(*read_file(testing::real_file("sequence-kbgm") / name), options);
             ASSERT_TRUE(decoded);
             const auto antenna = level2::antenna_position(decoded->volume);
             const grid::SitePosition site{"KBGM", antenna->latitude_deg, antenna->longitude_deg,
@@ -248,7 +248,7 @@ TEST_F(BetweenMosaics, WithoutTheSitesGridsThereIsNothingBetween) {
     const auto partials = store_.list("north.KBGM", moment, {}, {});
     for (const cache::StoreEntry& entry : *partials)
         ASSERT_TRUE(store_.remove(entry));
-    std::filesystem::remove_all(directory_ / "cache" / "north.KBGM");
+    fs::remove_all(directory_ / "cache" / "north.KBGM");
     const auto between = BetweenGrids::open(store_, "north", moment, {}, problems_);
     ASSERT_FALSE(between);
     EXPECT_THAT(between.error().message, HasSubstr("does not have the grids of north's sites"));

@@ -14,11 +14,11 @@
 #include "stormcellar/catalog/catalog.h"
 #include "stormcellar/level2/chunk_directory.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using catalog::CatalogReader;
 using catalog::CatalogWriter;
 using catalog::FileState;
@@ -27,8 +27,10 @@ class ChunkFiles : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
+        rebuild_.catalog = directory_ / "catalog";
+        rebuild_.drop = directory_ / "drop";
         fs::create_directories(drop_.parent_path());
-        fs::copy(*testing::data_directory() / "chunks/OPENRADAR_KLOT", drop_);
+        fs::copy(testing::real_file("chunks/OPENRADAR_KLOT"), drop_);
         for (const auto& entry : fs::directory_iterator(drop_))
             paths_.push_back(entry.path());
         std::sort(paths_.begin(), paths_.end());
@@ -49,7 +51,12 @@ class ChunkFiles : public ::testing::Test {
         for (const catalog::CatalogEntry& row : *rows)
             EXPECT_EQ(row.state, FileState::complete) << row.path;
     }
+    [[nodiscard]] CatalogReader rebuilt() const {
+        EXPECT_TRUE(rebuild_catalog(rebuild_));
+        return *CatalogReader::open(rebuild_.catalog);
+    }
     testing::TemporaryDirectory directory_;
+    RebuildOptions rebuild_;
     fs::path drop_ = directory_ / "drop/KLOT";
     std::vector<fs::path> paths_;
 };
@@ -66,7 +73,7 @@ TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
     fs::create_directories(drop_);
     for (std::size_t i = 0; i < paths_.size(); ++i) {
         const fs::path& path = paths_[i];
-        fs::copy_file(*testing::data_directory() / "chunks/OPENRADAR_KLOT" / path.filename(), path);
+        fs::copy_file(testing::real_file("chunks/OPENRADAR_KLOT") / path.filename(), path);
         const auto outcome = ingestor.ingest(path, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
         if (outcome->result() == IngestResult::incomplete) {
@@ -81,27 +88,20 @@ TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
 }
 
 TEST_F(ChunkFiles, ARebuiltCatalogHasTheVolumeAndNotItsParts) {
-    RebuildOptions options;
-    options.catalog = directory_ / "catalog";
-    options.drop = directory_ / "drop";
-    const auto report = rebuild_catalog(options);
+    const auto report = rebuild_catalog(rebuild_);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->files, paths_.size());
     EXPECT_TRUE(report->problems.empty());
-    CatalogWriter catalog = *CatalogWriter::open(options.catalog);
+    CatalogWriter catalog = *CatalogWriter::open(rebuild_.catalog);
     expect_one_volume(catalog);
-    const auto again = rebuild_catalog(options);
+    const auto again = rebuild_catalog(rebuild_);
     ASSERT_TRUE(again);
     EXPECT_EQ(again->unchanged, paths_.size());
 }
 
 // 2026-11-24: chunks were joined as they lay there, whatever had taken their places.
 TEST_F(ChunkFiles, AVolumeIsReadAgainFromTheChunksThatWereCataloged) {
-    RebuildOptions options;
-    options.catalog = directory_ / "catalog";
-    options.drop = directory_ / "drop";
-    ASSERT_TRUE(rebuild_catalog(options));
-    CatalogReader catalog = *CatalogReader::open(options.catalog);
+    const CatalogReader catalog = rebuilt();
     const auto entry = catalog.latest("KLOT")->value();
     const auto whole = read_cataloged_volume(catalog, entry);
     ASSERT_TRUE(whole) << whole.error().message;
@@ -149,9 +149,7 @@ TEST_F(ChunkFiles, AChunkThatItsFileHoldsTwiceIsReadOnce) {
     ASSERT_TRUE(whole) << whole.error().message;
     for (const fs::path& path : paths_) {
         const auto bytes = read_file(path).value();
-        std::ofstream(path, std::ios::binary | std::ios::app)
-            .write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
+        testing::append_to(path, bytes);
     }
     take_all();
     take_all();
@@ -164,11 +162,7 @@ TEST_F(ChunkFiles, AChunkThatItsFileHoldsTwiceIsReadOnce) {
 
 // An archive's grids are made only of files that were cataloged, also if these are chunks.
 TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
-    RebuildOptions options;
-    options.catalog = directory_ / "catalog";
-    options.drop = directory_ / "drop";
-    ASSERT_TRUE(rebuild_catalog(options));
-    CatalogReader catalog = *CatalogReader::open(options.catalog);
+    const CatalogReader catalog = rebuilt();
     const auto start = *catalog.latest("KLOT")->value().volume.start_time;
     const auto volumes = archive_volumes(catalog, {"KLOT"}, {start, start, false});
     ArchiveOptions coarse;
@@ -195,11 +189,7 @@ TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
 TEST_F(ChunkFiles, AVolumeWithoutItsEndIsRebuiltAsPartial) {
     for (std::size_t i = 20; i < paths_.size(); ++i)
         fs::remove(paths_[i]);
-    RebuildOptions options;
-    options.catalog = directory_ / "catalog";
-    options.drop = directory_ / "drop";
-    ASSERT_TRUE(rebuild_catalog(options));
-    CatalogReader catalog = *CatalogReader::open(options.catalog);
+    const CatalogReader catalog = rebuilt();
     const auto volumes = catalog.list("KLOT", {});
     ASSERT_EQ(volumes->size(), 1U);
     EXPECT_EQ(volumes->at(0).state, FileState::partial);

@@ -9,11 +9,11 @@
 #include "stormcellar/cache/store.h"
 #include "tests/level2/wire.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 namespace wire = level2::wire;
 using catalog::FileState;
 
@@ -61,9 +61,7 @@ class Claims : public ::testing::Test {
     [[nodiscard]] fs::path drop() const { return directory_ / "drop"; }
     fs::path put(const std::string& name, const wire::Bytes& bytes) {
         fs::create_directories((drop() / name).parent_path());
-        std::ofstream(drop() / name, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
+        testing::write_bytes(drop() / name, bytes);
         return drop() / name;
     }
     Ingestor& with(std::shared_ptr<StationRule> stations) {

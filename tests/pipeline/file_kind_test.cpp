@@ -11,6 +11,7 @@
 
 #include "stormcellar/base/file_system.h"
 #include "tests/level2/wire.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
@@ -29,17 +30,13 @@ class FileKindTest : public ::testing::Test {
         options.most_file_bytes = 1000;
         context_.emplace(*catalog_, &*store_, options);
     }
-    [[nodiscard]] std::filesystem::path at(const std::string& name) const {
-        return directory_ / "drop" / name;
-    }
+    [[nodiscard]] fs::path at(const std::string& name) const { return directory_ / "drop" / name; }
     // Nothing but the header of a volume: it must grow.
-    std::filesystem::path put(const std::string& name, std::size_t more_bytes = 0) {
-        std::filesystem::create_directories(at(name).parent_path());
+    fs::path put(const std::string& name, std::size_t more_bytes = 0) {
+        fs::create_directories(at(name).parent_path());
         const level2::wire::Bytes header = level2::wire::archive_header();
-        std::ofstream file(at(name), std::ios::binary);
-        file.write(reinterpret_cast<const char*>(header.data()),
-                   static_cast<std::streamsize>(header.size()));
-        file << std::string(more_bytes, 'x');
+        testing::write_bytes(at(name), header);
+        testing::append_to(at(name), std::vector<std::byte>(more_bytes));
         return at(name);
     }
     [[nodiscard]] FileKind kind(const OfferedFile& file) {
@@ -71,8 +68,8 @@ TEST_F(FileKindTest, AChunkIsToldByItsName) {
     const FileStamp stamp = stamp_of(file.path).value();
     EXPECT_TRUE(std::holds_alternative<Growing>(kind_by_itself(*context_, file, stamp)))
         << "where it turns out to be none";
-    std::filesystem::remove(file.path);
-    std::filesystem::create_directory(file.path);
+    fs::remove(file.path);
+    fs::create_directory(file.path);
     EXPECT_TRUE(is<Whole>(file)) << "a directory is rejected as a whole file is";
 }
 

@@ -12,6 +12,7 @@
 #include "pipeline/mosaic/instant_cache.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/level2/decode.h"
+#include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -25,11 +26,7 @@ using std::chrono::minutes;
 const UtcTime instant = *parse_utc("2010-09-11T01:20:00Z", UtcTime{});
 
 grid::GridSpec domain() {
-    grid::GridSpec spec = grid::default_spec(41.4, -75.6);
-    spec.nx = spec.ny = 220;
-    spec.spacing_m = 4000;
-    spec.levels_m = {1000, 2000, 3000, 5000, 8000};
-    return spec;
+    return coarse_spec(41.4, -75.6, 220);
 }
 
 // A partial, and the time of its volume's middle relative to the instant.
@@ -55,7 +52,7 @@ void shift(cache::GridDescription& description, milliseconds by) {
 MadePartial make(const Source& source, GeometryCache& geometries) {
     level2::DecodeOptions decoding;
     decoding.fallback_station = source.icao;
-    auto decoded = level2::decode(*read_file(*testing::data_directory() / source.file), decoding);
+    auto decoded = level2::decode(*read_file(testing::real_file(source.file)), decoding);
     const auto antenna = level2::antenna_position(decoded->volume);
     PartialOptions options;
     options.quantization = grid::default_quantization(level2::Moment::ref);

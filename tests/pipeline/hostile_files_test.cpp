@@ -10,12 +10,12 @@
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/store.h"
 #include "tests/level2/wire.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 namespace wire = level2::wire;
 
 class Hostile : public ::testing::Test {
@@ -28,9 +28,7 @@ class Hostile : public ::testing::Test {
     [[nodiscard]] fs::path outside() const { return directory_ / "outside"; }
     static fs::path put(const fs::path& path, std::span<const std::byte> bytes) {
         fs::create_directories(path.parent_path());
-        std::ofstream(path, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
+        testing::write_bytes(path, bytes);
         return path;
     }
     IngestOptions options() {

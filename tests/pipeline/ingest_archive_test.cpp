@@ -17,11 +17,11 @@
 #include "stormcellar/catalog/read_cataloged.h"
 #include "tests/archive/archive_maker.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using catalog::CatalogEntry;
 using catalog::FileState;
 using ::testing::HasSubstr;
@@ -30,7 +30,7 @@ class IngestArchiveTest : public SmallHouse {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
     static std::vector<std::byte> real(const std::string& name) {
-        return read_file(*testing::data_directory() / "sequence-kbgm" / name).value();
+        return read_file(testing::real_file("sequence-kbgm") / name).value();
     }
     static std::vector<archive::Put> two_volumes() {
         return {{"order/KBGM20050822_024414.gz", real("KBGM20050822_024414.gz")},
@@ -38,10 +38,16 @@ class IngestArchiveTest : public SmallHouse {
                 {"order/KBGM20050822_025549.gz", real("KBGM20050822_025549.gz")}};
     }
     fs::path put(const std::string& name, const std::vector<std::byte>& bytes) {
-        std::ofstream(directory_ / name, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
+        testing::write_bytes(directory_ / name, bytes);
         return directory_ / name;
+    }
+    fs::path put_two_volumes() {
+        return put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    }
+    static IngestOptions one_member_a_turn() {
+        IngestOptions options = small_grid();
+        options.archive_turn = std::chrono::milliseconds{0};
+        return options;
     }
     std::vector<CatalogEntry> volumes() { return catalog_.list("KBGM", {}).value(); }
     std::size_t grid_count() { return grids("KBGM").size(); }
@@ -96,8 +102,7 @@ TEST_F(IngestArchiveTest, TheSecondMemberOfANameIsReadAgain) {
 
 // 2026-11-29: each member was missing.
 TEST_F(IngestArchiveTest, ACatalogWithMembersIsSound) {
-    const fs::path path =
-        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    const fs::path path = put_two_volumes();
     ASSERT_TRUE(ingestor_.ingest(path, false));
     const auto check = catalog::check_catalog(directory_ / "catalog", "");
     ASSERT_TRUE(check) << check.error().message;
@@ -121,8 +126,7 @@ TEST_F(IngestArchiveTest, MembersOfAnArchiveThatWasReplacedAreGone) {
 
 // 2026-11-29: the archive was settled, so the rows of its members were lost for good.
 TEST_F(IngestArchiveTest, RowsOfMembersThatWereLostAreMadeAgain) {
-    const fs::path path =
-        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    const fs::path path = put_two_volumes();
     ASSERT_TRUE(ingestor_.ingest(path, false));
     fs::remove(directory_ / "catalog" / "KBGM.sqlite");
     EXPECT_FALSE(catalog_.list("KBGM", {})) << "this is when the loss is noticed";
@@ -135,8 +139,7 @@ TEST_F(IngestArchiveTest, RowsOfMembersThatWereLostAreMadeAgain) {
 
 // 2026-11-28: the log said that the raw file is gone or has changed.
 TEST_F(IngestArchiveTest, AGridOfAMemberIsNotMadeAgain) {
-    ASSERT_TRUE(ingestor_.ingest(
-        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes())), false));
+    ASSERT_TRUE(ingestor_.ingest(put_two_volumes(), false));
     const auto grid = grids("KBGM").at(0);
     fs::resize_file(grid.path, 5000);
     CacheMender mender(catalog_, store_, ingestor_, {level2::Moment::ref});
@@ -170,11 +173,8 @@ TEST_F(IngestArchiveTest, OfOneThatStaysCutWhatIsWholeIsTaken) {
 }
 
 TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
-    IngestOptions options = small_grid();
-    options.archive_turn = std::chrono::milliseconds{0};
-    Ingestor by_turns(catalog_, store_, options);
-    const fs::path path =
-        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    Ingestor by_turns(catalog_, store_, one_member_a_turn());
+    const fs::path path = put_two_volumes();
     EXPECT_EQ(by_turns.ingest(path, false)->result(), IngestResult::incomplete);
     EXPECT_EQ(grid_count(), 1U);
     int turns = 1;
@@ -187,11 +187,8 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
 
 // 2026-11-29: the members behind a read error, which passed, were lost for good.
 TEST_F(IngestArchiveTest, OneThatCannotBeReadForNowIsNotSettled) {
-    IngestOptions options = small_grid();
-    options.archive_turn = std::chrono::milliseconds{0};
-    Ingestor by_turns(catalog_, store_, options);
-    const fs::path path =
-        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    Ingestor by_turns(catalog_, store_, one_member_a_turn());
+    const fs::path path = put_two_volumes();
     EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::incomplete);
     // Reading from a descriptor for writing fails.
     const Descriptor unreadable{::open("/dev/null", O_WRONLY | O_CLOEXEC)};
@@ -212,9 +209,7 @@ TEST_F(IngestArchiveTest, OneThatCannotBeReadForNowIsNotSettled) {
 
 // 2026-11-28: of five that waited, each was closed before its next turn, and none came further.
 TEST_F(IngestArchiveTest, ManyLongOnesComeToTheirEnds) {
-    IngestOptions options = small_grid();
-    options.archive_turn = std::chrono::milliseconds{0};
-    Ingestor by_turns(catalog_, store_, options);
+    Ingestor by_turns(catalog_, store_, one_member_a_turn());
     std::vector<fs::path> waiting;
     for (int i = 0; i < 5; ++i)
         waiting.push_back(put(fmt::format("order{}.tar", i),
@@ -229,9 +224,7 @@ TEST_F(IngestArchiveTest, ManyLongOnesComeToTheirEnds) {
 }
 
 TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
-    IngestOptions options = small_grid();
-    options.archive_turn = std::chrono::milliseconds{0};
-    Ingestor by_turns(catalog_, store_, options);
+    Ingestor by_turns(catalog_, store_, one_member_a_turn());
     for (const auto kind : {archive::Kind::tar_gz, archive::Kind::tar_bz2}) {
         const fs::path path = put("order.tar.packed", archive::make_archive(kind, two_volumes()));
         int turns = 1;
@@ -248,8 +241,7 @@ TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
 }
 
 TEST_F(IngestArchiveTest, ItsRowsAreGoneWhenItIs) {
-    const fs::path path =
-        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    const fs::path path = put_two_volumes();
     ASSERT_TRUE(ingestor_.ingest(path, false));
     EXPECT_EQ(catalog_.mark_missing(directory_.path()).value(), 0);
     fs::remove(path);
@@ -268,7 +260,7 @@ TEST_F(IngestArchiveTest, AStationOfNoTableStandsWhereItsFilesSay) {
     ASSERT_TRUE(place);
     EXPECT_NEAR(place->latitude_deg, 35.33, 0.01);
     EXPECT_FALSE(place_of_station(catalog_, "NOP4"));
-    const fs::path file = *testing::data_directory() / "cases/1-segfault-center/drop";
+    const fs::path file = testing::real_file("cases/1-segfault-center/drop");
     if (!fs::exists(file)) GTEST_SKIP() << "no cases beside the real volumes";
     ASSERT_TRUE(ingestor_.ingest(file / "NOP420170101_030027_V06", true));
     const auto found = place_of_station(catalog_, "NOP4");

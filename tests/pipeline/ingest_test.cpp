@@ -10,16 +10,15 @@
 #include "stormcellar/cache/grid_file.h"
 #include "tests/level2/wire.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using catalog::FileState;
 
 class IngestTest : public SmallHouse {
   protected:
-    fs::path real(const std::string& name) { return *testing::data_directory() / name; }
     fs::path write(const std::string& name, const std::string& text) {
         std::ofstream(directory_ / name, std::ios::binary) << text;
         return directory_ / name;
@@ -42,7 +41,7 @@ class IngestTest : public SmallHouse {
 
 TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
     STORMCELLAR_NEED_DATA();
-    const fs::path path = real("sequence-kbgm/KBGM20050822_024414.gz");
+    const fs::path path = testing::real_file("sequence-kbgm/KBGM20050822_024414.gz");
     const auto outcome = ingestor_.ingest(path, false);
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(outcome->result(), IngestResult::gridded);
@@ -65,7 +64,7 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     const fs::path path = directory_ / "KBGM20050822_024414.gz";
     EXPECT_EQ(ingestor_.note(path).value(), Noted::gone);
     EXPECT_TRUE(catalog_.station_names()->empty());
-    fs::copy_file(real("sequence-kbgm/KBGM20050822_024414.gz"), path);
+    fs::copy_file(testing::real_file("sequence-kbgm/KBGM20050822_024414.gz"), path);
     EXPECT_EQ(ingestor_.note(path).value(), Noted::stands);
     EXPECT_EQ(only_entry("KBGM").state, FileState::seen);
     EXPECT_EQ(only_entry("KBGM").size_bytes, fs::file_size(path));
@@ -89,7 +88,7 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
 TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
     STORMCELLAR_NEED_DATA();
     const auto troubles_of = [&](const std::string& name, const std::string& station) {
-        const auto outcome = ingestor_.ingest(real(name), false);
+        const auto outcome = ingestor_.ingest(testing::real_file(name), false);
         EXPECT_TRUE(outcome) << outcome.error().message;
         const auto file = cache::GridFile::open(grids(station).at(0).path);
         return file->description().provenance.radar_troubles;
@@ -106,23 +105,27 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
     budgets.total.age = std::chrono::minutes{10};
     auto store = *cache::RollingStore::open(real_file_system(), directory_ / "rolling", budgets);
     Ingestor ingestor(catalog_, store, small_grid());
-    EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_030830.gz"), false)->grids.size(),
+    EXPECT_EQ(ingestor.ingest(testing::real_file("sequence-kbgm/KBGM20050822_030830.gz"), false)
+                  ->grids.size(),
               1U);
-    const auto old = ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false);
+    const auto old =
+        ingestor.ingest(testing::real_file("sequence-kbgm/KBGM20050822_024414.gz"), false);
     ASSERT_TRUE(old) << old.error().message;
     EXPECT_EQ(old->result(), IngestResult::gridded);
     EXPECT_EQ(old->not_kept, 1);
     EXPECT_TRUE(old->grids.empty());
     EXPECT_EQ(old->grid_s, 0);
     EXPECT_EQ(old->reason, "no grid was kept: it would be older than all that the cache keeps");
-    EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false)->result(),
+    EXPECT_EQ(ingestor.ingest(testing::real_file("sequence-kbgm/KBGM20050822_024414.gz"), false)
+                  ->result(),
               IngestResult::unchanged);
 }
 
 // golden: 4 volumes in one file
 TEST_F(IngestTest, FileOfSeveralVolumesGivesAGridForEach) {
     STORMCELLAR_NEED_DATA();
-    const auto outcome = ingestor_.ingest(real("volumes/KBBX20060113_170337.gz"), true);
+    const auto outcome =
+        ingestor_.ingest(testing::real_file("volumes/KBBX20060113_170337.gz"), true);
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(outcome->grids.size(), 4U);
     EXPECT_EQ(grids("KBBX").size(), 4U);
@@ -132,10 +135,8 @@ TEST_F(IngestTest, FileOfSeveralVolumesGivesAGridForEach) {
 TEST_F(IngestTest, VolumeThatHasNotEndedWaitsUntilItIsFinished) {
     STORMCELLAR_NEED_DATA();
     std::string bytes;
-    for (const char* chunk : {"001-S", "002-I", "003-I"}) {
-        std::ifstream file(real("chunks/KLOT_34/20201019-054806-") += chunk, std::ios::binary);
-        bytes.append(std::istreambuf_iterator<char>(file), {});
-    }
+    for (const std::string chunk : {"001-S", "002-I", "003-I"})
+        bytes += testing::file_text(testing::real_file("chunks/KLOT_34/20201019-054806-" + chunk));
     const fs::path path = write("KLOT20201019_054806_V06", bytes);
     EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::incomplete);
     EXPECT_EQ(only_entry("KLOT").state, FileState::seen);
@@ -149,7 +150,8 @@ TEST_F(IngestTest, VolumeThatHasNotEndedWaitsUntilItIsFinished) {
 
 TEST_F(IngestTest, VolumeWithoutRadialsIsPartialAndHasNoGrid) {
     STORMCELLAR_NEED_DATA();
-    const auto outcome = ingestor_.ingest(real("volumes/KFDR20160420_214957_V06.gz"), true);
+    const auto outcome =
+        ingestor_.ingest(testing::real_file("volumes/KFDR20160420_214957_V06.gz"), true);
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(outcome->result(), IngestResult::no_moment);
     EXPECT_EQ(only_entry("KFDR").state, FileState::partial);

@@ -27,9 +27,9 @@ TEST(InstanceLock, ASecondDaemonIsToldWhoHasIt) {
 
 TEST(InstanceLock, NeverFollowsALink) {
     const testing::TemporaryDirectory state, elsewhere;
-    std::filesystem::create_symlink(elsewhere / "victim", state / "stormcellard.lock");
+    fs::create_symlink(elsewhere / "victim", state / "stormcellard.lock");
     EXPECT_FALSE(InstanceLock::acquire(state.path()));
-    EXPECT_FALSE(std::filesystem::exists(elsewhere / "victim"));
+    EXPECT_FALSE(fs::exists(elsewhere / "victim"));
 }
 
 TEST(InstanceLock, AMissingDirectoryIsAnError) {

@@ -31,8 +31,7 @@ TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
     const IngestOutcome last = take(house_, names_.size() - 1);
     EXPECT_EQ(last.result(), IngestResult::gridded);
     EXPECT_EQ(last.station, "KLOT");
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
     for (std::size_t i = 0; i < names_.size(); ++i)
         EXPECT_EQ(take(house_, i, true).result(), IngestResult::unchanged) << i;
 }
@@ -101,8 +100,7 @@ TEST_F(LivingChunks, MayComeInAnyOrder) {
     for (std::size_t i = 0; i + 1 < order.size(); ++i)
         EXPECT_NE(take(house_, order[i]).result(), IngestResult::gridded) << order[i];
     EXPECT_EQ(take(house_, order.back()).result(), IngestResult::gridded);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 TEST_F(LivingChunks, AreTakenUpByAnotherProcess) {
@@ -111,8 +109,7 @@ TEST_F(LivingChunks, AreTakenUpByAnotherProcess) {
     begin_again_with(most_shelf_bytes);
     for (std::size_t i = 30; i < names_.size(); ++i)
         take(house_, i);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
@@ -125,8 +122,7 @@ TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
     EXPECT_TRUE(partial.partial);
     EXPECT_NE(partial.reason.find("missing chunks: 21"), std::string::npos) << partial.reason;
     EXPECT_EQ(take(house_, 20).result(), IngestResult::gridded);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 // 2026-11-23: a volume is named by its first radial until its header comes, and stayed under both.
@@ -146,8 +142,7 @@ TEST_F(LivingChunks, TheBeginningThatComesLateLeavesNoOtherGrid) {
     EXPECT_TRUE(fs::remove(beside));
     ASSERT_EQ(house_.grids("KLOT").size(), 1U);
     EXPECT_LT(house_.grids("KLOT")[0].time, first_radial);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 TEST_F(LivingChunks, ALateOneThatDoesNotMakeItWholeIsGriddedToo) {
@@ -315,8 +310,7 @@ TEST_F(LivingChunks, AVolumeThatWasGivenUpIsGriddedWhenItsEndComes) {
         given_up += take(house_, i).given_up;
     EXPECT_EQ(given_up, 1U);
     EXPECT_EQ(take(house_, names_.size() - 1).result(), IngestResult::gridded);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
@@ -329,8 +323,7 @@ TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
     begin_again_with(most_shelf_bytes);
     for (; next < names_.size(); ++next)
         EXPECT_EQ(take(house_, next).given_up, 0U);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
@@ -364,8 +357,7 @@ TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
     for (std::thread& worker : workers)
         worker.join();
     EXPECT_EQ(gridded, 1);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 // 2026-11-22: a chunk that could not be read counted as none, and what lay beside the first one as
@@ -394,8 +386,7 @@ TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
         EXPECT_NE(outcome.error().message.find("Too many open files"), std::string::npos)
             << outcome.error().message;
     }
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
 }
 
 // After a power cut: the newest chunk is empty and is the first that is looked at.
@@ -427,8 +418,7 @@ TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
     for (std::thread& worker : workers)
         worker.join();
     EXPECT_EQ(gridded, 1);
-    expect_same_cells(house_);
-    expect_one_volume(house_);
+    expect_the_whole_volume_once();
     for (const std::string& name : names_) {
         EXPECT_EQ(house_.ingestor->ingest(drop_ / name, true)->result(), IngestResult::unchanged);
     }

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <span>
@@ -25,24 +24,19 @@
 #include "stormcellar/catalog/catalog.h"
 #include "synth/replay_pieces.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::pipeline {
-
-namespace fs = std::filesystem;
 
 inline constexpr const char* busy = "volumes/KLOT20220317_000842_V06";
 // A day number for all files, so that grids made at different times are the same to the byte.
 inline constexpr std::int64_t file_time_s = 1'650'000'000;
 
 inline std::vector<std::byte> real_bytes(const std::string& name) {
-    return *read_file(*testing::data_directory() / name);
+    return *read_file(testing::real_file(name));
 }
 
-inline void append_to(const fs::path& path, std::span<const std::byte> bytes) {
-    std::ofstream(path, std::ios::binary | std::ios::app)
-        .write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-}
+using testing::append_to;
 
 inline void date(const fs::path& path) {
     const std::array<timespec, 2> times = {timespec{file_time_s, 0}, timespec{file_time_s, 0}};
@@ -154,6 +148,10 @@ class LivingChunks : public Living {
         EXPECT_EQ(volumes->at(0).generation, 0);
         const auto rows = house.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
         EXPECT_EQ(rows->size(), names_.size());
+    }
+    void expect_the_whole_volume_once() {
+        expect_same_cells(house_);
+        expect_one_volume(house_);
     }
     fs::path drop_ = directory_ / "drop/KLOT/494";
     std::int64_t came_ = 0;  // each a second after the one before

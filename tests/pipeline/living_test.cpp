@@ -331,8 +331,7 @@ TEST_F(Living, GrowthIsToldByTheRecords) {
     EXPECT_TRUE(FollowedFile::growing(path));
     append_to(path, std::span{bytes}.subspan(1'000'024));
     EXPECT_FALSE(FollowedFile::growing(path));  // whole: its last record says so
-    EXPECT_FALSE(
-        FollowedFile::growing(*testing::data_directory() / "volumes/KLIX20050828_180149.gz"));
+    EXPECT_FALSE(FollowedFile::growing(testing::real_file("volumes/KLIX20050828_180149.gz")));
     EXPECT_FALSE(FollowedFile::growing(directory_.path()));
     EXPECT_FALSE(FollowedFile::growing(directory_ / "nothing"));
 }

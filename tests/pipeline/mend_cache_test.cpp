@@ -8,12 +8,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "tests/pipeline/small_domain.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using std::chrono::hours;
 using std::chrono::minutes;
 
@@ -21,13 +22,11 @@ class MendCache : public SmallHouse {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
 
-    void take_in(int volumes) {
-        int taken = 0;
-        for (const char* name :
-             {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz", "KBGM20050822_025549.gz"}) {
-            if (taken++ == volumes) return;
+    void take_in(std::size_t volumes) {
+        for (std::size_t i = 0; i < volumes; ++i) {
+            const std::string& name = sequence[i];
             const fs::path raw = directory_ / name;
-            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw);
+            fs::copy_file(testing::real_file("sequence-kbgm") / name, raw);
             const auto outcome = ingestor_.ingest(raw, false);
             ASSERT_TRUE(outcome) << outcome.error().message;
             ASSERT_EQ(outcome->result(), IngestResult::gridded) << outcome->reason;
@@ -40,13 +39,6 @@ class MendCache : public SmallHouse {
             ASSERT_TRUE(file) << file.error().message;
             EXPECT_TRUE(file->verify());
         }
-    }
-    static void alter_last_byte_of(const fs::path& path) {
-        auto bytes = *read_file(path);
-        bytes.back() ^= std::byte{1};
-        std::ofstream(path, std::ios::binary | std::ios::trunc)
-            .write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
     }
     CacheMender mender_{catalog_, store_, ingestor_, {level2::Moment::ref}};
 };
@@ -73,7 +65,7 @@ TEST_F(MendCache, EachOfSeveralMomentsIsMadeAgain) {
     Ingestor both(catalog_, store_, options);
     CacheMender mender(catalog_, store_, both, options.moments);
     const fs::path raw = directory_ / "KLOT20220317_000842_V06";
-    fs::copy_file(*testing::data_directory() / "volumes/KLOT20220317_000842_V06", raw);
+    fs::copy_file(testing::real_file("volumes/KLOT20220317_000842_V06"), raw);
     fs::permissions(raw, fs::perms::owner_write, fs::perm_options::add);
     ASSERT_EQ(both.ingest(raw, true)->grids.size(), 2U);
     const auto velocities = [&] {
@@ -101,7 +93,7 @@ TEST_F(MendCache, EachOfSeveralMomentsIsMadeAgain) {
 TEST_F(MendCache, AnAlteredCodeIsFoundWhenAllIsRead) {
     take_in(1);
     const auto grid = grids("KBGM").at(0);
-    alter_last_byte_of(grid.path);
+    testing::alter_last_byte_of(grid.path);
     EXPECT_EQ(mender_.mend(grid, MendDepth::header)->condition, GridCondition::sound);
     EXPECT_EQ(mender_.mend(grid, MendDepth::all)->condition, GridCondition::made_again);
     expect_all_good(1);
@@ -125,7 +117,7 @@ TEST_F(MendCache, AnotherFileOfTheSameSizeAndTimeIsNotTheOneThatWasCataloged) {
     take_in(2);
     for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
         const auto time = fs::last_write_time(directory_ / name);
-        alter_last_byte_of(directory_ / name);
+        testing::alter_last_byte_of(directory_ / name);
         fs::last_write_time(directory_ / name, time);
     }
     const auto first = grids("KBGM").at(0), second = grids("KBGM").at(1);
@@ -170,9 +162,7 @@ TEST_F(MendCache, WhatIsOfALaterVersionIsLeftAlone) {
     const auto grid = grids("KBGM").at(0);
     auto bytes = *read_file(grid.path);
     bytes[12] = std::byte{9};  // the version
-    std::ofstream(grid.path, std::ios::binary | std::ios::trunc)
-        .write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
+    testing::write_bytes(grid.path, bytes);
     EXPECT_EQ(mender_.mend(grid, MendDepth::all)->condition, GridCondition::left_alone);
     EXPECT_TRUE(fs::exists(grid.path));
 }
@@ -224,9 +214,8 @@ class MendMosaic : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        for (const char* name :
-             {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz", "KBGM20050822_025549.gz"}) {
-            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, directory_ / name);
+        for (const std::string& name : sequence) {
+            fs::copy_file(testing::real_file("sequence-kbgm") / name, directory_ / name);
             ASSERT_TRUE(ingestor_.ingest(directory_ / name, false));
         }
         ASSERT_EQ(partials().size(), 3U);
@@ -257,13 +246,6 @@ class MendMosaic : public ::testing::Test {
         for (const auto& [path, codes] : good_)
             EXPECT_EQ(codes_of(path), codes) << path;
     }
-    static void alter_last_byte_of(const fs::path& path) {
-        std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
-        file.seekg(-1, std::ios::end);
-        const char last = static_cast<char>(file.get() ^ 1);
-        file.seekp(-1, std::ios::end);
-        file.put(last);
-    }
     // Mends as after a restart: nothing that was made before is left in memory.
     Result<MendedGrid> mend_afresh(const cache::StoreEntry& entry, MendDepth depth) {
         Ingestor ingestor(catalog_, store_, with_domain());
@@ -273,13 +255,7 @@ class MendMosaic : public ::testing::Test {
         IngestOptions options;
         options.spacing_m = 8000;
         options.nx = options.ny = 60;
-        Domain domain;
-        domain.name = "north";
-        domain.spec = grid::default_spec(42.2, -75.9);
-        domain.spec.nx = domain.spec.ny = 100;
-        domain.spec.spacing_m = 4000;
-        domain.spec.levels_m = {1000, 3000, 6000};
-        options.domains = {domain};
+        options.domains = {small_domain()};
         return options;
     }
 
@@ -304,7 +280,7 @@ TEST_F(MendMosaic, DamagedPartialsComeFromRawFilesAndFramesFromPartials) {
                       .native();
         for (const MendDepth depth : {MendDepth::all, MendDepth::header}) {
             if (depth == MendDepth::all) {
-                alter_last_byte_of(entry.path);
+                testing::alter_last_byte_of(entry.path);
             } else {
                 fs::resize_file(entry.path, 5000);
             }
@@ -321,8 +297,8 @@ TEST_F(MendMosaic, DamagedPartialsComeFromRawFilesAndFramesFromPartials) {
 TEST_F(MendMosaic, AFrameMadeOfWhatIsDamagedTooSaysSoAndIsPutRightWithIt) {
     const auto frame = frames().at(1);  // of the second and the third volume
     const auto partial = partials().at(2);
-    alter_last_byte_of(frame.path);
-    alter_last_byte_of(partial.path);
+    testing::alter_last_byte_of(frame.path);
+    testing::alter_last_byte_of(partial.path);
     const auto first = mend_afresh(frame, MendDepth::all);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->condition, GridCondition::made_again);

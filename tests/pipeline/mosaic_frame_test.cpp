@@ -5,6 +5,7 @@
 
 #include "stormcellar/level2/chunk_directory.h"
 #include "stormcellar/level2/decode.h"
+#include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::pipeline {
@@ -16,7 +17,7 @@ struct SiteVolume {
 };
 
 SiteVolume load(const std::string& name) {
-    auto decoded = level2::decode_path(*testing::data_directory() / name);
+    auto decoded = level2::decode_path(testing::real_file(name));
     EXPECT_TRUE(decoded);
     const auto antenna = level2::antenna_position(decoded->volume);
     SiteVolume source{std::move(decoded->volume), {}};
@@ -26,11 +27,7 @@ SiteVolume load(const std::string& name) {
 }
 
 grid::GridSpec northeast() {
-    grid::GridSpec spec = grid::default_spec(41.8, -75);
-    spec.nx = spec.ny = 200;
-    spec.spacing_m = 4000;
-    spec.levels_m = {1000, 2000, 3000, 5000, 8000};
-    return spec;
+    return coarse_spec(41.8, -75, 200);
 }
 
 // KBGM's sequence of August 2005, and a domain that sees nothing of another site.

@@ -10,6 +10,7 @@
 #include "stormcellar/level2/decode.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
@@ -24,7 +25,7 @@ struct Loaded {
 Loaded load_volume(const std::string& name) {
     level2::DecodeOptions options;
     options.fallback_station = name.substr(0, 4);
-    const auto path = *testing::data_directory() / "sequence-kbgm" / name;
+    const auto path = testing::real_file("sequence-kbgm") / name;
     auto decoded = level2::decode(*read_file(path), options);
     EXPECT_TRUE(decoded);
     const auto antenna = level2::antenna_position(decoded->volume);
@@ -56,18 +57,11 @@ class MosaicKeeperTest : public ::testing::Test {
     [[nodiscard]] std::vector<cache::StoreEntry> frames() const {
         return *store_.list("north", level2::Moment::ref, std::nullopt, std::nullopt);
     }
-    static void alter_last_byte_of(const std::filesystem::path& path) {
-        std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
-        file.seekg(-1, std::ios::end);
-        const char last = static_cast<char>(file.get() ^ 1);
-        file.seekp(-1, std::ios::end);
-        file.put(last);
-    }
     [[nodiscard]] static std::vector<std::byte> codes_of(const cache::GridFile& file) {
         const auto codes = file.view().codes;
         return {codes.begin(), codes.end()};
     }
-    [[nodiscard]] static cache::GridFile open(const std::filesystem::path& path) {
+    [[nodiscard]] static cache::GridFile open(const fs::path& path) {
         return std::move(*cache::GridFile::open(path));
     }
 
@@ -190,7 +184,7 @@ TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     EXPECT_EQ(take(load_volume(sequence[1])).updated, 2U);
     const auto updated = open(frames()[0].path);
     const auto bytes_of_updated = *read_file(frames()[0].path);
-    std::filesystem::remove(frames()[0].path);
+    fs::remove(frames()[0].path);
     std::vector<std::string> problems;
     const auto whole =
         keeper_.make_again({"north", level2::Moment::ref, updated.description().time}, 1, problems);
@@ -205,7 +199,7 @@ TEST_F(MosaicKeeperTest, ADamagedFrameIsNotCopiedFrom) {
     take(load_volume(sequence[0]));
     const auto path = take(load_volume(sequence[1])).frames.at(0);
     const auto good = codes_of(open(path));
-    alter_last_byte_of(path);
+    testing::alter_last_byte_of(path);
     std::vector<std::string> problems;
     const auto again = keeper_.make_again(
         {"north", level2::Moment::ref, open(path).description().time}, 1, problems);
@@ -217,7 +211,7 @@ TEST_F(MosaicKeeperTest, ADamagedFrameIsNotCopiedFrom) {
 TEST_F(MosaicKeeperTest, ADamagedPartialIsLeftOutAndNamed) {
     take(load_volume(sequence[0]));
     const auto damaged = take(load_volume(sequence[1])).partials.at(0);
-    alter_last_byte_of(damaged);
+    testing::alter_last_byte_of(damaged);
     const Kept third = take(load_volume(sequence[2]));
     ASSERT_EQ(third.problems.size(), 1U);
     EXPECT_TRUE(third.problems[0].starts_with(damaged.native())) << third.problems[0];
@@ -231,11 +225,11 @@ TEST_F(MosaicKeeperTest, MissingFramesAreThoseBetweenPartialsThatStand) {
     const auto all = frames();
     ASSERT_EQ(all.size(), 2U);
     EXPECT_TRUE(missing_frames(store_, keeper_.domains(), std::chrono::hours{6})->empty());
-    std::filesystem::remove(all[1].path);
+    fs::remove(all[1].path);
     const auto one = missing_frames(store_, keeper_.domains(), std::chrono::hours{6});
     ASSERT_EQ(one->size(), 1U);
     EXPECT_EQ(one->at(0), (cache::GridName{"north", level2::Moment::ref, all[1].time}));
-    std::filesystem::remove(all[0].path);
+    fs::remove(all[0].path);
     const auto both = missing_frames(store_, keeper_.domains(), std::chrono::hours{6});
     ASSERT_EQ(both->size(), 2U);
     EXPECT_EQ(both->at(1).time, all[0].time) << "newest first";

@@ -83,7 +83,7 @@ std::unique_ptr<Prepared> prepare(const HonestScene& honest) {
     std::vector<SceneVolume> sources;
     made->volumes.reserve(honest.files.size());
     for (const char* file : honest.files) {
-        auto decoded = level2::decode_file(*testing::data_directory() / file);
+        auto decoded = level2::decode_file(testing::real_file(file));
         EXPECT_TRUE(decoded);
         const auto antenna = level2::antenna_position(decoded->volume);
         made->volumes.push_back(std::move(decoded->volume));

@@ -10,12 +10,12 @@
 #include "pipeline/mosaic/mapped_partials.h"
 #include "pipeline/mosaic/mosaic_maker.h"
 #include "tests/pipeline/invented_partials.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -317,9 +317,7 @@ TEST_F(OthersPartials, WhatIsDamagedOrCutIsRefused) {
         auto changed = bytes;
         changed.resize(size);
         if (altered < size) changed[altered] ^= std::byte{1};
-        std::ofstream(good.file, std::ios::binary | std::ios::trunc)
-            .write(reinterpret_cast<const char*>(changed.data()),
-                   static_cast<std::streamsize>(changed.size()));
+        testing::write_bytes(good.file, changed);
     };
     for (const std::size_t size : {std::size_t{0}, std::size_t{100}, bytes.size() - 1}) {
         write(size, bytes.size());

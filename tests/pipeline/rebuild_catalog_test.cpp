@@ -13,7 +13,6 @@
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using catalog::CatalogReader;
 using catalog::FileState;
 

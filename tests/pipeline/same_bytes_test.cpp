@@ -13,7 +13,6 @@
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
 using Files = std::map<fs::path, std::vector<std::byte>>;
 
 // The facts that are local to a machine.
@@ -30,7 +29,7 @@ class Machine {
         fs::create_directories(drop());
         for (std::size_t i = 0; i < sequence.size(); ++i) {
             const fs::path path = raw(i);
-            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / sequence[i], path);
+            fs::copy_file(testing::real_file("sequence-kbgm") / sequence[i], path);
             fs::permissions(path, fs::perms::owner_write, fs::perm_options::add);
             fs::last_write_time(
                 path, fs::file_time_type::clock::now() - local.age * static_cast<int>(i + 1));

@@ -40,12 +40,10 @@ class SmallHouse : public ::testing::Test {
 };
 
 // Copies these volumes of KBGM to `root`/drop and catalogs them in `root`/catalog.
-inline void catalog_real_volumes(const std::filesystem::path& root,
-                                 const std::vector<std::string>& names) {
-    namespace fs = std::filesystem;
+inline void catalog_real_volumes(const fs::path& root, const std::vector<std::string>& names) {
     fs::create_directory(root / "drop");
     for (const std::string& name : names) {
-        fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, root / "drop" / name);
+        fs::copy_file(testing::real_file("sequence-kbgm") / name, root / "drop" / name);
         fs::permissions(root / "drop" / name, fs::perms::owner_write, fs::perm_options::add);
     }
     RebuildOptions rebuild;

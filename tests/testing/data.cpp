@@ -17,4 +17,8 @@ std::optional<std::filesystem::path> data_directory() {
     return directory;
 }
 
+std::filesystem::path real_file(const std::filesystem::path& name) {
+    return data_directory().value() / name;
+}
+
 }  // namespace stormcellar::testing

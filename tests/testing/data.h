@@ -9,6 +9,9 @@ namespace stormcellar::testing {
 // Returns $STORMCELLAR_DATA, else ../shared/data beside the source tree; none if it does not exist.
 [[nodiscard]] std::optional<std::filesystem::path> data_directory();
 
+// Returns the path of a file below data_directory(), which must exist.
+[[nodiscard]] std::filesystem::path real_file(const std::filesystem::path& name);
+
 // Returns the root of the source tree.
 [[nodiscard]] std::filesystem::path source_directory();
 

@@ -10,7 +10,7 @@ Status PowerCutFileSystem::count_operation() {
     return {};
 }
 
-Result<int> PowerCutFileSystem::create_exclusive(const std::filesystem::path& path) {
+Result<int> PowerCutFileSystem::create_exclusive(const fs::path& path) {
     if (Status counted = count_operation(); !counted) return pass_on(counted);
     Result<int> descriptor = real_file_system().create_exclusive(path);
     if (descriptor) {
@@ -49,19 +49,18 @@ void PowerCutFileSystem::close(int descriptor) {
 }
 
 // Makes a second name for a file, which keeps its blocks, holes included.
-Result<std::filesystem::path> PowerCutFileSystem::keep(const std::filesystem::path& path) {
-    const std::filesystem::path kept = attic_ / std::to_string(kept_++);
+Result<fs::path> PowerCutFileSystem::keep(const fs::path& path) {
+    const fs::path kept = attic_ / std::to_string(kept_++);
     std::error_code error;
-    std::filesystem::create_hard_link(path, kept, error);
+    fs::create_hard_link(path, kept, error);
     if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
     return kept;
 }
 
-Status PowerCutFileSystem::rename(const std::filesystem::path& from,
-                                  const std::filesystem::path& to) {
+Status PowerCutFileSystem::rename(const fs::path& from, const fs::path& to) {
     if (Status counted = count_operation(); !counted) return counted;
     NameChange change{from, to, std::nullopt};
-    if (std::filesystem::exists(to)) {
+    if (fs::exists(to)) {
         auto replaced = keep(to);
         if (!replaced) return pass_on(replaced);
         change.kept = std::move(*replaced);
@@ -75,7 +74,7 @@ Status PowerCutFileSystem::rename(const std::filesystem::path& from,
     return {};
 }
 
-Status PowerCutFileSystem::sync_directory(const std::filesystem::path& directory) {
+Status PowerCutFileSystem::sync_directory(const fs::path& directory) {
     if (Status counted = count_operation(); !counted) return counted;
     std::erase_if(unsynced_names_,
                   [&](const NameChange& c) { return c.to.parent_path() == directory; });
@@ -83,9 +82,9 @@ Status PowerCutFileSystem::sync_directory(const std::filesystem::path& directory
 }
 
 // A file that was never synced may come back empty; one that was synced comes back unchanged.
-Status PowerCutFileSystem::remove(const std::filesystem::path& path) {
+Status PowerCutFileSystem::remove(const fs::path& path) {
     if (Status counted = count_operation(); !counted) return counted;
-    if (unsynced_contents_.erase(path) == 0 && std::filesystem::exists(path)) {
+    if (unsynced_contents_.erase(path) == 0 && fs::exists(path)) {
         auto kept = keep(path);
         if (!kept) return pass_on(kept);
         unsynced_names_.push_back({{}, path, std::move(*kept)});
@@ -97,15 +96,15 @@ void PowerCutFileSystem::power_cut() {
     std::error_code ignored;
     for (auto change = unsynced_names_.rbegin(); change != unsynced_names_.rend(); ++change) {
         if (!change->from.empty()) {
-            std::filesystem::rename(change->to, change->from, ignored);
+            fs::rename(change->to, change->from, ignored);
             if (unsynced_contents_.erase(change->to) > 0) unsynced_contents_.insert(change->from);
         }
         if (!change->kept) continue;
-        std::filesystem::create_directories(change->to.parent_path(), ignored);
-        std::filesystem::rename(*change->kept, change->to, ignored);
+        fs::create_directories(change->to.parent_path(), ignored);
+        fs::rename(*change->kept, change->to, ignored);
     }
     for (const auto& path : unsynced_contents_)
-        std::filesystem::resize_file(path, 0, ignored);
+        fs::resize_file(path, 0, ignored);
     unsynced_names_.clear();
     unsynced_contents_.clear();
     fail_from_.reset();

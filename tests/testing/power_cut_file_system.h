@@ -20,15 +20,15 @@ namespace stormcellar::testing {
 
 class PowerCutFileSystem final : public FileSystem {
   public:
-    Result<int> create_exclusive(const std::filesystem::path& path) override;
+    Result<int> create_exclusive(const fs::path& path) override;
     Status write_at(int descriptor, std::uint64_t offset,
                     std::span<const std::byte> bytes) override;
     Status set_size(int descriptor, std::uint64_t size) override;
     Status sync(int descriptor) override;
     void close(int descriptor) override;
-    Status rename(const std::filesystem::path& from, const std::filesystem::path& to) override;
-    Status sync_directory(const std::filesystem::path& directory) override;
-    Status remove(const std::filesystem::path& path) override;
+    Status rename(const fs::path& from, const fs::path& to) override;
+    Status sync_directory(const fs::path& directory) override;
+    Status remove(const fs::path& path) override;
 
     // The operation with this number (counted from 0) and all later ones fail with io.
     void fail_from(std::uint64_t operation) { fail_from_ = operation; }
@@ -39,14 +39,14 @@ class PowerCutFileSystem final : public FileSystem {
   private:
     // A rename, or (without `from`) a removal.
     struct NameChange {
-        std::filesystem::path from, to;
-        std::optional<std::filesystem::path> kept;  // what was at `to` before
+        fs::path from, to;
+        std::optional<fs::path> kept;  // what was at `to` before
     };
     Status count_operation();
-    Result<std::filesystem::path> keep(const std::filesystem::path& path);
+    Result<fs::path> keep(const fs::path& path);
 
-    std::map<int, std::filesystem::path> open_;
-    std::set<std::filesystem::path> unsynced_contents_;
+    std::map<int, fs::path> open_;
+    std::set<fs::path> unsynced_contents_;
     std::vector<NameChange> unsynced_names_;
     TemporaryDirectory attic_;  // second names of files that may come back
     std::uint64_t kept_ = 0;

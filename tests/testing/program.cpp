@@ -8,6 +8,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/waiting.h"
 
@@ -16,12 +17,7 @@ extern char** environ;
 namespace stormcellar::testing {
 namespace {
 
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-pid_t start(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+pid_t start(const fs::path& program, const std::vector<std::string>& arguments,
             const posix_spawn_file_actions_t* actions) {
     std::string name = program.string();
     std::vector<std::string> copies = arguments;
@@ -48,8 +44,8 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
 }
 
 // There is no input; the output goes to the files out and err of the directory.
-pid_t start_quietly(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                    const std::filesystem::path& directory) {
+pid_t start_quietly(const fs::path& program, const std::vector<std::string>& arguments,
+                    const fs::path& directory) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
@@ -63,18 +59,16 @@ pid_t start_quietly(const std::filesystem::path& program, const std::vector<std:
 
 }  // namespace
 
-ProgramResult run_program(const std::filesystem::path& program,
-                          const std::vector<std::string>& arguments) {
+ProgramResult run_program(const fs::path& program, const std::vector<std::string>& arguments) {
     const TemporaryDirectory directory;
     const pid_t child = start_quietly(program, arguments, directory.path());
     int status = 0;
     waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(directory / "out"),
-            contents(directory / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(directory / "out"),
+            file_text(directory / "err")};
 }
 
-int interrupt_program(const std::filesystem::path& program,
-                      const std::vector<std::string>& arguments,
+int interrupt_program(const fs::path& program, const std::vector<std::string>& arguments,
                       const std::function<bool()>& seen) {
     const pid_t child = start(program, arguments, nullptr);
     (void)eventually(seen);
@@ -84,8 +78,7 @@ int interrupt_program(const std::filesystem::path& program,
     return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
 }
 
-RunningProgram::RunningProgram(const std::filesystem::path& program,
-                               const std::vector<std::string>& arguments)
+RunningProgram::RunningProgram(const fs::path& program, const std::vector<std::string>& arguments)
     : child_(start_quietly(program, arguments, directory_.path())) {}
 
 RunningProgram::~RunningProgram() {
@@ -93,11 +86,11 @@ RunningProgram::~RunningProgram() {
 }
 
 std::string RunningProgram::out() const {
-    return contents(directory_ / "out");
+    return file_text(directory_ / "out");
 }
 
 std::string RunningProgram::err() const {
-    return contents(directory_ / "err");
+    return file_text(directory_ / "err");
 }
 
 bool RunningProgram::wait_for(const std::function<bool()>& seen) {

@@ -19,20 +19,20 @@ struct ProgramResult {
 };
 
 // Waits for the program to end. Throws std::runtime_error if it cannot be started.
-[[nodiscard]] ProgramResult run_program(const std::filesystem::path& program,
+[[nodiscard]] ProgramResult run_program(const fs::path& program,
                                         const std::vector<std::string>& arguments);
 
 // Starts the program, waits until `seen` returns true (at most a minute), sends it SIGINT and waits
 // for its end. Returns the number of the signal that ended it, 0 if it ended by itself. Its output
 // is that of the test.
-[[nodiscard]] int interrupt_program(const std::filesystem::path& program,
+[[nodiscard]] int interrupt_program(const fs::path& program,
                                     const std::vector<std::string>& arguments,
                                     const std::function<bool()>& seen);
 
 // A program that runs beside the test. Killed when the object is destroyed.
 class RunningProgram {
   public:
-    RunningProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+    RunningProgram(const fs::path& program, const std::vector<std::string>& arguments);
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
     ~RunningProgram();

@@ -8,15 +8,14 @@
 namespace stormcellar::testing {
 
 TemporaryDirectory::TemporaryDirectory() {
-    std::string name =
-        (std::filesystem::temp_directory_path() / "stormcellar-test-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "stormcellar-test-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed: " + name);
     path_ = name;
 }
 
 TemporaryDirectory::~TemporaryDirectory() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    fs::remove_all(path_, ignored);
 }
 
 }  // namespace stormcellar::testing

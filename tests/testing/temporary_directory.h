@@ -1,10 +1,15 @@
-// tests/testing/temporary_directory.h -- a directory that is removed when the test ends.
+// tests/testing/temporary_directory.h -- directories that tests work in.
 #pragma once
 
 #include <filesystem>
 
-namespace stormcellar::testing {
+namespace stormcellar {
 
+namespace fs = std::filesystem;  // for all tests that include this
+
+namespace testing {
+
+// A new directory, removed when the test ends.
 class TemporaryDirectory {
   public:
     TemporaryDirectory();
@@ -12,13 +17,24 @@ class TemporaryDirectory {
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
     ~TemporaryDirectory();
 
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    [[nodiscard]] std::filesystem::path operator/(const std::filesystem::path& name) const {
-        return path_ / name;
-    }
+    [[nodiscard]] const fs::path& path() const { return path_; }
+    [[nodiscard]] fs::path operator/(const fs::path& name) const { return path_ / name; }
 
   private:
-    std::filesystem::path path_;
+    fs::path path_;
 };
 
-}  // namespace stormcellar::testing
+// Changes to another working directory while it exists.
+class WorkingDirectory {
+  public:
+    explicit WorkingDirectory(const fs::path& path) { fs::current_path(path); }
+    WorkingDirectory(const WorkingDirectory&) = delete;
+    WorkingDirectory& operator=(const WorkingDirectory&) = delete;
+    ~WorkingDirectory() { fs::current_path(before_); }
+
+  private:
+    const fs::path before_ = fs::current_path();
+};
+
+}  // namespace testing
+}  // namespace stormcellar
