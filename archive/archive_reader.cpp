@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "archive/archive_format.h"
 #include "archive/packed_stream.h"
 #include "archive/plain_source.h"
 #include "base/memory.h"
@@ -22,9 +23,7 @@
 namespace stormcellar::archive {
 namespace {
 
-constexpr std::size_t tar_block_bytes = 512;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
-constexpr std::size_t most_name_bytes = 1024;
 constexpr std::size_t most_left_out = 100;  // at most this many are listed
 // libarchive may read this much for one header, and one block more. The header of a long name has a
 // few kilobytes. The limit bounds time more than memory, because libarchive compares each entry of
@@ -32,82 +31,6 @@ constexpr std::size_t most_left_out = 100;  // at most this many are listed
 constexpr std::uint64_t most_header_bytes = std::uint64_t{128} << 10;
 // A zip's directory is read with its first header; each member takes about 100 bytes.
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{16} << 20;
-
-bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
-    return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
-}
-
-// Returns true for a tar header, by its checksum: the sum of its bytes, with blanks in place of the
-// checksum.
-bool is_tar_header(std::span<const std::byte> bytes) {
-    constexpr std::size_t sum_at = 148;
-    constexpr std::size_t sum_bytes = 8;
-    if (bytes.size() < tar_block_bytes || bytes[0] == std::byte{0}) return false;
-    std::uint32_t sum = 0;
-    std::uint32_t claimed = 0;
-    for (std::size_t i = 0; i < tar_block_bytes; ++i) {
-        const bool is_sum = i >= sum_at && i < sum_at + sum_bytes;
-        sum += is_sum ? ' ' : std::to_integer<std::uint32_t>(bytes[i]);
-        const char c = std::to_integer<char>(bytes[i]);
-        if (is_sum && c >= '0' && c <= '7') claimed = 8 * claimed + static_cast<unsigned>(c - '0');
-    }
-    return claimed == sum;
-}
-
-// Returns true if the first 512 bytes may begin an archive. A packed archive must be unpacked to
-// decide.
-bool may_be_archive(std::span<const std::byte> start) {
-    return begins_with(start, "PK\x03\x04") || begins_with(start, "PK\x05\x06") ||
-           is_tar_header(start) || is_packed(start);
-}
-
-// There are no filters here, because packed data come through a PackedStream.
-Handle new_reader() {
-    Handle handle{archive_read_new()};
-    const auto support = [&](auto function) { return function(handle.get()) >= ARCHIVE_WARN; };
-    const bool formats =
-        support(archive_read_support_format_tar) && support(archive_read_support_format_zip);
-    // Blocks of zeros between two members are a lost page of the file, or the end of one of several
-    // joined tars. In both cases members follow them.
-    const bool goes_on =
-        archive_read_set_format_option(handle.get(), "tar", "read_concatenated_archives", "1") >=
-        ARCHIVE_WARN;
-    return formats && goes_on ? std::move(handle) : Handle{};
-}
-
-bool is_zip(::archive* handle) {
-    return (archive_format(handle) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_ZIP;
-}
-
-// Returns true if the codec of a zip's member needs little memory, by the library's name for it.
-// The member's header must have been read.
-bool is_small_codec(::archive* handle) {
-    const char* const text = archive_format_name(handle);
-    const std::string_view name = text == nullptr ? std::string_view{} : std::string_view{text};
-    return !is_zip(handle) || name.find("deflation") != std::string_view::npos ||
-           name.find("uncompressed") != std::string_view::npos;
-}
-
-std::string name_of(::archive_entry* entry) {
-    const char* name = archive_entry_pathname_utf8(entry);
-    if (name == nullptr) name = archive_entry_pathname(entry);
-    return name == nullptr ? std::string{} : std::string{name};
-}
-
-// Returns the reason why an entry is not returned as a file; empty if it is returned.
-std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
-    if (archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr) {
-        return "is a link";
-    }
-    if (archive_entry_filetype(entry) != AE_IFREG) return "is not a regular file";
-    // Radar data are not packed as sparse files, and libarchive would write out their holes.
-    if (archive_entry_sparse_count(entry) > 0) return "is a sparse file";
-    if (name.empty()) return "has no name";
-    if (name.size() > most_name_bytes) return "has a name of more than 1024 bytes";
-    const std::filesystem::path path{name};
-    const bool leads_out = path.is_absolute() || std::ranges::find(path, "..") != path.end();
-    return leads_out ? "names a place outside the archive" : "";
-}
 
 }  // namespace
 
@@ -172,14 +95,12 @@ struct ArchiveReader::Impl {
 
     // The data of the previous member are skipped first, because they do not count as a header.
     int read_header(::archive_entry*& entry, std::uint64_t most) {
-        const auto place = [this] { return archive_filter_bytes(handle.get(), 0); };
-        const la_int64_t start = place();
+        const std::uint64_t start = place_of(handle.get());
         header.begin(most);
         const int code = archive_read_next_header(handle.get(), &entry);
         header.end();
         // Reading a zip jumps, so its position says nothing; its members have no long headers.
-        if (!is_zip(handle.get()))
-            header.add(static_cast<std::uint64_t>(std::max<la_int64_t>(0, place() - start)));
+        if (!is_zip(handle.get())) header.add(std::max(start, place_of(handle.get())) - start);
         if (!header.is_spent()) return code;
         entry = nullptr;
         return ARCHIVE_FATAL;
@@ -232,8 +153,7 @@ struct ArchiveReader::Impl {
 
     // Returns true if the rest of a tar is shorter than a header.
     [[nodiscard]] bool has_no_room_left() const {
-        const auto read = static_cast<std::uint64_t>(
-            std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), 0)));
+        const std::uint64_t read = place_of(handle.get());
         return !packed && !is_zip(handle.get()) && !is_unread() &&
                source_bytes - std::min(source_bytes, read) < tar_block_bytes;
     }
@@ -275,10 +195,7 @@ struct ArchiveReader::Impl {
 
     // For formats that mark their end, the library knows whether the end is there.
     [[nodiscard]] bool has_its_end() const {
-        const bool is_plain_tar =
-            (archive_format(handle.get()) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_TAR &&
-            !packed;
-        if (!is_plain_tar || !tail) return true;
+        if (packed || !is_tar(handle.get()) || !tail) return true;
         const std::vector<std::byte> last = tail();
         return last.size() == tar_block_bytes &&
                std::ranges::all_of(last, [](std::byte b) { return b == std::byte{0}; });
@@ -436,16 +353,8 @@ struct ArchiveReader::Impl {
                 pass_over(name);
                 continue;
             }
-            std::optional<UtcTime> modified;
-            if (archive_entry_mtime_is_set(entry) != 0) {
-                modified = UtcTime{std::chrono::seconds{
-                    std::clamp<la_int64_t>(archive_entry_mtime(entry), 0, 7'000'000'000)}};
-            }
-            // The size in the header is only a hint, and never more than the archive may hold.
-            const std::uint64_t claimed =
-                archive_entry_size_is_set(entry) != 0
-                    ? static_cast<std::uint64_t>(std::max<la_int64_t>(0, archive_entry_size(entry)))
-                    : 0;
+            const std::optional<UtcTime> modified = time_of(entry);
+            const std::uint64_t claimed = claimed_bytes_of(entry);
             const bool is_plain = !packed && !is_zip(handle.get());
             auto bytes = data_of(name, is_plain ? std::min(claimed, source_bytes) : 0);
             if (!bytes) continue;
