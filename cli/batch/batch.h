@@ -9,10 +9,6 @@
 #include "batch/plan.h"
 #include "cli/shared/commands.h"
 
-namespace CLI {
-class App;
-}
-
 namespace stormcellar::cli {
 
 // Exit status of a task that another try, or another machine, may finish (EX_TEMPFAIL).

@@ -8,14 +8,11 @@
 #include <vector>
 
 #include "cli/grid/grid_request.h"
+#include "cli/shared/commands.h"
 #include "grid/mosaic/time_interpolation.h"
 #include "pipeline/options/domain.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/mosaic.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 

@@ -10,8 +10,8 @@
 
 #include "cli/loop/archive_options.h"
 #include "cli/picture/picture_plan.h"
+#include "cli/picture/scene_arguments.h"
 #include "cli/picture/scene_file.h"
-#include "cli/picture/scene_options.h"
 #include "cli/shared/follow.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/service_places.h"

@@ -6,8 +6,8 @@
 
 #include "cli/grid/grid_request.h"
 #include "cli/picture/picture_plan.h"
+#include "cli/picture/scene_arguments.h"
 #include "cli/picture/scene_file.h"
-#include "cli/picture/scene_options.h"
 #include "cli/shared/service_places.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/product.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "cli/picture/picture_grid.h"
+#include "cli/picture/scene_arguments.h"
 #include "cli/picture/scene_file.h"
-#include "cli/picture/scene_options.h"
 #include "render/options/panel_scenes.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"

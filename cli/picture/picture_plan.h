@@ -6,14 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/picture/scene_options.h"
+#include "cli/picture/scene_arguments.h"
+#include "cli/shared/commands.h"
 #include "stormcellar/accuracy/plan.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/render.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 

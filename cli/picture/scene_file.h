@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "cli/picture/picture_plan.h"
-#include "cli/picture/scene_options.h"
+#include "cli/picture/scene_arguments.h"
 #include "cli/shared/query_options.h"
 #include "render/view/camera_path.h"
 #include "stormcellar/base/result.h"

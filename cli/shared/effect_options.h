@@ -7,16 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/shared/commands.h"
 #include "grid/plan/grid_effects.h"
 #include "stormcellar/accuracy/budget.h"
 #include "stormcellar/accuracy/chain.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/mosaic.h"
 #include "stormcellar/grid/refractivity.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 

@@ -17,12 +17,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
 
+#include "cli/shared/commands.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 

@@ -7,13 +7,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "cli/shared/commands.h"
 #include "pipeline/options/domain.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 

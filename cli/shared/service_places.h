@@ -12,11 +12,8 @@
 #include <optional>
 #include <string>
 
+#include "cli/shared/commands.h"
 #include "stormcellar/base/result.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 

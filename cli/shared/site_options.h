@@ -7,13 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "cli/shared/commands.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/level2/volume.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 

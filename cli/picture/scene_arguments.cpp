@@ -1,4 +1,4 @@
-#include "cli/picture/scene_options.h"
+#include "cli/picture/scene_arguments.h"
 
 #include <functional>
 #include <optional>

@@ -1,14 +1,11 @@
-// cli/picture/scene_options.h -- adds the options for the contents of a picture, which `frame` and
-// `loop` share, to the command line.
+// cli/picture/scene_arguments.h -- adds the options for the contents of a picture, which `frame`
+// and `loop` share, to the command line.
 #pragma once
 
+#include "cli/shared/commands.h"
 #include "render/options/option_text.h"
 #include "render/options/picture_options.h"
 #include "render/options/scene_options.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 
