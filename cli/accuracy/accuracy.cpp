@@ -376,9 +376,7 @@ int run_accuracy(AccuracyOptions options) {
     const auto subject = load_subject(options, *request);
     if (!subject) return report_error(subject.error());
     const grid::SitePosition& site = subject->source.site;
-    const auto [latitude_deg, longitude_deg] =
-        request->center_deg.value_or(std::array<double, 2>{site.latitude_deg, site.longitude_deg});
-    const auto spec = spec_about(*request, latitude_deg, longitude_deg);
+    const auto spec = spec_about(*request, site.latitude_deg, site.longitude_deg);
     if (!spec) return report_error(spec.error());
     const auto measured = measure(*subject, *request, *spec, *effects, options);
     if (!measured) {

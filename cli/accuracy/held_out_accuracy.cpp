@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/accuracy/truth_errors.h"
 #include "cli/grid/volume_source.h"
 #include "grid/plan/grid_effects.h"
 #include "stormcellar/grid/gridder.h"
@@ -70,9 +71,7 @@ Result<std::vector<grid::HeldOutRow>> score_sequence(
                     level2::moment_name(request.moment));
     }
     const grid::SitePosition& site = sequence.front().site;
-    const auto [latitude_deg, longitude_deg] =
-        request.center_deg.value_or(std::array<double, 2>{site.latitude_deg, site.longitude_deg});
-    const auto spec = spec_about(request, latitude_deg, longitude_deg);
+    const auto spec = spec_about(request, site.latitude_deg, site.longitude_deg);
     if (!spec) return pass_on(spec);
     const accuracy::Chain chain = grid::effects_of(request.moment);
     grid::GridderOptions options;
@@ -116,24 +115,20 @@ nlohmann::ordered_json held_out_json(const std::vector<grid::HeldOutRow>& rows) 
     auto list = nlohmann::ordered_json::array();
     for (const grid::HeldOutRow& row : rows) {
         for (const grid::HeldOutScore& score : row.held_out.scores) {
-            nlohmann::ordered_json item{{"held_out", row.name},
-                                        {"before_s", row.before_s},
-                                        {"after_s", row.after_s},
-                                        {"method", name_of(score)},
-                                        {"count", score.error.count},
-                                        {"rms", score.error.rms},
-                                        {"p95", score.error.p95},
-                                        {"p99", score.error.p99},
-                                        {"max", score.error.max},
-                                        {"mean", score.mean_db},
-                                        {"echo_missed", score.echo_missed},
-                                        {"echo_invented", score.echo_invented},
-                                        {"time_s", score.seconds}};
+            nlohmann::ordered_json& item = list.emplace_back();
+            item["held_out"] = row.name;
+            item["before_s"] = row.before_s;
+            item["after_s"] = row.after_s;
+            item["method"] = name_of(score);
+            add_errors(score.error, item);
+            item["mean"] = score.mean_db;
+            item["echo_missed"] = score.echo_missed;
+            item["echo_invented"] = score.echo_invented;
+            item["time_s"] = score.seconds;
             item["motion_mps"] = nullptr;
             if (const auto& motion = row.held_out.motion_mps) {
                 item["motion_mps"] = {motion->x, motion->y};
             }
-            list.push_back(std::move(item));
         }
     }
     return list;

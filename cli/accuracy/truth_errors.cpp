@@ -25,18 +25,23 @@ std::string format_truth(const std::vector<synth::TruthRow>& rows, accuracy::Val
     return text;
 }
 
+void add_errors(const accuracy::ErrorSummary& errors, nlohmann::ordered_json& row) {
+    row["count"] = errors.count;
+    row["rms"] = errors.rms;
+    row["p95"] = errors.p95;
+    row["p99"] = errors.p99;
+    row["max"] = errors.max;
+}
+
 nlohmann::ordered_json truth_json(const std::vector<synth::TruthRow>& rows) {
     auto list = nlohmann::ordered_json::array();
     for (const synth::TruthRow& row : rows) {
-        list.push_back({{"chain", row.chain},
-                        {"count", row.error.count},
-                        {"rms", row.error.rms},
-                        {"p95", row.error.p95},
-                        {"p99", row.error.p99},
-                        {"max", row.error.max},
-                        {"mean", row.mean},
-                        {"echo_missed", row.echo_missed},
-                        {"echo_invented", row.echo_invented}});
+        nlohmann::ordered_json& item = list.emplace_back();
+        item["chain"] = row.chain;
+        add_errors(row.error, item);
+        item["mean"] = row.mean;
+        item["echo_missed"] = row.echo_missed;
+        item["echo_invented"] = row.echo_invented;
     }
     return list;
 }

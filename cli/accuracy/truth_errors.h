@@ -18,6 +18,8 @@ namespace stormcellar::cli {
 
 [[nodiscard]] std::string format_truth(const std::vector<synth::TruthRow>& rows,
                                        accuracy::ValueUnit unit, bool markdown);
+// Sets count, rms, p95, p99 and max.
+void add_errors(const accuracy::ErrorSummary& errors, nlohmann::ordered_json& row);
 [[nodiscard]] nlohmann::ordered_json truth_json(const std::vector<synth::TruthRow>& rows);
 
 }  // namespace stormcellar::cli

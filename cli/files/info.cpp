@@ -241,8 +241,7 @@ int run_info(const InfoOptions& options) {
     const std::string names = fmt::format("{}", fmt::join(options.files, ", "));
     auto inputs = InputFiles::find(options.files, options.volume);
     if (!inputs) return report_error(inputs.error());
-    for (const std::string& one : inputs->left_out())
-        print_note(fmt::format("left out: {}", one));
+    note_left_out(*inputs);
     const auto& files = inputs->files();
     const bool is_of_chunks = files.size() == 1 && !files.front().chunks.empty();
     if (options.volume > 0 && options.to.empty() && !is_of_chunks) {

@@ -105,9 +105,7 @@ Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridReque
     if (!source) return pass_on(source);
     timings.read_s = source->read_s;
     timings.decode_s = source->decode_s;
-    const auto [latitude_deg, longitude_deg] = request.center_deg.value_or(
-        std::array<double, 2>{source->site.latitude_deg, source->site.longitude_deg});
-    const auto spec = spec_about(request, latitude_deg, longitude_deg);
+    const auto spec = spec_about(request, source->site.latitude_deg, source->site.longitude_deg);
     if (!spec) return pass_on(spec);
     FileScene scene{*source, *spec};
     std::vector<MadeGrid> all;

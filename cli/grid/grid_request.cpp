@@ -304,8 +304,7 @@ Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options) {
                     inputs->files().size());
     }
     options.files = inputs->labels();
-    for (const std::string& one : inputs->left_out())
-        print_note(fmt::format("left out: {}", one));
+    note_left_out(*inputs);
     return std::make_shared<InputFiles>(std::move(*inputs));
 }
 
@@ -330,22 +329,19 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     // For several sites, the extent and a spacing that fits it are known only once the sites are.
     const bool has_extent = request.extent_given || options.files.size() == 1;
     if (has_extent && (request.center_deg || grid::facts_of(request.projection).is_polar)) {
-        const auto [latitude_deg, longitude_deg] =
-            request.center_deg.value_or(std::array<double, 2>{});
-        const auto spec = spec_about(request, latitude_deg, longitude_deg);
-        if (!spec) return pass_on(spec);
+        if (const auto spec = spec_about(request, 0, 0); !spec) return pass_on(spec);
     }
     return request;
 }
 
-Result<grid::GridSpec> spec_about(const GridRequest& request, double center_latitude_deg,
-                                  double center_longitude_deg) {
-    grid::GridSpec spec = grid::default_spec(center_latitude_deg, center_longitude_deg);
+Result<grid::GridSpec> spec_about(const GridRequest& request, double latitude_deg,
+                                  double longitude_deg) {
+    const auto center = request.center_deg.value_or(std::array{latitude_deg, longitude_deg});
+    grid::GridSpec spec = grid::default_spec(center[0], center[1]);
     spec.projection = request.projection;
     if (!request.levels_m.empty()) spec.levels_m = request.levels_m;
     if (grid::facts_of(spec.projection).takes_parallels) {
-        spec.parallels_deg = request.parallels_deg.value_or(
-            std::array<double, 2>{center_latitude_deg, center_latitude_deg});
+        spec.parallels_deg = request.parallels_deg.value_or(std::array{center[0], center[0]});
     }
     const Status sized =
         spec.in_degrees() ? size_in_degrees(request, spec) : size_in_metres(request, spec);

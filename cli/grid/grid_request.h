@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/shared/commands.h"
 #include "cli/shared/input_files.h"
 #include "cli/shared/site_options.h"
 #include "stormcellar/base/result.h"
@@ -15,10 +16,6 @@
 #include "stormcellar/grid/cell_details.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/level2/volume.h"
-
-namespace CLI {
-class App;
-}
 
 namespace stormcellar::cli {
 
@@ -91,10 +88,10 @@ struct GridRequest {
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Result<GridRequest> parse_request(const GridOptions& options);
 
-// Returns the requested grid about a valid center. For a latitude-longitude grid, kilometers are
-// converted to degrees at the center, rounded up to whole cells.
-[[nodiscard]] Result<grid::GridSpec> spec_about(const GridRequest& request,
-                                                double center_latitude_deg,
-                                                double center_longitude_deg);
+// Returns the requested grid about --center, or without one about this valid point. For a
+// latitude-longitude grid, kilometers are converted to degrees at the center, rounded up to whole
+// cells.
+[[nodiscard]] Result<grid::GridSpec> spec_about(const GridRequest& request, double latitude_deg,
+                                                double longitude_deg);
 
 }  // namespace stormcellar::cli

@@ -48,8 +48,7 @@ Result<NamedFiles> find_files(const std::vector<std::string>& names) {
     }
     const auto inputs = InputFiles::find(names, InputFiles::all);
     if (!inputs) return pass_on(inputs);
-    for (const std::string& one : inputs->left_out())
-        print_note(fmt::format("left out: {}", one));
+    note_left_out(*inputs);
     NamedFiles files;
     std::set<fs::path> all;
     for (const InputFile& file : inputs->files()) {

@@ -24,9 +24,7 @@ Result<grid::GridSpec> plane_of(const SweptVolume& volume, const grid::SweepLook
         request.extent_unit = SizeUnit::km;
     }
     request.levels_m = whole.levels_m;
-    const auto [latitude_deg, longitude_deg] = request.center_deg.value_or(
-        std::array<double, 2>{whole.center_latitude_deg, whole.center_longitude_deg});
-    return spec_about(request, latitude_deg, longitude_deg);
+    return spec_about(request, whole.center_latitude_deg, whole.center_longitude_deg);
 }
 
 ChooseCuts chooser_of(const render::Scene* shown, const GridRequest& request) {

@@ -2,6 +2,7 @@
 // usual values, files, directories, or the domains and stations that the program finds
 // (completed_names.h).
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -97,39 +98,42 @@ Kept kept_of_arguments(const CommandReference& command) {
     return Kept::files;
 }
 
-// Returns the action. zsh calls an action with a leading blank as it is.
+// What the shells offer for values that no list can name. The word is that of --complete.
+struct KeptOffer {
+    Kept kept = Kept::nowhere;
+    std::string_view word, zsh, fish;
+};
+constexpr auto kept_offers = std::to_array<KeptOffer>({
+    {Kept::files, "files", "_files", " -r -F"},
+    {Kept::directories, "directories", "_files -/", " -x -a '(__fish_complete_directories)'"},
+    // zsh calls an action with a leading blank as it is.
+    {Kept::domains, "domains", " _stormcellar_names domains",
+     " -x -a '(__stormcellar_names domains)'"},
+    {Kept::stations, "stations", " _stormcellar_names stations",
+     " -x -a '(__stormcellar_names stations)'"},
+});
+
+// Returns an empty offer for values that are listed, and for the kinds without a row.
+KeptOffer offer_of(const OptionReference& option) {
+    const auto row = std::ranges::find(kept_offers, option.kept, &KeptOffer::kept);
+    const bool is_listed = option.kept == Kept::files && !option.choices.empty();
+    return row == kept_offers.end() || is_listed ? KeptOffer{} : *row;
+}
+
 std::string zsh_action(const OptionReference& option) {
     const Words& values = listed(option);
     const std::string joined = fmt::format("{}", fmt::join(values, " "));
-    switch (option.kept) {
-        case Kept::domains:
-            return " _stormcellar_names domains";
-        case Kept::stations:
-            return " _stormcellar_names stations";
-        case Kept::directories:
-            return "_files -/";
-        case Kept::files:
-            if (!option.choices.empty()) break;
-            return values.empty() ? "_files" : fmt::format(" _stormcellar_or_file {}", joined);
-        case Kept::commands:
-        case Kept::nowhere:
-            break;
-    }
+    const KeptOffer offer = offer_of(option);
+    if (offer.kept == Kept::files && !values.empty())
+        return fmt::format(" _stormcellar_or_file {}", joined);
+    if (offer.kept != Kept::nowhere) return std::string(offer.zsh);
     return values.empty() ? " " : fmt::format("({})", joined);
 }
 
 std::string zsh_arguments(const CommandReference& command, const Words& all_names) {
-    switch (kept_of_arguments(command)) {
-        case Kept::domains:
-            return "'*:domain: _stormcellar_domain_or_file'";
-        case Kept::commands:
-            return fmt::format("'*:command:({})'", fmt::join(all_names, " "));
-        case Kept::stations:
-        case Kept::directories:
-        case Kept::files:
-        case Kept::nowhere:
-            break;
-    }
+    const Kept kept = kept_of_arguments(command);
+    if (kept == Kept::domains) return "'*:domain: _stormcellar_domain_or_file'";
+    if (kept == Kept::commands) return fmt::format("'*:command:({})'", fmt::join(all_names, " "));
     return "'*:file:_files'";
 }
 
@@ -182,21 +186,9 @@ std::string fish_values(const OptionReference& option) {
     const Words& values = listed(option);
     const std::string offered =
         values.empty() ? "" : fmt::format(" -a '{}'", fmt::join(values, " "));
-    switch (option.kept) {
-        case Kept::domains:
-            return " -x -a '(__stormcellar_names domains)'";
-        case Kept::stations:
-            return " -x -a '(__stormcellar_names stations)'";
-        case Kept::directories:
-            return " -x -a '(__fish_complete_directories)'";
-        case Kept::files:
-            if (option.choices.empty()) return " -r -F" + offered;
-            break;
-        case Kept::commands:
-        case Kept::nowhere:
-            break;
-    }
-    return " -x" + offered;
+    const KeptOffer offer = offer_of(option);
+    if (offer.kept == Kept::nowhere) return " -x" + offered;
+    return std::string(offer.fish) + (offer.kept == Kept::files ? offered : "");
 }
 
 // Writes what positional arguments may be besides files: domains or commands.
@@ -222,23 +214,6 @@ void write_fish_option(const CommandReference& command, const OptionReference& o
     out += fmt::format(" -d {}\n", fish_quoted(brief(option.description)));
 }
 
-std::string_view bash_word(Kept kept) {
-    switch (kept) {
-        case Kept::files:
-            return "files";
-        case Kept::directories:
-            return "directories";
-        case Kept::domains:
-            return "domains";
-        case Kept::stations:
-            return "stations";
-        case Kept::commands:
-        case Kept::nowhere:
-            break;
-    }
-    return "";
-}
-
 // Writes the options that take a value, and what the value after each may be.
 std::string bash_values_of(const CommandReference& command) {
     std::string values;
@@ -247,11 +222,11 @@ std::string bash_values_of(const CommandReference& command) {
         if (option.value.empty() || option.names.empty()) continue;
         values += fmt::format(" {}", fmt::join(option.names, " "));
         const Words& words = listed(option);
-        const Kept kept = option.choices.empty() ? option.kept : Kept::nowhere;
-        if (words.empty() && kept == Kept::nowhere) continue;
+        const std::string_view kept = option.choices.empty() ? offer_of(option).word : "";
+        if (words.empty() && kept.empty()) continue;
         cases += fmt::format("                {})", fmt::join(option.names, "|"));
         if (!words.empty()) cases += fmt::format(" choices='{}'", fmt::join(words, " "));
-        if (kept != Kept::nowhere) cases += fmt::format(" kept={}", bash_word(kept));
+        if (!kept.empty()) cases += fmt::format(" kept={}", kept);
         cases += " ;;\n";
     }
     std::string out = fmt::format("            values='{} '\n", values);

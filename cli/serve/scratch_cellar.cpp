@@ -41,8 +41,7 @@ Result<std::vector<fs::path>> files_to_serve(const std::vector<std::string>& nam
     }
     const auto inputs = InputFiles::find(names, InputFiles::all);
     if (!inputs) return pass_on(inputs);
-    for (const std::string& one : inputs->left_out())
-        print_note(fmt::format("left out: {}", one));
+    note_left_out(*inputs);
     std::set<fs::path> files;
     for (const InputFile& file : inputs->files()) {
         std::vector<fs::path> paths = file.chunks;
@@ -85,8 +84,7 @@ Result<std::size_t> ScratchCellar::take(const fs::path& file) {
             break;
         case no_position:
             print_note(
-                fmt::format("{}: served, but not gridded: it is not known where the radar "
-                            "stands",
+                fmt::format("{}: served, but not gridded: the position of the radar is unknown",
                             file.native()));
             break;
         default:

@@ -253,8 +253,9 @@ Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& fi
         }
     }
     const auto read = std::exchange(open, {});
-    return fail(ErrorCode::not_found, "{}: {}", file.label,
-                read ? read->reader().why_missing(file.member) : "is in what is no archive");
+    return fail(
+        ErrorCode::not_found, "{}: {}", file.label,
+        read ? read->reader().why_missing(file.member) : "is in a file that is not an archive");
 }
 
 InputFiles::InputFiles(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -297,6 +298,11 @@ bool InputFiles::is_found(const std::string& label) const {
 
 const std::vector<std::string>& InputFiles::left_out() const {
     return impl_->left_out;
+}
+
+void note_left_out(const InputFiles& inputs) {
+    for (const std::string& one : inputs.left_out())
+        print_note(fmt::format("left out: {}", one));
 }
 
 Result<std::vector<std::byte>> InputFiles::read(const InputFile& file) {

@@ -70,6 +70,9 @@ class InputFiles {
     std::unique_ptr<Impl> impl_;
 };
 
+// Prints a note for each entry that find() left out.
+void note_left_out(const InputFiles& inputs);
+
 // Returns true if the error means that a file is not a volume, so that it is left out if it was
 // found in a directory or an archive.
 [[nodiscard]] bool is_no_volume(const Error& error);
