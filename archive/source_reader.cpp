@@ -24,7 +24,7 @@ std::optional<MemberName> member_path_of(const std::filesystem::path& path) {
 
 Result<Member> find_member(int descriptor, const std::string& name, Limits limits) {
     auto reader = ArchiveReader::open(descriptor, limits);
-    if (!reader) return fail(ErrorCode::corrupt, "is in what is no archive any more");
+    if (!reader) return fail(ErrorCode::corrupt, "is in a file that is no longer an archive");
     while (auto member = reader->next()) {
         if (member->name == name) return std::move(*member);
     }
@@ -54,7 +54,7 @@ Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& p
     }
     const auto read = std::exchange(reader_, std::nullopt);
     return fail(ErrorCode::not_found, "{}: {}", path.native(),
-                read ? read->why_missing(name->member) : "is in what is no archive");
+                read ? read->why_missing(name->member) : "is in a file that is not an archive");
 }
 
 }  // namespace stormcellar::archive

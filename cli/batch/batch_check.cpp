@@ -110,7 +110,7 @@ void print_report(const CheckCommand& command, const batch::Plan& plan, const Ch
     print_left_out(plan, report,
                    command.list_all ? done.with_left_out.size() + done.left_out : most_listed);
     if (!report.changed.empty()) {
-        fmt::print("grids that are missing or not those that were made, in tasks: {}\n",
+        fmt::print("grids are missing, or are other ones than were made, in tasks: {}\n",
                    numbers_of(report.changed, most_listed));
     }
     if (!report.missing.empty()) {

@@ -132,7 +132,7 @@ Result<std::vector<std::string>> take_own_grids(const PlanOptions& options,
                            place.projection != GridOptions{}.projection;
     if (is_placed || !options.archive.overlap.empty() || options.archive.overlap_km) {
         return fail(ErrorCode::bad_argument,
-                    "a center, a projection and an overlap are a mosaic's; add --mosaic NAME");
+                    "a center, a projection and an overlap need --mosaic NAME");
     }
     const auto request = parse_request(place);
     if (!request) return pass_on(request);
@@ -266,7 +266,7 @@ Status check_statistics(const PlanOptions& options, const Recipe& recipe) {
     const bool is_reflectivity = recipe.moments == std::vector{level2::Moment::ref};
     if (!options.mosaic.empty() && is_reflectivity) return {};
     return fail(ErrorCode::bad_argument,
-                "statistics are of the frames of --mosaic, and of the moment REF alone");
+                "statistics count the frames of --mosaic, and only of the moment REF");
 }
 
 int run_plan(const PlanOptions& options) {
@@ -280,7 +280,7 @@ int run_plan(const PlanOptions& options) {
     if (!listing) return report_error(listing.error());
     if (listing->nameless > 0) {
         print_note(fmt::format(
-            "left out: {} {} whose names say no station and time, or cannot be in a plan, such "
+            "left out: {} {} whose names have no station and time, or cannot be in a plan, such "
             "as {}",
             listing->nameless, plural(listing->nameless, "file"), listing->first_nameless));
     }
@@ -342,8 +342,8 @@ Run set_up_batch_plan(CLI::App& command) {
                      "Also count the frames of --mosaic, by month and hour of the day, for a "
                      "climatology (batch statistics)");
     command.add_flag("--cell-statistics", options->cell_statistics,
-                     "The same, and also count each cell, not only the columns with their greatest "
-                     "values: as many times the memory and disk as there are levels");
+                     "Like --statistics, and also count each cell, not only the greatest value of "
+                     "each column. Memory and disk grow by the number of levels");
     command.add_flag("--json", options->json, "Print one JSON document");
     return [options] { return run_plan(*options); };
 }

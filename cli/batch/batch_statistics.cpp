@@ -78,8 +78,8 @@ Run set_up_batch_statistics(CLI::App& command) {
     add_plan_option(command, options->plan);
     command
         .add_option("--by", options->by,
-                    "What the statistics are apart for: hour (of the day, UTC), month (of the "
-                    "year) or all (one for the whole time)")
+                    "How to group the frames: by hour (of the day, UTC), by month (of the year) or "
+                    "all in one group")
         ->capture_default_str()
         ->check(CLI::IsMember({"hour", "month", "all"}));
     command.add_option("-o,--output", options->output, "The netCDF file to write")->required();

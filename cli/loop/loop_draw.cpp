@@ -38,8 +38,8 @@ Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::Betwee
         if (!made) return pass_on(made);
         if (!*made) {
             return fail(ErrorCode::not_found,
-                        "there are no two volumes, near enough to each other, between whose "
-                        "middles {} lies",
+                        "no two volumes near enough to each other have their middles before and "
+                        "after {}",
                         format_utc(frame.time));
         }
         drawing.made = std::move(**made);

@@ -21,11 +21,11 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
         ->option_text("FILE...|DOMAIN");
     loop.add_option("--domain", options.typed_domain,
                     "Domain of the grids; a station's own domain is its ICAO identifier. Default: "
-                    "the only one of the cache. Of files of several sites, and with --catalog, the "
-                    "name of the mosaic");
+                    "the only one of the cache. With files of several sites, or --catalog, it "
+                    "names the mosaic");
     loop.add_option("--cache", options.cache_place.directory,
-                    "Directory of the cache. Default: that of the service. Of files, and with "
-                    "--catalog, the grids are made there. Default: a cache of your own");
+                    "Directory of the cache. With files or --catalog, the grids are made there. "
+                    "Default: that of the service; with files or --catalog, a cache of your own");
     add_config_option(loop, options.cache_place.config);
     add_time_range(loop, options.range);
     loop.add_option(

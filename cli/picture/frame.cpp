@@ -117,9 +117,9 @@ Run set_up_frame(CLI::App& frame) {
                      "Directory of the catalog (state/catalog), which says where the raw file of a "
                      "ppi of a domain is. Default: that of the service");
     frame.add_option("--time", options->time,
-                     "Of a domain, draw the newest grid at or before this time, in UTC or relative "
-                     "as -1h. Default: the latest grid. Of files, the time of the grid, as for "
-                     "stormcellar grid");
+                     "Draw a domain's newest grid at or before this time, in UTC or relative as "
+                     "-1h. Default: the latest grid. With files, it is the time of the grid, as "
+                     "for stormcellar grid");
     frame.add_option("-o,--output", options->output,
                      still_help() + ". It may be left out with --probe and --probe-at");
     frame.add_option(

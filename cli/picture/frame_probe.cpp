@@ -94,7 +94,7 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
         }
         if (!is_within(x, 0.0, scene.width - 1.0) || !is_within(y, 0.0, scene.height - 1.0)) {
             return fail(ErrorCode::bad_argument,
-                        "--probe {} lies outside the picture of {} x {} pixels: 0,0 to {},{}",
+                        "--probe {} is outside the picture of {} x {} pixels: 0,0 to {},{}",
                         options.probe, scene.width, scene.height, scene.width - 1,
                         scene.height - 1);
         }

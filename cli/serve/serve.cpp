@@ -41,8 +41,8 @@ Result<web::WebSetup> setup_by_config(const ServeOptions& options) {
     if (!places) return pass_on(places);
     if (!*places) {
         return fail(ErrorCode::bad_argument,
-                    "say what is to be served: files, --cache and --catalog, or --config FILE for "
-                    "what a service keeps");
+                    "name what to serve: files, --cache and --catalog, or --config FILE for the "
+                    "data of a service");
     }
     return web::load_web_setup((*places)->config);
 }
@@ -124,18 +124,18 @@ Run set_up_serve(CLI::App& serve) {
     catalog->excludes(files);
     serve.add_option(
         "--config", options->config,
-        "Configuration file of the service, whose directories and [web] count. "
-        "Default, if nothing else says what is to be served: $STORMCELLAR_CONFIG, else "
+        "Configuration file of a service, to take its directories and its [web] table. "
+        "Default, if no file, cache or catalog is named: $STORMCELLAR_CONFIG, else "
         "/etc/stormcellar/stormcellard.toml");
     serve
         .add_option("--listen", options->listen,
-                    "Numeric address and port on which it listens; may be repeated. Port 0: any "
-                    "that is free. Default: 127.0.0.1:8090 and [::1]:8090")
+                    "Numeric address and port to listen on; may be repeated. Port 0 takes any "
+                    "free port. Default: 127.0.0.1:8090 and [::1]:8090")
         ->type_name("ADDRESS:PORT")
         ->allow_extra_args(false);
     serve
         .add_option("--allow-host", options->names,
-                    "Name by which clients may call this server, beside localhost and the "
+                    "Name by which clients may call this server, in addition to localhost and the "
                     "addresses of --listen; may be repeated")
         ->type_name("NAME")
         ->allow_extra_args(false);

@@ -32,7 +32,7 @@ Status ServedFiles::take_first() {
         if (!grids) return pass_on(grids);
         if (*grids > 0) return {};
     }
-    return fail(ErrorCode::not_found, "nothing can be gridded of what was named");
+    return fail(ErrorCode::not_found, "none of the named files can be gridded");
 }
 
 void ServedFiles::take_rest() {

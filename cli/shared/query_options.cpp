@@ -45,7 +45,7 @@ void print_json(const nlohmann::json& document) {
 void warn_of_future(UtcTime newest) {
     if (is_believed(newest, now_utc())) return;
     fmt::print(stderr,
-               "stormcellar: warning: the newest time, {}, lies in the future; the clock of the "
+               "stormcellar: warning: the newest time, {}, is in the future; the clock of the "
                "radar or of this machine is wrong\n",
                format_utc(newest));
 }
@@ -85,7 +85,7 @@ Result<std::vector<std::string>> stations_within(const std::string& text) {
         }
     }
     if (stations.empty()) {
-        return fail(ErrorCode::bad_argument, "--bounds {}: no station lies within these bounds",
+        return fail(ErrorCode::bad_argument, "--bounds {}: no station is within these bounds",
                     text);
     }
     return stations;

@@ -194,7 +194,7 @@ TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {
     EXPECT_EQ(grids_of(directory_ / "own/cache").size(), 3U) << "those that begin in the range";
     const ProgramResult refused = run(with(arguments, {"--center", "42,-76"}));
     EXPECT_EQ(refused.status, 2);
-    EXPECT_THAT(refused.err, HasSubstr("add --mosaic NAME"));
+    EXPECT_THAT(refused.err, HasSubstr("need --mosaic NAME"));
     EXPECT_EQ(plan("own").status, 2) << "another plan is there";
 }
 

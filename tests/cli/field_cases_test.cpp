@@ -132,7 +132,7 @@ TEST_F(FieldCases, WhereAllLiesInTheFutureTheNewestIsShownWithAWarning) {
     rebuild(catalog, out("drop"));
     const auto latest = latest_of_ktlx(catalog);
     EXPECT_THAT(latest["start_time"].get<std::string>(), HasSubstr("2049"));
-    EXPECT_THAT(errors_, HasSubstr("lies in the future"));
+    EXPECT_THAT(errors_, HasSubstr("is in the future"));
 }
 
 TEST_F(FieldCases, BoundsTakeStationsThatOnlyTheirFilesPlace) {

@@ -262,7 +262,7 @@ TEST_F(Frame, NonsensicalProbesAreBadUsage) {
     for (const char* pixel : {"--probe 796,1", "--probe=-1,1", "--probe 1,9999", "--probe=1,-1"}) {
         EXPECT_EQ(run(std::string("--domain KBGM ") + pixel), exit_bad_usage) << pixel;
         EXPECT_THAT(messages_, ::testing::HasSubstr(
-                                   "lies outside the picture of 796 x 532 pixels: 0,0 to 795,531"))
+                                   "is outside the picture of 796 x 532 pixels: 0,0 to 795,531"))
             << pixel;
     }
     EXPECT_EQ(run("--domain KBGM --probe 1,2"), exit_bad_usage) << "in the header";

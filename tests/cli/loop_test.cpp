@@ -107,7 +107,7 @@ TEST_F(Loop, WhereAllLiesInTheFutureItIsShownWithAWarning) {
     commit("20991231_000000", 50);
     const auto result = run({"KBGM", "-o", out("a.gif")});
     EXPECT_EQ(result.status, 0);
-    EXPECT_THAT(result.err, HasSubstr("lies in the future"));
+    EXPECT_THAT(result.err, HasSubstr("is in the future"));
 }
 
 TEST_F(Loop, ColorsAndViewAreThoseOfAllFrames) {
