@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "stormcellar/base/file_system.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::batch {
@@ -37,15 +37,7 @@ inline Recipe recipe_between(const std::string& from, const std::string& to) {
     return recipe;
 }
 
-// The bytes of all files below a directory, by their paths.
-inline std::map<std::string, std::vector<std::byte>> tree_of(const fs::path& root) {
-    std::map<std::string, std::vector<std::byte>> tree;
-    for (const auto& entry : fs::recursive_directory_iterator(root)) {
-        if (entry.is_regular_file())
-            tree[fs::relative(entry.path(), root).native()] = *read_file(entry.path());
-    }
-    return tree;
-}
+using testing::tree_of;
 
 class SmallArchive : public ::testing::Test {
   protected:

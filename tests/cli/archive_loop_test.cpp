@@ -15,9 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Words sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
-                        "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
-                        "KBGM20050822_030830.gz"};
+using pipeline::five_volumes;
 
 const Words two_hours = {"--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00"};
 
@@ -25,15 +23,14 @@ class ArchiveLoop : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        pipeline::catalog_real_volumes(directory_.path(), sequence);
+        pipeline::catalog_real_volumes(directory_.path(), five_volumes);
         if (HasFatalFailure()) return;
         ::setenv("XDG_CACHE_HOME", (directory_ / "home").c_str(), 1);
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }
     [[nodiscard]] Words arguments(const Words& more) const {
-        return with({"loop", "--catalog", directory_ / "catalog", "--product", "composite",
-                     "--width", "300", "--height", "200", "--no-labels", "-o", out()},
-                    more);
+        return with({"loop", "--catalog", directory_ / "catalog", "-o", out()},
+                    words("--product composite --width 300 --height 200 --no-labels"), more);
     }
     [[nodiscard]] testing::ProgramResult run(const Words& more) const {
         return cli::run(arguments(more));
@@ -70,15 +67,15 @@ TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
 
 // 2026-11-24: a loop from an archive was drawn of whatever stood in the cataloged files' places.
 TEST_F(ArchiveLoop, LeavesOutWhatIsNotTheFileThatWasCataloged) {
-    fs::rename(raw(sequence[0]), directory_ / "elsewhere");
-    fs::create_symlink(directory_ / "elsewhere", raw(sequence[0]));
-    const auto size = fs::file_size(raw(sequence[1]));
-    fs::copy_file(raw(sequence[4]), raw(sequence[1]), fs::copy_options::overwrite_existing);
-    fs::resize_file(raw(sequence[1]), size);
+    fs::rename(raw(five_volumes[0]), directory_ / "elsewhere");
+    fs::create_symlink(directory_ / "elsewhere", raw(five_volumes[0]));
+    const auto size = fs::file_size(raw(five_volumes[1]));
+    fs::copy_file(raw(five_volumes[4]), raw(five_volumes[1]), fs::copy_options::overwrite_existing);
+    fs::resize_file(raw(five_volumes[1]), size);
     const auto ran = run_station({"--json"});
     EXPECT_EQ(json_of(ran)["grids_made"], 3);
-    EXPECT_THAT(ran.err, HasSubstr(sequence[0] + ": is a symbolic link"));
-    EXPECT_THAT(ran.err, HasSubstr(sequence[1] + ": is not the file that was cataloged"));
+    EXPECT_THAT(ran.err, HasSubstr(five_volumes[0] + ": is a symbolic link"));
+    EXPECT_THAT(ran.err, HasSubstr(five_volumes[1] + ": is not the file that was cataloged"));
 }
 
 TEST_F(ArchiveLoop, DrawsWhatTheCacheDraws) {
@@ -122,12 +119,12 @@ TEST_F(ArchiveLoop, GoesOnWhereItWasInterrupted) {
 }
 
 TEST_F(ArchiveLoop, NamesWhatItLeavesOut) {
-    std::ofstream(raw(sequence[0]), std::ios::trunc) << "no radar data";
-    fs::remove(raw(sequence[4]));
+    std::ofstream(raw(five_volumes[0]), std::ios::trunc) << "no radar data";
+    fs::remove(raw(five_volumes[4]));
     const auto result = run_station({"--json"});
     ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("left out: " + raw(sequence[0]).string()));
-    EXPECT_THAT(result.err, HasSubstr(raw(sequence[4]).string() + ": is gone"));
+    EXPECT_THAT(result.err, HasSubstr("left out: " + raw(five_volumes[0]).string()));
+    EXPECT_THAT(result.err, HasSubstr(raw(five_volumes[4]).string() + ": is gone"));
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["frames"], 3);
     EXPECT_EQ(json["left_out"].size(), 2U);
@@ -159,7 +156,7 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
                 HasSubstr("too wide for a flat projection"));
     // A drop directory is no cache.
     fs::create_directories(directory_ / "ldm" / "KBGM");
-    fs::copy_file(raw(sequence[0]), directory_ / "ldm" / "KBGM" / sequence[0]);
+    fs::copy_file(raw(five_volumes[0]), directory_ / "ldm" / "KBGM" / five_volumes[0]);
     const auto drop = run_station({"--cache", (directory_ / "ldm").string()});
     EXPECT_EQ(drop.status, 2);
     EXPECT_THAT(drop.err, HasSubstr("is not a cache: it holds KBGM"));
@@ -174,17 +171,9 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
 // 2026-11-22: frames were not counted when all volumes stood, and all of a year's were, of which
 // two had a volume.
 TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
-    const Words mosaic = {"--bounds=-77,41,-75,43",
-                          "--spacing-km",
-                          "4",
-                          "--levels-km",
-                          "1,3,5",
-                          "--domain",
-                          "south",
-                          "--from",
-                          "2005-01-01",
-                          "--to",
-                          "2005-12-31"};
+    const Words mosaic = words(
+        "--bounds=-77,41,-75,43 --spacing-km 4 --levels-km 1,3,5 --domain south --from 2005-01-01 "
+        "--to 2005-12-31");
     const auto at = [&](const std::string& interval) {
         return run(with(mosaic, {"--interval", interval}));
     };
@@ -201,7 +190,7 @@ TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
 
 TEST_F(ArchiveLoop, AGridWhoseFileBrokeSinceStaysAndThatIsSaid) {
     ASSERT_EQ(run_station({}).status, 0);
-    std::ofstream(raw(sequence[1]), std::ios::trunc) << "no radar data";
+    std::ofstream(raw(five_volumes[1]), std::ios::trunc) << "no radar data";
     const auto second = run_station({"--json"});
     ASSERT_EQ(second.status, 0) << second.err;
     EXPECT_THAT(second.err, HasSubstr("the grid that was made from it earlier stays"));

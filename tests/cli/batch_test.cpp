@@ -11,27 +11,19 @@
 #include "stormcellar/base/file_system.h"
 #include "tests/cli/run_stormcellar.h"
 #include "tests/pipeline/small_house.h"
+#include "tests/testing/file_bytes.h"
 #include "tests/testing/waiting.h"
 
 namespace stormcellar::cli {
 namespace {
 
+using pipeline::five_volumes;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::ProgramResult;
 
-const Words five_volumes = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
-                            "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
-                            "KBGM20050822_030830.gz"};
-
-// The grids below a cache, by their paths.
-std::map<std::string, std::vector<std::byte>> grids_of(const fs::path& cache) {
-    std::map<std::string, std::vector<std::byte>> grids;
-    for (const auto& entry : fs::recursive_directory_iterator(cache)) {
-        if (entry.path().extension() == ".scg")
-            grids[fs::relative(entry.path(), cache).native()] = *read_file(entry.path());
-    }
-    return grids;
+std::map<std::string, std::string> grids_of(const fs::path& cache) {
+    return testing::tree_of(cache, ".scg");
 }
 
 class Batch : public ::testing::Test {
@@ -45,17 +37,9 @@ class Batch : public ::testing::Test {
     }
     // Grids of 4 km, and frames every five minutes.
     [[nodiscard]] static Words grid() {
-        return {"--bounds=-79,40,-73,44.5",
-                "--spacing-km",
-                "4",
-                "--levels-km",
-                "1:6:1",
-                "--interval",
-                "5min",
-                "--from",
-                "2005-08-22T02:50",
-                "--to",
-                "2005-08-22T03:05"};
+        return words(
+            "--bounds=-79,40,-73,44.5 --spacing-km 4 --levels-km 1:6:1 --interval 5min "
+            "--from 2005-08-22T02:50 --to 2005-08-22T03:05");
     }
     [[nodiscard]] ProgramResult plan(const std::string& name, const Words& more = {}) const {
         const Words plan{"batch",    "plan",       "--source", place("drop"),
@@ -67,12 +51,13 @@ class Batch : public ::testing::Test {
         return run(with({"batch", command, "--plan", place(name)}, more));
     }
     // Returns the grids that a loop makes of the same files.
-    [[nodiscard]] std::map<std::string, std::vector<std::byte>> grids_of_a_loop() const {
-        Words arguments{
-            "loop",     "--catalog",   place("catalog"), "--stations", "KBGM",         "--cache",
-            place("c"), "--product",   "composite",      "--width",    "200",          "--height",
-            "150",      "--no-labels", "--quiet",        "-o",         place("a.webp")};
-        const auto looped = run(with(arguments, grid()));
+    [[nodiscard]] std::map<std::string, std::string> grids_of_a_loop() const {
+        const Words places{"--catalog", place("catalog"), "--cache", place("c"),
+                           "-o",        place("a.webp")};
+        const auto looped = run(with(
+            words("loop --stations KBGM --product composite --width 200 --height 150 --no-labels "
+                  "--quiet"),
+            places, grid()));
         EXPECT_EQ(looped.status, 0) << looped.err;
         return grids_of(directory_ / "c");
     }
@@ -185,10 +170,9 @@ TEST_F(Batch, WritesTheClimatologyOfItsFrames) {
 }
 
 TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {
-    const Words arguments{
-        "batch",        "plan",   "--source",         place("drop"), "-o",
-        place("own"),   "--from", "2005-08-22T02:50", "--to",        "2005-08-22T03:05",
-        "--spacing-km", "4"};
+    const Words arguments =
+        with({"batch", "plan", "--source", place("drop"), "-o", place("own")},
+             words("--from 2005-08-22T02:50 --to 2005-08-22T03:05 --spacing-km 4"));
     ASSERT_EQ(run(arguments).status, 0);
     ASSERT_EQ(batch("submit", "own", {"--engine", "local"}).status, 0);
     EXPECT_EQ(grids_of(directory_ / "own/cache").size(), 3U) << "those that begin in the range";

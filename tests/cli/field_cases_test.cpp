@@ -8,9 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stormcellar/base/file_system.h"
-#include "tests/cli/run_stormcellar.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/cli/files_and_service.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -21,18 +19,15 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::ProgramResult;
 
-class FieldCases : public ::testing::Test {
+class FieldCases : public FilesAndService {
   protected:
     void SetUp() override {
-        STORMCELLAR_NEED_DATA();
-        cases_ = testing::real_file("cases");
+        FilesAndService::SetUp();
+        cases_ = data_ / "cases";
         fs::create_directory(directory_ / "catalog");
         if (!fs::exists(cases_)) GTEST_SKIP() << "no cases beside the real volumes";
     }
     [[nodiscard]] std::string in(const std::string& name) const { return (cases_ / name).string(); }
-    [[nodiscard]] std::string out(const std::string& name) const {
-        return (directory_ / name).string();
-    }
     nlohmann::json json_of(const Words& arguments) {
         const ProgramResult ran = run(arguments);
         EXPECT_EQ(ran.status, 0) << ran.err;
@@ -55,7 +50,6 @@ class FieldCases : public ::testing::Test {
     }
 
     fs::path cases_;
-    testing::TemporaryDirectory directory_;
     std::string errors_;
 };
 
@@ -77,23 +71,12 @@ TEST_F(FieldCases, AMosaicAboutACenterNeedsNoStationOfTheTable) {
         for (const Words& place : {Words{"--center", "35,-97"},
                                    {"--center", "35,-97", "--extent-km", "200,200"},
                                    {"--center", "35,-97", "--projection", "lat-lon"}}) {
-            Words arguments = {"loop",
-                               "--catalog",
-                               catalog,
-                               "--stations",
-                               "NOP4",
-                               "--from",
-                               "2017-01-01",
-                               "--to",
-                               "2017-01-02",
-                               "--cache",
-                               out(fmt::format("cache-{}-{}", status, place.back())),
-                               "-o",
-                               out("a.webp"),
-                               "--spacing-km",
-                               "4",
-                               "--quiet"};
-            const ProgramResult ran = run(with(arguments, place));
+            const std::string cache = out(fmt::format("cache-{}-{}", status, place.back()));
+            const Words range =
+                words("--stations NOP4 --from 2017-01-01 --to 2017-01-02 --spacing-km 4 --quiet");
+            const ProgramResult ran =
+                run(with({"loop", "--catalog", catalog, "--cache", cache, "-o", out("a.webp")},
+                         range, place));
             EXPECT_EQ(ran.status, status) << ran.err;
         }
     }
@@ -175,26 +158,10 @@ TEST_F(FieldCases, AStationThatNoTableHasIsFiledByWhatItsFileSays) {
     rebuild(catalog, out("drop"));
     const auto volumes = list(catalog, {"--station", "ROP4"});
     ASSERT_EQ(volumes.size(), 1U);
-    const auto made = json_of({"loop",
-                               "--catalog",
-                               catalog,
-                               "--stations",
-                               "ROP4",
-                               "--from",
-                               "2024-06-01T00:00Z",
-                               "--to",
-                               "2024-06-02T00:00Z",
-                               "--product",
-                               "composite",
-                               "--cache",
-                               out("cache"),
-                               "-o",
-                               out("a.webp"),
-                               "--json",
-                               "--width",
-                               "400",
-                               "--height",
-                               "300"});
+    const auto made =
+        json_of(with({"loop", "--catalog", catalog, "--cache", out("cache"), "-o", out("a.webp")},
+                     words("--stations ROP4 --from 2024-06-01T00:00Z --to 2024-06-02T00:00Z --json "
+                           "--product composite --width 400 --height 300")));
     EXPECT_EQ(made["frames"], 1);
 }
 
@@ -305,17 +272,10 @@ TEST_F(FieldCases, AnOutputsEndingDecidesItsFormat) {
 }
 
 TEST_F(FieldCases, VolumesFarApartInTimeDoNotBlend) {
-    const Words two = {"grid",
-                       in("13-mosaic-years-apart/KTLX_2017"),
-                       in("13-mosaic-years-apart/NOP4_2021"),
-                       "-o",
-                       out("a.nc"),
-                       "--levels-km",
-                       "1",
-                       "--spacing-km",
-                       "4",
-                       "--json"};
-    const auto made = json_of(two);
+    const std::string two = in("13-mosaic-years-apart/");
+    const auto made =
+        json_of(with({"grid", two + "KTLX_2017", two + "NOP4_2021", "-o", out("a.nc")},
+                     words("--levels-km 1 --spacing-km 4 --json")));
     EXPECT_THAT(made["time"].get<std::string>(), HasSubstr("2021"));
     EXPECT_EQ(made["stations"], Words{"NOP4"});
     EXPECT_THAT(made["notes"].dump(), HasSubstr("KTLX_2017 is left out"));

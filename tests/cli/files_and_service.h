@@ -27,7 +27,9 @@ class FilesAndService : public ::testing::Test {
     }
 
     // Returns a path in the test's own directory, where config.toml is.
-    [[nodiscard]] std::string out(const char* name) const { return (directory_ / name).native(); }
+    [[nodiscard]] std::string out(const std::string& name) const {
+        return (directory_ / name).native();
+    }
 
     // Runs the daemon on a copy of the raw file until the cache has a grid of it.
     void ingest(const std::string& file) {

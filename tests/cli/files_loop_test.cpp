@@ -7,28 +7,27 @@
 #include <nlohmann/json.hpp>
 
 #include "stormcellar/base/file_system.h"
-#include "tests/cli/run_stormcellar.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/cli/files_and_service.h"
 
 namespace stormcellar::cli {
 namespace {
 
 using ::testing::HasSubstr;
 
-class FilesLoop : public ::testing::Test {
+class FilesLoop : public FilesAndService {
   protected:
     void SetUp() override {
-        STORMCELLAR_NEED_DATA();
+        FilesAndService::SetUp();
         ::setenv("XDG_CACHE_HOME", (directory_ / "home").c_str(), 1);
     }
     [[nodiscard]] static std::string sequence(const std::string& name = "") {
         return (testing::real_file("sequence-kbgm") / name).string();
     }
     [[nodiscard]] testing::ProgramResult run(const Words& sources, const Words& more = {}) const {
-        const Words small = {"loop",     "--product", "composite",    "--width", "400",
-                             "--height", "300",       "--spacing-km", "4",       "--extent-km",
-                             "400,400",  "--json",    "-o",           out()};
+        const Words small = words(
+            "loop --product composite --width 400 --height 300 --spacing-km 4 --extent-km 400,400 "
+            "--json -o " +
+            out());
         return cli::run(with(small, sources, more));
     }
     [[nodiscard]] nlohmann::json json_of(const Words& sources, const Words& more = {}) const {
@@ -36,8 +35,6 @@ class FilesLoop : public ::testing::Test {
     }
     [[nodiscard]] std::string out() const { return directory_ / "a.webp"; }
     [[nodiscard]] std::vector<std::byte> loop() const { return *read_file(out()); }
-
-    testing::TemporaryDirectory directory_;
 };
 
 TEST_F(FilesLoop, ADirectoryItsFilesAndTheirArchiveGiveTheSameLoop) {

@@ -106,12 +106,11 @@ TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
 // The view is typed: a loop that is followed keeps the view that it began with as long as that
 // suits.
 TEST_F(Follow, IsTheLoopThatOneMakesAtOnce) {
-    const Words view = {"--azimuth",       "180", "--tilt",    "55", "--zoom", "1",
-                        "--exaggeration",  "5",   "--opacity", "1",  "--sun",  "225,40",
-                        "--field-of-view", "0"};
+    const Words view = words(
+        "--azimuth 180 --tilt 55 --zoom 1 --exaggeration 5 --opacity 1 --sun 225,40 "
+        "--field-of-view 0");
     for (const char* more : {"--orbit=90", "--ping-pong", "--product=volume"}) {
-        auto plain = view;
-        plain.emplace_back(more);
+        const Words plain = with(view, {more});
         commit("20050822_024400", 22);
         const auto middle = commit("20050822_025000", 33);
         RunningProgram program(STORMCELLAR_PROGRAM, arguments(with(plain, {"-o", out("a.webp")})));

@@ -44,8 +44,8 @@ TEST_F(Loop, WritesTheSameFramesToEveryOutput) {
 }
 
 // A view that is not fitted, because a loop is fitted to all of its grids.
-const Words plain_view = {"--zoom",    "1", "--field-of-view", "0",    "--exaggeration", "5",
-                          "--opacity", "1", "--light",         "none", "--tilt",         "55"};
+const Words plain_view =
+    words("--zoom 1 --field-of-view 0 --exaggeration 5 --opacity 1 --light none --tilt 55");
 
 TEST_F(Loop, DrawsWhatFrameDraws) {
     commit_three();

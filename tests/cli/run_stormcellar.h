@@ -1,6 +1,8 @@
 // tests/cli/run_stormcellar.h -- runs the command line program as a user would.
 #pragma once
 
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,12 @@ using Words = std::vector<std::string>;
 
 inline ProgramResult run_stormcellar(const Words& arguments) {
     return run_program(STORMCELLAR_PROGRAM, arguments);
+}
+
+// Returns the words of a text, which blanks separate.
+inline Words words(const std::string& text) {
+    std::istringstream from(text);
+    return {std::istream_iterator<std::string>(from), {}};
 }
 
 // Returns the words of all lists, in order.
@@ -38,6 +46,7 @@ namespace cli {
 
 using testing::json_of;
 using testing::with;
+using testing::words;
 using testing::Words;
 
 // Returns the path of a real volume.

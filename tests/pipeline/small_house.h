@@ -39,6 +39,10 @@ class SmallHouse : public ::testing::Test {
     Ingestor ingestor_{catalog_, store_, small_grid()};
 };
 
+inline const std::vector<std::string> five_volumes = {
+    "KBGM20050822_024414.gz", "KBGM20050822_025001.gz", "KBGM20050822_025549.gz",
+    "KBGM20050822_030243.gz", "KBGM20050822_030830.gz"};
+
 // Copies these volumes of KBGM to `root`/drop and catalogs them in `root`/catalog.
 inline void catalog_real_volumes(const fs::path& root, const std::vector<std::string>& names) {
     fs::create_directory(root / "drop");

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,19 @@ inline std::string file_text(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error(path.native() + ": cannot be read");
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Returns the contents of all files below a directory that have this extension (empty: any), by
+// their paths.
+inline std::map<std::string, std::string> tree_of(const fs::path& root,
+                                                  const std::string& extension = "") {
+    std::map<std::string, std::string> tree;
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+        const fs::path& path = entry.path();
+        if (entry.is_regular_file() && (extension.empty() || path.extension() == extension))
+            tree[fs::relative(path, root).native()] = file_text(path);
+    }
+    return tree;
 }
 
 inline void alter_last_byte_of(const fs::path& path) {
