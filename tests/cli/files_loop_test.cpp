@@ -25,10 +25,10 @@ class FilesLoop : public FilesAndService {
     }
     [[nodiscard]] testing::ProgramResult run(const Words& sources, const Words& more = {}) const {
         const Words small = words(
-            "loop --product composite --width 400 --height 300 --spacing-km 4 --extent-km 400,400 "
+            "--product composite --width 400 --height 300 --spacing-km 4 --extent-km 400,400 "
             "--json -o " +
             out());
-        return cli::run(with(small, sources, more));
+        return cli::run(with(with({"loop"}, sources), small, more));
     }
     [[nodiscard]] nlohmann::json json_of(const Words& sources, const Words& more = {}) const {
         return testing::json_of(run(sources, more));

@@ -36,7 +36,7 @@ class FileKindTest : public ::testing::Test {
         fs::create_directories(at(name).parent_path());
         const level2::wire::Bytes header = level2::wire::archive_header();
         testing::write_bytes(at(name), header);
-        testing::append_to(at(name), std::vector<std::byte>(more_bytes));
+        testing::append_to(at(name), std::vector(more_bytes, std::byte{'x'}));
         return at(name);
     }
     [[nodiscard]] FileKind kind(const OfferedFile& file) {
