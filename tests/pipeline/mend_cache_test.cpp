@@ -210,8 +210,9 @@ TEST_F(MendCache, FilesThatWentOrChangedAreNotTried) {
 }
 
 // The same with a mosaic of one site: its partials and its frames.
-class MendMosaic : public ::testing::Test {
+class MendMosaic : public SmallHouse {
   protected:
+    MendMosaic() : SmallHouse(with_domain()) {}
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
         for (const std::string& name : sequence) {
@@ -223,11 +224,8 @@ class MendMosaic : public ::testing::Test {
         for (const auto& entry : all())
             good_[entry.path] = codes_of(entry.path);
     }
-    std::vector<cache::StoreEntry> list(const std::string& domain) {
-        return *store_.list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
-    }
-    std::vector<cache::StoreEntry> partials() { return list("north.KBGM"); }
-    std::vector<cache::StoreEntry> frames() { return list("north"); }
+    std::vector<cache::StoreEntry> partials() { return grids("north.KBGM"); }
+    std::vector<cache::StoreEntry> frames() { return grids("north"); }
     std::vector<cache::StoreEntry> all() {
         std::vector<cache::StoreEntry> entries = partials();
         for (const auto& frame : frames())
@@ -259,11 +257,6 @@ class MendMosaic : public ::testing::Test {
         return options;
     }
 
-    testing::TemporaryDirectory directory_;
-    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
-    cache::StoreWriter store_ =
-        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    Ingestor ingestor_{catalog_, store_, with_domain()};
     CacheMender mender_{catalog_, store_, ingestor_, {level2::Moment::ref}};
     std::map<fs::path, std::vector<std::byte>> good_;
 };

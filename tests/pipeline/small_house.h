@@ -28,6 +28,8 @@ inline IngestOptions small_grid() {
 
 class SmallHouse : public ::testing::Test {
   protected:
+    explicit SmallHouse(const IngestOptions& options = small_grid())
+        : ingestor_(catalog_, store_, options) {}
     // The grids of reflectivity.
     std::vector<cache::StoreEntry> grids(const std::string& domain) {
         return *store_.list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
@@ -36,7 +38,7 @@ class SmallHouse : public ::testing::Test {
     catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    Ingestor ingestor_{catalog_, store_, small_grid()};
+    Ingestor ingestor_;
 };
 
 inline const std::vector<std::string> five_volumes = {
