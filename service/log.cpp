@@ -1,10 +1,13 @@
 #include "service/log.h"
 
 #include <array>
-#include <atomic>
 #include <cstdlib>
+#include <iterator>
+#include <memory>
 #include <string>
 
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,25 +20,55 @@ namespace {
 struct LevelFacts {
     std::string_view name;
     char priority;  // of syslog(3)
+    spdlog::level::level_enum level;
 };
-constexpr std::array<LevelFacts, 4> facts_of_levels = {
-    {{"debug", '7'}, {"info", '6'}, {"warning", '4'}, {"error", '3'}}};
-
-std::atomic<LogLevel> least_level{LogLevel::info};
+constexpr std::array<LevelFacts, 4> facts_of_levels = {{{"debug", '7', spdlog::level::debug},
+                                                        {"info", '6', spdlog::level::info},
+                                                        {"warning", '4', spdlog::level::warn},
+                                                        {"error", '3', spdlog::level::err}}};
 
 const LevelFacts& facts_of(LogLevel level) {
     return facts_of_levels[static_cast<std::size_t>(level)];
 }
 
+// Writes a line for the journal or for people, as stderr is at that moment.
+class LineFormatter final : public spdlog::formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+        const std::string_view text(message.payload.data(), message.payload.size());
+        for (const LevelFacts& facts : facts_of_levels) {
+            if (facts.level != message.level) continue;
+            if (stderr_is_journal())
+                fmt::format_to(std::back_inserter(line), "<{}>{}\n", facts.priority, text);
+            else
+                fmt::format_to(std::back_inserter(line), "{} {}: {}\n", format_utc(now_utc()),
+                               facts.name, text);
+        }
+    }
+    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<LineFormatter>();
+    }
+};
+
+// The sink writes each line at once, so that lines of several threads do not mix.
+spdlog::logger& logger() {
+    static spdlog::logger the_logger = [] {
+        spdlog::logger made("stormcellar", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+        made.set_formatter(std::make_unique<LineFormatter>());
+        return made;
+    }();
+    return the_logger;
+}
+
 }  // namespace
 
 void set_log_level(std::string_view name) {
-    for (std::size_t i = 0; i < facts_of_levels.size(); ++i)
-        if (facts_of_levels[i].name == name) least_level = static_cast<LogLevel>(i);
+    for (const LevelFacts& facts : facts_of_levels)
+        if (facts.name == name) logger().set_level(facts.level);
 }
 
 bool is_logged(LogLevel level) {
-    return level >= least_level.load();
+    return logger().should_log(facts_of(level).level);
 }
 
 char priority_of(LogLevel level) {
@@ -50,12 +83,7 @@ bool stderr_is_journal() {
 }
 
 void write_log(LogLevel level, std::string_view text) {
-    const std::string line = stderr_is_journal()
-                                 ? fmt::format("<{}>{}\n", priority_of(level), printable(text))
-                                 : fmt::format("{} {}: {}\n", format_utc(now_utc()),
-                                               facts_of(level).name, printable(text));
-    // Use one write, so that lines of several threads do not mix. A failure cannot be reported.
-    (void)!::write(STDERR_FILENO, line.data(), line.size());
+    logger().log(facts_of(level).level, "{}", printable(text));
 }
 
 }  // namespace stormcellar
