@@ -16,7 +16,7 @@ struct RayDifference {
 
 // Compares every `stride`-th pixel along both sides, from `first` on.
 inline RayDifference against_reference(const ReferenceMarcher& reference, const Layer& layer,
-                                    int steps, int first, int stride) {
+                                       int steps, int first, int stride) {
     RayDifference difference;
     int count = 0;
     for (int y = first; y < layer.height; y += stride) {
