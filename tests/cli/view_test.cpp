@@ -109,7 +109,8 @@ TEST_F(ViewCommand, SaysWhatCannotBeShown) {
     std::ofstream(at("page.html")) << "<html>";
     const auto other = run({"view", at("page.html"), "--no-browser"});
     EXPECT_EQ(other.status, 1);
-    EXPECT_NE(other.err.find("nothing can be gridded"), std::string::npos) << other.err;
+    EXPECT_NE(other.err.find("none of the named files can be gridded"), std::string::npos)
+        << other.err;
 }
 
 }  // namespace
