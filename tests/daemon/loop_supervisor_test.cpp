@@ -231,7 +231,7 @@ TEST(LineReader, GivesWholeLinesAndTheRestAtTheEnd) {
     int ends[2] = {};
     ASSERT_EQ(::pipe(ends), 0);
     ASSERT_EQ(::fcntl(ends[0], F_SETFL, O_NONBLOCK), 0);
-    LineReader reader(ends[0]);
+    LineReader reader{Descriptor(ends[0])};
     const auto write = [&](const std::string& text) {
         ASSERT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
     };
