@@ -197,16 +197,15 @@ TEST_F(PartialsKeeperTest, APartThatReplacesThatOfAnotherMachineIsNamed) {
     forged.longer_ms = 1;
     std::string log;
     {
-        ::testing::internal::CaptureStdout();
+        ::testing::internal::CaptureStderr();
         bring("south", forged);
         EXPECT_TRUE(testing::eventually([&] { return south().replaced == 1; }));
         bring("north", early);
         keeper_.reset();
-        log = ::testing::internal::GetCapturedStdout();
+        log = ::testing::internal::GetCapturedStderr();
     }
-    EXPECT_THAT(log,
-                HasSubstr("partial of south: north.KBGM 2005-08-22T02:44:00Z takes the place of "
-                          "another one, of north"));
+    EXPECT_THAT(
+        log, HasSubstr("partial of south: north.KBGM 2005-08-22T02:44:00Z replaces one of north"));
 }
 
 TEST_F(PartialsKeeperTest, APartThatCameBeforeThatOfAnotherMachineIsNamedToo) {

@@ -369,11 +369,14 @@ void CacheTree::handle_file(const Place& place, std::uint32_t mask, std::string_
     const auto at = std::lower_bound(day->times.begin(), day->times.end(), *time);
     const bool is_known = at != day->times.end() && *at == *time;
     struct stat facts {};
-    const bool is_there = ::lstat((path_of(place) / std::string(name)).c_str(), &facts) == 0 &&
-                          S_ISREG(facts.st_mode);
-    if (!is_there) {
-        if (!is_known) return;
-        day->times.erase(at);
+    const bool has_facts = ::lstat((path_of(place) / std::string(name)).c_str(), &facts) == 0;
+    // A file that cannot be read is not gone; a scan looks again.
+    if (!has_facts && errno != ENOENT && errno != ENOTDIR) return;
+    if (!has_facts || !S_ISREG(facts.st_mode)) {
+        // A grid that came and went before its first event was read is told as gone, once.
+        const bool has_come = (mask & (IN_MOVED_TO | IN_CLOSE_WRITE)) != 0;
+        if (!is_known && (has_facts || !has_come)) return;
+        if (is_known) day->times.erase(at);
         note_time(place, day->seen);
         return tell(CacheEvent::went, place, *time);
     }
