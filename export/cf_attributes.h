@@ -36,8 +36,8 @@ struct MapNames {
 [[nodiscard]] CfAttributes height_attributes();
 [[nodiscard]] CfAttributes row_attributes(const grid::GridSpec& spec);
 [[nodiscard]] CfAttributes column_attributes(const grid::GridSpec& spec);
-// Return the attributes of the variables lat and lon, on maps in meters, where they are no
-// dimensions.
+// Return the attributes of the variables lat and lon of a map in meters, whose dimensions are y and
+// x.
 [[nodiscard]] CfAttributes latitude_attributes();
 [[nodiscard]] CfAttributes longitude_attributes();
 [[nodiscard]] CfAttributes mapping_attributes(const grid::GridSpec& spec);

@@ -149,8 +149,7 @@ void unpack(const SweepMoment* moment, const RangeAxis& axis, std::size_t radial
     }
 }
 
-// Writes for each sweep how to restore its measured gates, if the axis has any of them at another
-// place.
+// If the axis repeats or shifts measured gates, writes how to restore them for each sweep.
 void write_placement(const CfradialParts& parts, const CfradialField& field) {
     std::vector<int> repeats;
     std::vector<int> first;

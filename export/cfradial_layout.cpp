@@ -36,9 +36,10 @@ std::size_t most_gates(const SweepMoment& moment) {
     return most == moment.gate_counts.end() ? 0 : *most;
 }
 
-// Returns the element of an axis that holds the first part of a gate, counted from the axis's first
-// center; below 0 for a gate that begins before it. An element belongs to the gate if its center is
-// beyond the gate's near edge. A gate of the axis's own spacing begins at its own center.
+// Returns the number of the first element that the moment's first gate fills. Element 0 has its
+// center at `axis_first_m`; the number is below 0 if the gate begins before that element. An
+// element belongs to the gate if its center is beyond the gate's near edge. A gate of the axis's
+// own spacing begins at its own center.
 std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
                            const SweepMoment& moment) {
     const std::int64_t doubled = 2 * (moment.first_gate_m - axis_first_m) - moment.gate_spacing_m;
@@ -163,7 +164,7 @@ void find_axes(CfradialLayout& layout) {
 }  // namespace
 
 GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment) {
-    if (axis.gate_spacing_m <= 0) return {};  // an axis of damaged gates, which every gate has
+    if (axis.gate_spacing_m <= 0) return {};  // damaged gates share their spacing with the axis
     const std::int64_t first = first_element(axis.first_gate_m, axis.gate_spacing_m, moment);
     return {static_cast<std::size_t>(first),
             static_cast<std::size_t>(moment.gate_spacing_m / axis.gate_spacing_m)};

@@ -3,8 +3,8 @@
 //
 // Gates of a moment that agree in word size, scale and offset make one field if the volume has one
 // range axis (RangeAxes). Otherwise they must also agree in first gate and spacing, and each pair
-// of first gate and spacing makes an axis. Nearly every moment of a modern volume is one field on
-// one axis in either case.
+// of first gate and spacing makes an axis. With either choice of RangeAxes, nearly every moment of
+// a modern volume is one field on one axis.
 //   names   The kind of a moment that most radials have is named REF; the others are REF_2, REF_3,
 //           .... Axes are range, range_2, ... in the order in which the fields need them.
 //   order   The order of the moments (REF VEL SW ZDR PHI RHO CFP), then by number of radials, then
@@ -28,7 +28,7 @@ struct RangeAxis {
     std::string name;
     std::int32_t first_gate_m = 0;  // to the center
     std::int32_t gate_spacing_m = 0;
-    std::size_t gates = 0;  // the largest number of any radial
+    std::size_t gates = 0;  // number of elements, enough for the longest radial
 };
 
 // The place of the gates of one sweep's moment on the axis of their field: gate i fills the
@@ -41,17 +41,17 @@ struct GatePlacement {
 struct CfradialField {
     std::string name;
     std::size_t axis = 0;  // index in CfradialLayout::axes
-    // One element for each sweep of the volume; null if the sweep lacks this kind. Not all are
-    // null.
+    // One element for each sweep of the volume; null if the sweep has no gates of this kind. At
+    // least one element is not null.
     std::vector<const level2::SweepMoment*> sweeps;
-    const level2::SweepMoment* kind = nullptr;  // the first of them, with all that they share
+    const level2::SweepMoment* kind = nullptr;  // the first that is not null
     std::size_t radials = 0;                    // radials that have gates of this kind
 };
 
 struct CfradialLayout {
     std::vector<RangeAxis> axes;  // at least one, perhaps without gates
     std::vector<CfradialField> fields;
-    std::vector<std::size_t> first_radials;  // of each sweep, counted through the volume
+    std::vector<std::size_t> first_radials;  // number of each sweep's first radial in the volume
     std::size_t radials = 0;
 };
 

@@ -1,16 +1,18 @@
 // export/climatology_netcdf.h -- writes statistics of many grids as CF netCDF.
 //
-// Each group (an hour of the day, a month, or the whole time) has counts of frames, and of the
-// frames in which a column was seen and not seen. For the columns that were seen it has how often
-// the greatest value of the column reached each threshold, its maximum, means and quantiles, and
-// how often the echo top (18.5 dBZ) was at or above each level. If cells were counted, too,
-// variables named cell_ have the same statistics of each cell. If a column or cell was never seen,
-// or never had a value, its statistics have the fill value.
+// A group is an hour of the day, a month, or the whole time. For each group the file counts the
+// frames, and for each column the frames in which it was seen and not seen. Over the frames in
+// which a column was seen, the file gives how often its greatest value reached each threshold, the
+// maximum, means and quantiles of that value, and how often the echo top (18.5 dBZ) was at or above
+// each level. If cells were counted too, variables whose names begin with cell_ have the same
+// statistics, except echo tops, for each cell. If a column or cell was never seen, or never had a
+// value, its statistics have the fill value.
 //
 // Units     The attributes name them.
-// Memory    The counts of all groups, and all variables once more.
+// Memory    The counts of all groups; the file in memory needs about as much again.
 // Threads   Any thread; files are written one at a time.
-// Errors    bad_argument for no group, or groups of different grids; those of the file system;
+// Errors    bad_argument for no group, or groups of different grids; internal if netCDF refuses;
+//           those of the file system.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +28,7 @@ namespace stormcellar::netcdf {
 
 struct TallyGroup {
     int number = 0;              // the hour, the month, or 0
-    std::uint64_t instants = 0;  // number of times at which a frame could be
+    std::uint64_t instants = 0;  // number of times at which a frame was expected
     grid::GridTally tally;
 };
 

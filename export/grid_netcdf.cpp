@@ -31,8 +31,8 @@ struct Field {
     const Grid& grid;
     bool is_alone = true;
 
-    // Returns the name of a variable that belongs to the moment. The moment's name is in front,
-    // unless the file has only this moment.
+    // Returns the name of a variable of this moment. If the file has several moments, the name
+    // begins with the moment.
     [[nodiscard]] std::string name_of(std::string_view variable) const {
         return is_alone ? std::string(variable)
                         : fmt::format("{}_{}", level2::moment_name(grid.moment), variable);
@@ -339,8 +339,8 @@ Result<std::vector<std::byte>> build(std::span<const Grid> grids, const GridWrit
     NetcdfBuilder file;
     const grid::GridSpec& spec = grids.front().spec;
     const MapNames names = map_names(spec);
-    // The dimension is unlimited, so that programs can join files along it (ncrcat). Axes come
-    // first, because they give it its one element.
+    // The dimension is unlimited, so that programs can join files along it (ncrcat). The axes are
+    // written first, because write_axes() gives the dimension its one element.
     constexpr std::size_t unlimited = 0;
     const Dimensions size{file.dimension("time", unlimited),
                           file.dimension("z", spec.levels_m.size()),

@@ -26,7 +26,7 @@ class NetcdfBuilder {
     NetcdfBuilder& operator=(const NetcdfBuilder&) = delete;
     ~NetcdfBuilder();
 
-    // Means "no variable", or "the file", whose attributes are the global ones.
+    // Stands for the file, whose attributes are the global ones, and also means "no variable".
     static constexpr int file = -1;
 
     // Makes a dimension. A size of 0 makes an unlimited dimension with nothing in it yet, as in
@@ -35,8 +35,8 @@ class NetcdfBuilder {
     // Makes a variable. Types are those of netcdf.h. A variable without dimensions is a scalar.
     int variable(const char* name, int type, const std::vector<int>& dimensions);
     void chunks(int variable, const std::vector<std::size_t>& sizes);
-    // Sets how much of a chunked variable is kept unpacked until the end; netCDF keeps 16 MiB or
-    // more.
+    // Sets how many bytes of a chunked variable stay unpacked in memory; by default netCDF keeps 16
+    // MiB or more.
     void chunk_cache(int variable, std::size_t bytes);
     void deflate(int variable, int level);
     // Sets the fill value, in the type of the variable.
@@ -56,8 +56,8 @@ class NetcdfBuilder {
     // Writes rows of equal length, one after the other, as a variable of characters.
     void write(int variable, std::span<const char> characters);
 
-    // Writes element 0 of a variable on an unlimited dimension; the dimension then has a length of
-    // 1, as write() needs it for the other variables.
+    // Writes element 0 of a variable on an unlimited dimension; the dimension then has the length
+    // 1, which write() needs for the other variables.
     void write_first(int variable, double value);
 
     // Some rows of a variable with two dimensions, each over the whole second dimension.

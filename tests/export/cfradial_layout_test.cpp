@@ -148,7 +148,7 @@ TEST(CfradialLayout, OnOneAxisALegacyGateOfOneKilometerStandsFourTimes) {
     EXPECT_EQ(vel.repeats, 1U);
 }
 
-// 2026-11-28: of a TDWR the long sweep, with REF at 300 m, was empty to them.
+// 2026-11-28: Py-ART and xradar found the long sweep of a TDWR, with REF at 300 m, empty.
 TEST(CfradialLayout, OnOneAxisAMomentOfTwoGateLengthsIsOneField) {
     SweepMoment far = small_moment(Moment::ref, {{2, 3, 4}});
     far.first_gate_m = 0;
@@ -166,9 +166,9 @@ TEST(CfradialLayout, OnOneAxisAMomentOfTwoGateLengthsIsOneField) {
 }
 
 TEST(CfradialLayout, TheOneAxisBeginsWithTheNearestGate) {
-    const SweepMoment doppler = small_moment(Moment::vel, {{2}});  // 250 m from 2125 m
+    const SweepMoment doppler = small_moment(Moment::vel, {{2}});  // gates of 250 m from 2125 m
     SweepMoment ref = at_1km(small_moment(Moment::ref, {{2, 3}}));
-    ref.first_gate_m = 1000;  // from 500 m
+    ref.first_gate_m = 1000;  // the first gate begins at 500 m
     const auto volume = small_volume({small_sweep(1, {ref, doppler})});
     const auto layout = lay_out(volume, RangeAxes::one_if_possible);
     ASSERT_TRUE(layout);

@@ -20,7 +20,7 @@ using Values = std::vector<double>;
 
 constexpr double valid = 0, below = 1, folded = 2, none = 3;
 
-// A word of `string_length` letters, without the zeros after it.
+// Returns a word without the zeros that fill it up to `string_length` letters.
 std::string word(const std::string& letters) {
     return letters.c_str();
 }
@@ -58,7 +58,7 @@ TEST_F(Cfradial, EveryGateKeepsItsCodeAndWhyItHasNoValue) {
     EXPECT_EQ(reader.values("range", 4), (Values{2125, 2375, 2625, 2875}));
 }
 
-// The accuracy that stormcellar/export/cfradial.h states, for the scales of real volumes.
+// Checks the accuracy that stormcellar/export/cfradial.h states, with the scales of real volumes.
 TEST_F(Cfradial, UnpackedValuesAreAsExactAsStated) {
     struct Packing {
         float scale, offset;

@@ -1,9 +1,10 @@
 """Opens volumes as a scientist would, with netCDF4 and with xarray, and compares every gate.
 
 Usage: check_cfradial.py PROGRAM LEVEL2_FILE GOLDEN_JSON
-Writes each volume of the file with PROGRAM, on one range axis and with --own-ranges, and compares sweeps, radials and moments with what an
-independent decoder found: counts of each state, minimum, maximum and mean of the values, and the
-CRC of the codes, which are put together again from values and states.
+Writes each volume of the file with PROGRAM, on one range axis and with --own-ranges, and compares
+sweeps, radials and moments with the results of an independent decoder: the count of each state, the
+minimum, maximum and mean of the values, and the CRC of the codes, which this script restores from
+values and states.
 """
 import datetime
 import json
@@ -36,7 +37,7 @@ def time_of(text):
 
 
 def export(program, level2_file, directory, options):
-    """The facts that info prints, and the path of each volume of the file."""
+    """Returns the facts that info prints, and the path of each volume of the file."""
     path = directory + "/out.nc"
     command = [program, "info", level2_file, "--json", *options, "--to", path]
     ran = subprocess.run(command, capture_output=True, text=True)
@@ -61,14 +62,14 @@ def fields_of(data, moment):
 
 
 def placement(data, name, sweep):
-    """Element of the axis where the first gate of a sweep begins, and how many each gate fills."""
+    """Returns the element where the first gate of a sweep begins, and how many each gate fills."""
     if name + "_gate_repeats" not in data.variables:
         return 0, 1
     return int(data[name + "_gate_start"][sweep]), int(data[name + "_gate_repeats"][sweep])
 
 
 def check_axis(data, name, sweep, expected, what):
-    """The centres of the gates of a field."""
+    """Checks the centers of the gates of a field."""
     axis = data[data[name].dimensions[1]]
     same(axis.standard_name, "projection_range_coordinate", what)
     same(axis.units, "meters", what)
@@ -81,7 +82,7 @@ def check_axis(data, name, sweep, expected, what):
         same(axis[start], expected["first_gate_m"], what + " first gate")
         return
     same(data[name + "_first_gate"][sweep], expected["first_gate_m"], what + " first gate")
-    # The axis lies within the measured gate, or on its far edge.
+    # Centers on the axis are inside the measured gate, or on its far edge.
     offsets = axis[start:start + repeats] - expected["first_gate_m"]
     half = expected["gate_spacing_m"] / 2
     assert np.all((offsets > -half) & (offsets <= half)), f"{what} is at {offsets}"
@@ -89,7 +90,7 @@ def check_axis(data, name, sweep, expected, what):
 
 
 class SweepField:
-    """One sweep of one field: values as netCDF4 gives them, and the raw codes put together."""
+    """One sweep of one field: the values that netCDF4 gives, and the restored raw codes."""
 
     def __init__(self, data, name, rows, sweep):
         self.values = data[name][rows]
@@ -113,7 +114,7 @@ class SweepField:
         assert np.array_equal(there, columns < self.gates[:, None]), name + ": gaps in a radial"
 
     def take_measured(self, start, repeats, name):
-        """Leaves each measured gate once; what repeats it must be the same."""
+        """Keeps each measured gate once, and checks that its repetitions are equal."""
         repeats = max(repeats, 1)
         assert np.all(self.states[:, :start] == NO_DATA), name + ": values before the first gate"
         width = (self.states.shape[1] - start) // repeats
@@ -229,7 +230,7 @@ def check_file(data, golden):
 
 
 def check_documented(data):
-    """Every variable, dimension and attribute of the file stands in docs/export.md."""
+    """Checks that docs/export.md names every variable, dimension and attribute of the file."""
     page = pathlib.Path(__file__).parents[2] / "docs" / "export.md"
     prose = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
     known = set(re.findall(r"`([^`]+)`", prose))

@@ -1,7 +1,7 @@
-"""Opens a grid as a user would, with netCDF4 and with xarray, and checks what it says.
+"""Opens a grid as a user would, with netCDF4 and with xarray, and checks its content.
 
 Usage: check_grid.py PROGRAM LEVEL2_FILE
-Grids the file with PROGRAM and compares coordinates with formulae of their own (Vincenty's inverse
+Grids the file with PROGRAM and compares coordinates with independent formulas (Vincenty's inverse
 on WGS84), so that a wrong projection, axis or unit cannot pass.
 """
 import json
@@ -17,7 +17,7 @@ import xarray
 
 
 def vincenty(lat1, lon1, lat2, lon2):
-    """Distance in metres and azimuth in degrees on WGS84 (Vincenty 1975)."""
+    """Returns the distance in meters and the azimuth in degrees on WGS84 (Vincenty 1975)."""
     a, f = 6378137.0, 1 / 298.257223563
     b = a * (1 - f)
     u1, u2 = (math.atan((1 - f) * math.tan(math.radians(x))) for x in (lat1, lat2))
@@ -49,7 +49,7 @@ def vincenty(lat1, lon1, lat2, lon2):
 
 
 def snyder_lambert(mapping, lat, lon):
-    """x and y on the cone (Snyder 1987, eqs 14-15 and 15-7 to 15-11), from the CF attributes."""
+    """Returns x and y on the cone of the CF attributes (Snyder 1987, eqs 14-15, 15-7 to 15-11)."""
     f = 1 / mapping.inverse_flattening
     e = math.sqrt(f * (2 - f))
 
@@ -135,13 +135,13 @@ def check_coordinates(data, facts):
 
 
 def places(dataset):
-    """Latitude and longitude of every column."""
+    """Returns the latitude and longitude of every column."""
     lat, lon = dataset["lat"].values, dataset["lon"].values
     return (lat, lon) if lat.ndim == 2 else np.meshgrid(lat, lon, indexing="ij")
 
 
 def middle_of_storms(path, site):
-    """The mean place of strong echo at 3 km, not far from the site, on any projection."""
+    """Returns the mean place of strong echo at 3 km, near the site, on any projection."""
     with xarray.open_dataset(path) as dataset:
         lat, lon = places(dataset)
         field = dataset["REF"].isel(time=0).sel(z=3000, method="nearest").values
@@ -149,7 +149,7 @@ def middle_of_storms(path, site):
         east = (lon - site[1]) * np.cos(np.radians(lat))
         near = np.hypot(north, east) < 1.2
         weight = np.where(near & (field > 30), field - 30, 0)
-        # A cell of degrees is smaller to the north: weigh by area on the map it stands on.
+        # Cells in degrees are smaller in the north, so weigh them by their area.
         if dataset["lat"].ndim == 1:
             weight = weight * np.cos(np.radians(lat))
         if weight.sum() == 0:
@@ -195,7 +195,7 @@ DETAILS = {"age": "s", "beam_height_offset": "m", "gate_distance": "m", "sample_
 
 
 def check_details(program, level2_file, path):
-    """Everything beside the value, of a frame time ten minutes after the volume began."""
+    """Checks the details of cells, for a frame time ten minutes after the volume began."""
     plain = make(program, level2_file, path, [])
     with netCDF4.Dataset(path) as data:
         assert not set(DETAILS) & set(data.variables), "nothing that was not asked for"
@@ -220,8 +220,8 @@ def check_details(program, level2_file, path):
             assert np.array_equal(~np.ma.getmaskarray(data[name][:]), seen), name
         age, offset, distance, weight = (data[name][:] for name in DETAILS)
         assert f"{frame}Z" in data["age"].comment
-        # Neither volume repeats a cut, so that the sweeps are the same whatever the time; the start
-        # of a volume may have milliseconds.
+        # Neither volume repeats a cut, so the same sweeps are used for any frame time. The start of
+        # a volume may have milliseconds.
         assert np.abs(since_start - age - 600).max() < 1.01
         start, end = (np.datetime64(data.getncattr("time_coverage_" + name).rstrip("Z"))
                       for name in ("start", "end"))
@@ -230,14 +230,14 @@ def check_details(program, level2_file, path):
         assert weight.min() >= 0.499 and weight.max() <= 1 and np.ma.median(weight) == 1
         assert (np.abs(offset) < 8000).all() and offset.min() < -100 and offset.max() > 100
         assert distance.min() >= 0 and np.ma.median(distance) > 50
-        # The gates of the nearest beam are no farther than beam and half a radial's width.
+        # The nearest gate is no farther than the nearest beam plus half a radial's width.
         x, y = np.meshgrid(data["x"][:], data["y"][:])
         half_m = np.hypot(x, y) * math.radians(0.75) + 600
         assert (distance <= np.abs(offset) * 1.01 + half_m).all()
 
 
 def check_moments(program, level2_file, path):
-    """One file of all moments holds what a file of each moment holds, under names of its own."""
+    """Checks that the file of all moments has the content of each moment's own file."""
     options = ["--extent-km", "120,120", "--fields", "age"]
     facts = make(program, level2_file, path, ["--moment", "all", *options])
     names = [one["moment"] for one in facts["moments"]]
@@ -267,7 +267,7 @@ def check_moments(program, level2_file, path):
 
 
 def check_maps(program, level2_file, path, options):
-    """The GeoTIFF of a map, read by GDAL, against the column maxima of the netCDF."""
+    """Compares the GeoTIFF of a map, read by GDAL, with the column maxima of the netCDF."""
     make(program, level2_file, path, options)
     raster = path + ".tif"
     subprocess.run([program, "frame", level2_file, "--product", "composite", "-o", raster, *options],
@@ -281,7 +281,7 @@ def check_maps(program, level2_file, path, options):
         highest = dataset["REF"].isel(time=0).max("z").values[::-1]
         found = np.fromfile(path + ".raw", dtype="<f4").reshape(highest.shape)
         assert np.array_equal(np.isnan(found), np.isnan(highest))
-        # Pictures take grids as the cache has them: reflectivity in steps of half a decibel.
+        # Pictures use grids as stored in the cache: reflectivity in steps of half a decibel.
         assert np.nanmax(np.abs(found - highest)) <= 0.2501
         assert np.isfinite(found).sum() > 0
         half = abs(step_x) / 2
@@ -339,7 +339,7 @@ def main():
         if shutil.which("gdalinfo"):
             for projection in ("aeqd", "lat-lon", "lambert"):
                 check_maps(program, level2_file, path, ["--projection", projection])
-        # The storms stand at the same places on every map, within a cell.
+        # The storms are at the same places on every map, within a cell.
         stormy = facts["cells"]["value"] > 0.02 * facts["nx"] * facts["ny"] * len(facts["levels_m"])
         assert not stormy or None not in echoes
         for lat, lon in [place for place in echoes[1:] if place]:

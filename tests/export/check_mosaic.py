@@ -1,9 +1,9 @@
-"""Counts and weights of a mosaic, as a user reads them, against each site alone.
+"""Compares the counts and weights of a mosaic, as a user reads them, with each site alone.
 
 Usage: check_mosaic.py PROGRAM LEVEL2_FILE LEVEL2_FILE...
-Grids all files together with PROGRAM, and each alone on the same columns: how many sites see a cell
-is counted anew from the single grids, and the weights are made anew from distances by Vincenty's
-inverse (check_grid.py).
+Grids all files together with PROGRAM, and each file alone on the same columns. Counts the sites
+that see a cell from the single grids, and computes the weights from distances by Vincenty's inverse
+(check_grid.py).
 """
 import json
 import subprocess
@@ -33,7 +33,7 @@ def seen_alone(program, file, path):
 
 
 def arcs(site, data):
-    """From a site to every column, m."""
+    """Returns the distance from a site to every column, in meters."""
     lat, lon = data["lat"][:], data["lon"][:]
     return np.array([[vincenty(*site, lat[j, i], lon[j, i])[0] for i in range(lat.shape[1])]
                      for j in range(lat.shape[0])])

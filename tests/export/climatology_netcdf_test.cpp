@@ -15,7 +15,7 @@ using grid::CellStatus;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// Two columns: the first sees `dbz` at 2000 m, the second nothing.
+// Returns a grid of two columns. The first has `dbz` at 2000 m; the second was not seen.
 grid::BrickGrid echo(float dbz) {
     grid::Grid grid;
     grid.spec.nx = 2;
@@ -51,7 +51,8 @@ TEST(ClimatologyNetcdf, SaysWhatWasSeenAndHowOftenItRained) {
     EXPECT_THAT(file.values("hour", 2), ElementsAre(20, 21));
     EXPECT_THAT(file.values("frames", 2), ElementsAre(2, 0));
     EXPECT_THAT(file.values("missing_frames", 2), ElementsAre(3, 1));
-    // Hour, then column: the second column is blind, which is not dry.
+    // Values are in the order of hours, then columns. The second column was never seen, which does
+    // not mean that it had no echo.
     EXPECT_THAT(file.values("seen", 4), ElementsAre(2, 0, 0, 0));
     EXPECT_THAT(file.values("not_seen", 4), ElementsAre(0, 2, 0, 0));
     const double fill = file.number("maximum", "_FillValue");
@@ -74,7 +75,7 @@ TEST(ClimatologyNetcdf, SaysWhatWasSeenAndHowOftenItRained) {
               ErrorCode::bad_argument);
 }
 
-// Level, then column: the cells of the first column at 1000 and 2000 m, and the blind one's.
+// Values are in the order of levels, then columns. The second column was never seen.
 TEST(ClimatologyNetcdf, HasEachCellWhereTheyWereCounted) {
     const testing::TemporaryDirectory directory;
     const std::vector<TallyGroup> groups{

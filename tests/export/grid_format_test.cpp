@@ -48,7 +48,7 @@ TEST(GridFormat, NetcdfIsTheDefaultAndWritesWhatWriteGridWrites) {
     const Status written = grid_formats().front().write(real_file_system(), by_format, {&grid, 1});
     ASSERT_TRUE(written) << written.error().message;
     EXPECT_EQ(std::filesystem::file_size(direct), std::filesystem::file_size(by_format));
-    // A grid whose arrays do not fit is refused by the format, too.
+    // The format also refuses a grid whose arrays do not fit.
     grid.values.pop_back();
     EXPECT_FALSE(grid_formats().front().write(real_file_system(), by_format, {&grid, 1}));
 }

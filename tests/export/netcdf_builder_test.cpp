@@ -39,7 +39,7 @@ TEST(NetcdfBuilder, WhatWasWrittenIsReadBack) {
     EXPECT_EQ(answer, 42);
 }
 
-// Opens the builder's bytes as a reader does.
+// Opens the bytes of the builder with the netCDF library.
 class Opened {
   public:
     explicit Opened(NetcdfBuilder& builder) {

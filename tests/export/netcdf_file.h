@@ -1,5 +1,5 @@
-// tests/export/netcdf_file.h -- a fixture with a netCDF file to write, and what holds for every
-// writer of one.
+// tests/export/netcdf_file.h -- a fixture for tests that write a netCDF file, with a check that
+// every writer must pass.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ class NetcdfFile : public ::testing::Test {
         EXPECT_FALSE(first.empty());
         EXPECT_EQ(first, bytes());
     }
-    // On a full disk the old file stays as it is, and nothing half-written is left.
+    // Expects that a write to a full disk fails, keeps the old file and leaves no other file.
     void expect_the_old_file_stays(const Write& write) const {
         std::ofstream(path_) << "old";
         testing::PowerCutFileSystem file_system;

@@ -12,7 +12,8 @@ namespace stormcellar::netcdf {
 // The codes of one radial; none: the radial lacks the moment.
 using Row = std::vector<std::uint16_t>;
 
-// REF as message 31 has it: 250 m from 2125 m, 8 bits, 2 and 66.
+// Makes a moment that is packed like REF in message 31: gates of 250 m from 2125 m, 8 bits, scale
+// 2, offset 66.
 inline level2::SweepMoment small_moment(level2::Moment name, const std::vector<Row>& rows) {
     level2::SweepMoment made;
     made.moment = name;
@@ -32,7 +33,7 @@ inline level2::SweepMoment small_moment(level2::Moment name, const std::vector<R
     return made;
 }
 
-// The same with codes of 16 bits.
+// Makes the same moment with codes of 16 bits.
 inline level2::SweepMoment wide_moment(level2::Moment name, const std::vector<Row>& rows) {
     level2::SweepMoment made = small_moment(name, rows);
     made.word_size_bits = 16;

@@ -15,15 +15,15 @@
 // the median of the radials' elevations.
 //
 // The file is made in memory and appears whole or not at all (stormcellar/base/file_system.h). The
-// same volume gives the same bytes; they do not name the time of writing.
+// same volume gives the same bytes, because the file does not contain the time of writing.
 //
 // Units     CF units, named in the file.
 // Threads   Any thread may call. Calls wait for each other, because the netCDF library is not
 //           thread-safe.
 // Errors    See write_volume().
-// Accuracy  On one axis, the center of each gate lies within the measured gate that it repeats, or
-//           on its far edge. Unpacked in double, a value is within 1e-12 (8-bit codes) or 1e-11
-//           (16-bit codes) of (code - offset) / scale.
+// Accuracy  On one axis, the center of each element is inside the measured gate that the element
+//           repeats, or on the far edge of that gate. Unpacked in double, a value is within 1e-12
+//           (8-bit codes) or 1e-11 (16-bit codes) of (code - offset) / scale.
 // Source    CfRadial Data File Format, version 1.4, NCAR/EOL, 2016-08-01.
 #pragma once
 
@@ -40,10 +40,11 @@ namespace stormcellar::netcdf {
 
 enum class RangeAxes : std::uint8_t {
     // One axis with the shortest spacing of the volume. A gate of N times that length is repeated N
-    // times: a gate of 1 km four times at 250 m. REF_gate_repeats and its like give N for each
-    // sweep. Programs that read only one axis (Py-ART, xradar) then find every moment. If a spacing
-    // is not 1 to 8 times the shortest, or gates of the shortest do not meet, each geometry has its
-    // own axis.
+    // times: at 250 m, a gate of 1 km is repeated four times. REF_gate_repeats (VEL_gate_repeats,
+    // ...) gives N for each sweep. Programs that read only one axis (Py-ART, xradar) then find
+    // every moment. If a spacing is not the shortest times a whole number from 1 to 8, if gates of
+    // the shortest spacing are shifted by a part of a gate, or if the axis would have more than
+    // 8192 elements, each geometry has its own axis.
     one_if_possible,
     of_each_geometry,  // Every gate appears once, where it was measured.
 };

@@ -20,10 +20,10 @@ namespace stormcellar::grid_export {
 
 struct GridFormat {
     std::string_view name;                      // "netCDF"
-    std::span<const std::string_view> endings;  // of its files; the first one is the usual one
+    std::span<const std::string_view> endings;  // of file names; the first is the usual one
     // Writes the grids of one or several moments into one file, whole or not at all. The grids
-    // share their cells and their time. Errors: bad_argument for grids that the format cannot hold,
-    // and those of the file system.
+    // share their cells and their time. Errors: bad_argument for grids that the format cannot hold;
+    // internal if a library refuses; those of the file system.
     Status (*write)(FileSystem& file_system, const std::filesystem::path& path,
                     std::span<const grid::Grid> grids);
 };
@@ -34,7 +34,8 @@ struct GridFormat {
 // Finds a format by the ending of a file's name. Returns null if no format has this ending.
 [[nodiscard]] const GridFormat* grid_format_of(std::string_view file_name);
 
-// The endings of all formats, and the names with them as a user reads them: "netCDF (.nc, .nc4)".
+// grid_endings() returns the endings of all formats; known_grid_formats() returns the names with
+// their endings for messages: "netCDF (.nc, .nc4)".
 [[nodiscard]] std::vector<std::string_view> grid_endings();
 [[nodiscard]] std::string known_grid_formats();
 

@@ -1,10 +1,10 @@
 // stormcellar/export/grid_netcdf.h -- writes a grid, or the grids of several moments, as a CF-1.8
 // netCDF-4 file that xarray, IDV and ParaView open.
 //
-// The dimensions are time (1), z, y and x; of a latitude-longitude grid they are time, z, lat and
-// lon. The field has the name of its moment (REF); it is a
-// float, with _FillValue in every cell that holds no value. The byte variable `status` tells the
-// four states apart by flag_values and flag_meanings.
+// The dimensions are time (1), z, y and x, or, for a latitude-longitude grid, time, z, lat and lon.
+// The field has the name of its moment (REF); it is a float, with _FillValue in every cell that
+// holds no value. The byte variable `status` tells the four states apart by flag_values and
+// flag_meanings.
 //
 // If the grid has details (stormcellar/grid/cell_details.h), they are floats too: age (s, from the
 // time coordinate), beam_height_offset and gate_distance (m) and sample_weight (1), with _FillValue
@@ -16,9 +16,9 @@
 // the method, the effects, the predicted error, the beam model and the averaging are attributes of
 // the field instead of the file; audits are left out.
 //
-// The time is the frame time: the start of the volume, unless the grid was made for another time.
-// The coordinates are in CF units, with the grid mapping of the projection on
-// WGS84 (export/grid_coordinates.h). Global attributes hold the provenance.
+// The time is the frame time if the grid was made for one, else the start of the volume. The
+// coordinates are in CF units, with the grid mapping of the projection on WGS84
+// (export/grid_coordinates.h). Global attributes hold the provenance.
 //
 // The file is made in memory and appears whole or not at all (stormcellar/base/file_system.h). The
 // same grid gives the same cells and attributes, which do not name the time of writing.
@@ -46,8 +46,8 @@ struct GridWriteOptions {
 };
 
 // Writes the file. Errors: bad_argument for a grid whose arrays do not fit its spec, or a deflate
-// level out of range; io, no_space, permission and not_found from the file system; internal if
-// netCDF refuses.
+// level out of range; io, no_space, permission, not_a_file and not_found from the file system;
+// internal if netCDF refuses.
 [[nodiscard]] Status write_grid(FileSystem& file_system, const std::filesystem::path& path,
                                 const grid::Grid& grid, const GridWriteOptions& options = {});
 // Does the same with the grids of several moments. A single grid gives the file of write_grid().
@@ -57,7 +57,8 @@ struct GridWriteOptions {
                                  std::span<const grid::Grid> grids,
                                  const GridWriteOptions& options = {});
 
-// Returns the bytes of that file without writing it. Errors: bad_argument and internal.
+// Returns the bytes that write_grids() would write, without a file. Errors: bad_argument and
+// internal, as for write_grids().
 [[nodiscard]] Result<std::vector<std::byte>> grid_file_bytes(std::span<const grid::Grid> grids,
                                                              const GridWriteOptions& options = {});
 
