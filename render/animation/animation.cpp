@@ -125,7 +125,8 @@ Status check(const AnimationOptions& options) {
     return {};
 }
 
-// Checks whether a file can be made there, by making a temporary one and removing it.
+// Checks that the file can be created, by creating a temporary file beside it and removing that
+// file.
 Status probe(const std::string& output, FileSystem& file_system) {
     std::error_code ignored;
     if (std::filesystem::is_directory(output, ignored)) {

@@ -23,7 +23,7 @@ class FrameEncoder : public Interface {
     virtual Status add(const Image& frame) = 0;
     // Returns the whole file. Called once, after at least one frame.
     virtual Result<std::vector<std::byte>> finish() = 0;
-    // Returns the largest number of pixels along a side.
+    // Returns the largest number of pixels that the format allows along a side.
     [[nodiscard]] virtual int largest_side() const = 0;
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_colors = 255;  // one entry is left for "unchanged"
 constexpr double gif_ticks_per_second = 100;
-// viewers take smaller numbers for "unset" and show the frame slowly
+// Viewers treat a shorter delay as not set, and show the frame slowly.
 constexpr std::int64_t shortest_ticks = 2;
 
 using Bytes = std::vector<std::byte>;

@@ -53,7 +53,7 @@ class TemporaryTree {
                                    : ErrorCode::io;
         return fail(code, "{}", error.message());
     }
-    void own() { made_ = true; }    // something else put a directory there
+    void own() { made_ = true; }    // the directory was made elsewhere
     void keep() { made_ = false; }  // it has another name now
     [[nodiscard]] const fs::path& path() const { return path_; }
 

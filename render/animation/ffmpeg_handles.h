@@ -28,7 +28,8 @@ struct Deleter {
 template <class T>
 using Handle = std::unique_ptr<T, Deleter>;
 
-// Names and values for a codec or a container. FFmpeg removes the ones that it understood.
+// Options of a codec or a container, by name and value. FFmpeg removes each option that it
+// understands.
 class Options {
   public:
     Options() = default;

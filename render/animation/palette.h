@@ -44,7 +44,7 @@ class ColorHistogram {
     void add_run(Rgb8 color, std::uint64_t length);
 
     std::vector<Cell> cells_;                  // 64^3
-    std::unordered_set<std::uint32_t> exact_;  // while there are at most 256
+    std::unordered_set<std::uint32_t> exact_;  // the colors, while there are at most 256
     bool too_many_ = false;
 };
 

@@ -99,8 +99,9 @@ Status write_packets(AVFormatContext& format, const AVCodecContext& encoder,
     return {};
 }
 
-// Returns the room for the index of an MP4 file: at most 40 bytes for each picture in its tables
-// (ISO 14496-12, 8.6 and 8.7), plus room for metadata and the configuration of the decoder.
+// Returns an upper bound of the size of the index of an MP4 file: at most 40 bytes for each picture
+// in its tables (ISO 14496-12, 8.6 and 8.7), plus room for metadata and the configuration of the
+// decoder.
 std::size_t index_size(const AVCodecContext& encoder, std::size_t packets,
                        const AnimationOptions& options) {
     return 8192 + 64 * packets + 4 * text_of(options.metadata).size() +

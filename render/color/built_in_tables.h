@@ -11,13 +11,14 @@
 //   phi, cfp            degree, dB   our own colors, because no product of the Weather Service
 //                       shows these moments
 //   height              km      our own colors, safe
-//   vil-density         g/m3    our own colors; large hail is likely from 3.5 g/m3 (Amburn and Wolf
-//                               1997), where red begins
+//   water-density       g/m3    our own colors for VIL density; large hail is likely from 3.5 g/m3
+//                               (Amburn and Wolf 1997), where red begins
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
 //   smooth-...          one table without classes for each moment (render/color/moment_look.h)
-// Range folded is usual_range_folded in all tables. Extinction is that of the moment:
-// default_extinction().
+// All tables draw range folded in usual_range_folded. The table of a moment has its
+// default_extinction(), except smooth-clear-air, which is denser. The tables of other products are
+// never drawn as volumes.
 //
 // In a safe table, neighboring classes differ by at least least_safe_step (CIEDE2000) for normal
 // vision and for protanopia, deuteranopia and tritanopia as simulated by Machado, Oliveira,
@@ -43,14 +44,15 @@ namespace stormcellar::render {
 
 inline constexpr double least_safe_step = 6;
 inline constexpr double least_safe_sides = 15;
-// The color of range folded air in all tables here, and in files that do not say theirs.
+// The color of range folded air in all built-in tables, and in color files that do not give one.
 inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 
 // Returns the tables in the order above.
 [[nodiscard]] const std::vector<ColorTable>& built_in_tables();
-// Returns a table by its name. Errors: not_found; the message lists all tables.
+// Returns a table by its name. Errors: not_found; the message gives the nearest name or lists all
+// tables.
 [[nodiscard]] Result<ColorTable> find_color_table(std::string_view name);
-// Return the table with classes of a moment, and the one without.
+// Return the default tables of a moment, with classes and without.
 [[nodiscard]] const ColorTable& default_color_table(level2::Moment moment);
 [[nodiscard]] const ColorTable& smooth_color_table(level2::Moment moment);
 [[nodiscard]] const ColorTable& clear_air_colors();
@@ -59,9 +61,10 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 [[nodiscard]] const ColorTable& height_colors();
 [[nodiscard]] const ColorTable& vil_density_colors();
 
-// Families have a table for each moment: one without classes, and the default one with classes.
+// A family has one table for each moment: in "smooth" the default table without classes, in "nws"
+// the default table with classes.
 inline constexpr std::array<std::string_view, 2> color_families{"smooth", "nws"};
-// Returns a moment's own table of a family; null for any other name.
+// Returns the table of a moment in a family; null if `family` is no family.
 [[nodiscard]] const ColorTable* table_of_family(std::string_view family, level2::Moment moment);
 
 }  // namespace stormcellar::render

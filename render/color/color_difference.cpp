@@ -30,7 +30,7 @@ double seventh_power_share(double chroma) {
     return std::sqrt(power / (power + of_25));
 }
 
-// A color with chroma and hue in the formula's own plane, where near-grays are stretched along a.
+// A color as chroma and hue in the plane of the formula, in which near-grays are stretched along a.
 struct Polar {
     double chroma = 0;
     double hue_deg = 0;  // 0..360; 0 for gray

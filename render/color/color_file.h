@@ -1,14 +1,15 @@
 // render/color/color_file.h -- reads a user's own color tables: TOML and GRLevelX .pal files.
 //
 // TOML (docs/rendering.md has an example):
-//   name, unit, moment = "REF"   All optional. The moment brings its unit and its opacity.
+//   name, unit, moment = "REF"   All optional. The moment sets the unit and the opacity.
 //   stepped = true|false         Classes, or (the default) colors that blend to the next point's.
 //   end                          Where the color bar ends. range_folded: the color of that state.
 //   [[point]]                    At least 2 (1 if stepped), with rising values:
 //     value, color = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
-//     until                      A color to which it blends, instead of the next point's.
+//     until                      The color to which this point blends, instead of the next point's
+//                                color.
 //     opacity_per_km             For volumes: the optical depth, in all points or in none. If none
-//                                has it, the moment's opacity times the alpha of the color.
+//                                has it, extinction_of_colors() gives the opacity.
 // .pal: one "Key: values" in a line, keys in any case; ';' begins a comment, as '#' does at the
 // beginning of a line.
 //   Product: BR BV SRV SW ZDR CC PHI ET VIL ...   Tells the moment; other products are accepted.
@@ -43,7 +44,7 @@
 namespace stormcellar::render {
 
 inline constexpr std::uint64_t most_color_file_bytes = std::uint64_t{1} << 20U;
-// Numbers of a file, with either sign, are no greater.
+// The largest absolute value of a number in a file.
 inline constexpr double greatest_color_value = 1e6;
 
 // Parses a .pal file. `name` stands for the file in messages.
@@ -55,8 +56,9 @@ inline constexpr double greatest_color_value = 1e6;
 // Returns a built-in table by its name, or reads a file if the text ends in .pal or .toml.
 [[nodiscard]] Result<ColorTable> colors_from(const std::string& name_or_file);
 
-// Returns the extinction of a table that has its stops: with a moment, default_extinction() times
-// the alpha of the table's colors. Without a moment it rises evenly from 0.02 to 0.5 per km.
+// Returns the extinction for a table whose stops are set: default_extinction() if the table is for
+// a moment, else a rise from 0.02 to 0.5 per km over the table; both times the alpha of the table's
+// colors.
 [[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colors(const ColorTable& table,
                                                                 bool of_moment);
 

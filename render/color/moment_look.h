@@ -13,7 +13,7 @@
 // For every kind of color vision two values that are far enough apart differ by least_smooth_step
 // or more (CIEDE2000): 15 dBZ, 10 m/s up to 40 m/s, 4 m/s of spectrum width, 2 dB of ZDR, 0.1 of
 // RHO above 0.7, 60 degrees, 15 dB (tests/render/safe_tables_test.cpp). The stepped safe tables
-// keep this distance between their classes, which are narrower.
+// have this difference between neighboring classes, which are narrower.
 //
 // Threads   Pure.
 #pragma once
@@ -34,7 +34,7 @@ inline constexpr double least_smooth_step = 6;
 struct MomentLook {
     level2::Moment moment = level2::Moment::ref;
     std::string_view title = {};  // "Correlation coefficient"
-    // The default tables with and without classes, which are among built_in_tables().
+    // Names of the default tables with and without classes, in built_in_tables().
     std::string_view classes = {};
     std::string_view smooth = {};
     std::vector<ExtinctionPoint> (*extinction)(float lowest) = nullptr;  // default_extinction()
@@ -57,7 +57,7 @@ struct MomentLook {
 //   SW, CFP  Rises with the value.
 //   ZDR      Hail and debris are faint, large drops dense.
 //   PHI      One faint haze, because no phase is "more" than another.
-//   RHO      Faint; what is not rain is denser.
+//   RHO      Faint; echo that is not rain is denser.
 [[nodiscard]] std::vector<ExtinctionPoint> default_extinction(level2::Moment moment, float lowest);
 
 // Makes the tables without classes.

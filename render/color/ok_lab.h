@@ -1,7 +1,6 @@
 // render/color/ok_lab.h -- OKLab, the color space in which colors are mixed and lit.
 //
-// Equal steps in it look about equally large. A color that only becomes lighter or darker keeps its
-// hue.
+// Equal steps in OKLab look about equally large. If only the lightness changes, the hue stays.
 //
 // Units     Linear sRGB, 0..1; lightness 0..1, from black to white.
 // Source    Ottosson (2020), A perceptual color space for image processing.
@@ -28,7 +27,7 @@ struct OkLab {
             0.0259040371F * l + 0.7827717662F * m - 0.8086757660F * s};
 }
 
-// Numbers outside 0..1 are colors that no display shows.
+// Converts back. The result has numbers outside 0..1 if no display shows the color.
 [[nodiscard]] inline LinearRgb linear_of(const OkLab& color) {
     const float l = color.l + 0.3963377774F * color.a + 0.2158037573F * color.b;
     const float m = color.l - 0.1055613458F * color.a - 0.0638541728F * color.b;

@@ -1,6 +1,7 @@
-// render/color/pal_words.h -- what the names of products and units in .pal files mean.
+// render/color/pal_words.h -- the meaning of the names of products and units in .pal files.
 //
-// The page of the viewer has the same tables from here (tests/repository/viewer_facts_test.cpp).
+// The viewer has a copy of these tables, which tests/repository/viewer_facts_test.cpp writes and
+// compares.
 #pragma once
 
 #include <array>
@@ -11,8 +12,8 @@
 
 namespace stormcellar::render {
 
-// The moment or unit of the values that the name of a product stands for. Names of moments are
-// known, too, and stand for themselves.
+// The moment of a product, or the unit of a product that is not a moment. Readers also accept the
+// names of moments.
 struct PalProduct {
     std::string_view word = {};
     std::optional<level2::Moment> moment = std::nullopt;
@@ -30,7 +31,7 @@ inline constexpr auto pal_products = std::to_array<PalProduct>({
     {"DVL", {}, "kg/m2"},
 });
 
-// A unit of files, and how many of it make one of ours.
+// A unit of .pal files, and its factor: how many of it make one of our units.
 struct PalUnit {
     std::string_view word = {};
     double per_ours = 1;

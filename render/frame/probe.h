@@ -1,10 +1,10 @@
 // render/frame/probe.h -- reads the data at one place of a picture.
 //
-// In a map this is the value or the state of the column whose cell is drawn there. In a volume it
-// is the column maximum over the ground there, and not the echo that a ray through the volume
-// passes. In a section it is the value or the state at the pixel, and in a ppi the gate. The probe
-// also gives the lowest and the highest seen height of the column; in a section, those of the
-// nearest column. In a ppi it gives instead where and when the gate was measured.
+// In a map, the probe reads the value or the state of the column whose cell is drawn there. In a
+// volume, it reads the column maximum over the ground at the pixel, not the echo along the ray. In
+// a section, it reads the value or the state at the pixel, and in a ppi the gate. The probe also
+// gives the lowest and the highest seen height of the column (in a section, of the nearest column),
+// or, for a ppi, where and when the gate was measured.
 //
 // Threads   Pure functions.
 #pragma once
@@ -34,16 +34,16 @@ struct Probe {
     std::optional<grid::GatePosition> gate;               // for a ppi, if there is a gate
 };
 
-// Reads a pixel of the whole picture; (0, 0) is its top left. Errors: bad_argument if the pixel
-// lies outside the picture, the grid or the section, or in the sky; those of render_frame().
+// Reads a pixel of the whole picture; (0, 0) is its top left. Errors: bad_argument if the pixel is
+// outside the picture, the grid or the section, or in the sky; those of render_frame().
 [[nodiscard]] Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, int x, int y, int threads);
 // Reads a place in a map or a volume. Errors: bad_argument for a section, and for places outside
-// the grid.
+// the grid; those of render_frame().
 [[nodiscard]] Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, grid::GeoPoint place, int threads);
 
-// Returns "52.5 dBZ", "at least 12 km" or "no echo", in these units.
+// Returns "52.5 dBZ", "at least 12 km" or "no echo", with the value in `units`.
 [[nodiscard]] std::string probe_text(const Probe& probe, const Units& units);
 
 }  // namespace stormcellar::render

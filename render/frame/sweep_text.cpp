@@ -10,8 +10,8 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double whole_circle = 0.985;  // of the azimuths: a radial or two are often missing
-constexpr double least_cut = 0.01;      // of the range of the sweep
+constexpr double whole_circle = 0.985;  // share of the azimuths; a few radials are often missing
+constexpr double least_cut = 0.01;      // share of the range of the sweep
 
 // Returns true if a part of the circle that the sweep reaches is beyond the picture or the plane.
 bool is_cut(const grid::SweepLookup& sweep, const grid::GridSpec& spec,

@@ -17,7 +17,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double largest_inset = 4;  // times the size that shows the whole grid
+constexpr double largest_inset = 4;  // times the map that shows the whole grid
 
 // Paints the ground of a view from outside, or a map.
 Result<Image> paint_base(const DrawnView& drawn, const ViewGeometry& geometry,

@@ -19,7 +19,8 @@ class AreaMask {
     // Adds a ring; (0, 0) is the upper left corner of the raster. A cell is inside if the rings
     // wind around it, so a ring in the opposite direction cuts a hole.
     void add(const std::vector<Point>& ring);
-    // Marks the areas of the added rings as inside (or outside again), and begins with no rings.
+    // Marks the areas of the added rings as inside, or as outside if `inside` is false. Then
+    // forgets the rings.
     void put(bool inside);
 
     // Returns the share of each cell that is inside, 0 to 255, row by row from the top.

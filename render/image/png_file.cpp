@@ -33,7 +33,7 @@ void flush_nothing(png_structp /*png*/) {}
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-// Uses C calls and trivial objects only, because libpng leaves by longjmp when it fails.
+// Uses only C calls and trivial objects, because libpng calls longjmp when it fails.
 bool write_png(png_structp png, png_infop info, const Image& image, bool opaque, png_textp texts,
                int text_count) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -146,7 +146,7 @@ int bits_for(int colors) {
     return colors <= 2 ? 1 : colors <= 4 ? 2 : colors <= 16 ? 4 : 8;
 }
 
-// Uses C calls and trivial objects only, like write_png().
+// Uses only C calls and trivial objects, like write_png().
 bool write_palette_png(png_structp png, png_infop info, int width, int height,
                        const PaletteChunks& chunks, const std::uint8_t* pixels) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;

@@ -1,9 +1,9 @@
 // render/image/shades.h -- the quiet colors behind and around the echo, for each theme.
 //
 // The colors of the ground are nearly gray, and far from the lightness of echo, so that none looks
-// like a reflectivity. Letters have a contrast of 4.5 or more against every background but echo,
-// and there their halo has it. Lines of the map have less, so that they stay behind the echo
-// (tests/render/shades_test.cpp has the figures).
+// like a reflectivity. Letters have a contrast of 4.5 or more against every background but echo;
+// over echo, they have it against their halo. Lines of the map have less contrast, so that they
+// stay behind the echo (tests/render/shades_test.cpp has the figures).
 #pragma once
 
 #include "stormcellar/render/image.h"
@@ -87,9 +87,10 @@ inline constexpr Shades light = {
 
 [[nodiscard]] const Shades& shades_of(Theme theme);
 
-// Returns the color between two, with the alpha of the first; at a share of 1 it is the second.
+// Returns a mix with the alpha of `one`. A share of 0 gives the color of `one`, a share of 1 the
+// color of `other`.
 [[nodiscard]] Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share);
-// Does the same, but returns quickly for the ends, which nearly all pixels are.
+// Does the same, but is faster for shares of 0 and 1, which nearly all pixels have.
 [[nodiscard]] inline Rgba8 mixed(Rgba8 one, Rgba8 other, double share) {
     if (share == 0) return one;
     if (share == 1) return {other[0], other[1], other[2], one[3]};

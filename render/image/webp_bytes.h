@@ -1,6 +1,6 @@
-// render/image/webp_bytes.h -- what stills and loops in WebP share: memory of libwebp, and the
-// bytes of a file with its metadata. Stills and loops are libraries of their own, so all of it is
-// inline.
+// render/image/webp_bytes.h -- the common code of stills and loops in WebP: memory of libwebp, and
+// the bytes of a file with its metadata. Stills and loops are separate libraries, so all functions
+// are inline.
 //
 // Threads   Pure functions.
 // Errors    internal if libwebp refuses.

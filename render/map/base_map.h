@@ -19,14 +19,15 @@
 //                its points; the first point as v east of west, v north of south, each other point
 //                as z, z relative to the previous one
 //                Lakes and coasts are areas: each of their lines is a closed ring with water (for a
-//                lake) or land (for a coast) to its left, inside a tile of 2 by 2 degrees. Where it
-//                runs along the edge of the tile, there is no shore.
+//                lake) or land (for a coast) to its left, inside a tile of 2 by 2 degrees. A part
+//                of the ring along the edge of the tile is not a shore.
 //   city         v bytes of the name, the name in UTF-8, v population, z latitude, z longitude; the
 //                largest first
 //
 // Threads   Immutable once made. A BaseMap refers to the bytes that it was made from.
-// Errors    truncated, corrupt (also by its checksum), unsupported (a later version). Wrong bytes
-//           with a correct checksum are refused too, at the latest by points_of().
+// Errors    empty, truncated, corrupt (also by its checksum), unsupported (another version).
+//           Contradictions in bytes with a correct checksum are corrupt too; points_of() finds the
+//           last of them.
 // Accuracy  As accurate as the sources (docs/data-sources.md); the format adds 1/(2 U) degrees, 6
 //           m.
 #pragma once

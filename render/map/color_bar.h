@@ -27,21 +27,21 @@ struct ColorBar {
     std::vector<BarTick> ticks;    // at least `least_tick` apart
 };
 
-// Makes a bar that rises with the value. For stepped tables, classes have equal heights, with ticks
-// at their lower bounds (at every second, third ... if there is no room). For tables with blends,
-// the bar is linear in the value from the first stop to `end`, with ticks at round values. A box
-// with fewer pixels than classes loses classes, but not its ends.
-// Translucent colors show the `ground` below.
-// The numbers of a bar: those of the table, or in another unit.
+// A color table, and the factor from its values to the numbers of the bar.
 struct BarScale {
     const ColorTable& table;
     double shown_per_value = 1;
 };
 
+// Makes a bar that rises with the value. For stepped tables, classes have equal heights, with ticks
+// at their lower bounds (at every second, third ... if there is no room). For tables with blends,
+// the bar is linear in the value from the first stop to `end`, with ticks at round values. A box
+// with fewer pixels than classes loses classes, but not its ends. Translucent colors show the
+// `ground` below.
 [[nodiscard]] ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick,
                                  Rgba8 ground);
-// Makes the same bar horizontally, rising to the right. The numbers, of this width each, are at
-// least `gap` apart.
+// Makes the same bar horizontally, rising to the right. The numbers are at least `gap` apart;
+// `width_of` gives their widths.
 [[nodiscard]] ColorBar lying_bar(const BarScale& scale, const Rect& box,
                                  const std::function<double(const std::string&)>& width_of,
                                  double gap, Rgba8 ground);

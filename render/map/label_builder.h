@@ -1,6 +1,6 @@
 // render/map/label_builder.h -- puts texts and blocks of color into a layout of labels.
 //
-// Lengths are those at scale 1, unless they are called `scaled`.
+// Sizes of text are at scale 1. Places, widths and boxes are in pixels.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -14,7 +14,7 @@
 namespace stormcellar::render {
 
 struct LabelText {
-    Rect box;  // the text lies inside
+    Rect box;  // contains the text
     double baseline = 0;
     double size = 0;
     bool bold = false;

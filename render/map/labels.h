@@ -55,13 +55,14 @@ struct HeaderTexts {
 // Places the header of a picture of this shape over its whole width, in pixels.
 void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
                     const HeaderTexts& texts);
-// Places the lines of small print at the bottom of a picture of this size: two texts begin at the
-// left, two end at the right.
+// The texts of a footer.
 struct FooterTexts {
     std::string view, age, seen, credit;
 };
 [[nodiscard]] FooterTexts footer_of(const Scene& scene, const FrameFacts& facts,
                                     const DrawnFacts& picture);
+// Places the lines of small print at the bottom of a picture of this size: two texts begin at the
+// left, two end at the right.
 void lay_out_footer(LabelBuilder& builder, double width, double height, const FooterTexts& texts);
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout);

@@ -21,7 +21,7 @@ struct LegendRow {
 struct Legend {
     std::string product;                // "Composite reflectivity (column maximum)"
     std::string heading;                // over the rows; may be empty
-    std::vector<LegendRow> rows;        // from the top down: what the color bar lacks
+    std::vector<LegendRow> rows;        // from the top down: colors that the color bar lacks
     std::vector<std::string> notes;     // in small print below
     std::string bar_heading;            // the unit, else the name of the moment
     const ColorTable* table = nullptr;  // of the color bar; null: no bar

@@ -51,7 +51,7 @@ Box visible_ground(const ViewGeometry& geometry) {
             std::min(grid.east, seen.east), std::min(grid.north, seen.north)};
 }
 
-// Returns the meters of ground for each pixel, where they are fewest in the picture.
+// Returns the meters of ground for each pixel in the finest part of the picture.
 double finest_metres_per_pixel(const ViewGeometry& geometry) {
     double finest = HUGE_VAL;
     for (const double share : {0.5, 0.75, 1.0}) {
@@ -168,8 +168,8 @@ class Tracer {
     void divide(const Vertex& a, const Vertex& b, int depth) {
         if (!is_finite(a.at) || !is_finite(b.at)) return break_off();
         const double length = std::hypot(b.at.x_m - a.at.x_m, b.at.y_m - a.at.y_m);
-        // The bound is four times the sagitta of a parallel of latitude at 45 degrees, which covers
-        // latitudes up to 75.
+        // The bound is four times the sagitta of a parallel at 45 degrees of latitude, which is
+        // enough for latitudes up to 75.
         const bool may_bend = length * length / (2 * earth_radius_m) > most_bent_m_;
         if (!may_bend || depth == 12) return segment(a.at, b.at);
         Vertex middle;
@@ -245,7 +245,8 @@ const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) 
     return best;
 }
 
-// Seen at a slant, places beyond the grid would be in the fading ground.
+// Returns the part of the ground whose cities are shown. Seen at a slant, it ends with the grid,
+// because the ground beyond fades.
 Box box_of_cities(const ViewGeometry& geometry, const Box& shown) {
     if (is_from_above(geometry)) return shown;
     return {std::max(shown.west, -geometry.half_x_m()), std::max(shown.south, -geometry.half_y_m()),
@@ -282,8 +283,8 @@ class WaterPainter {
         : ground_(ground), mask_(mask_over(box, finest_m)), area_(mask_.width, mask_.height) {}
 
     // Returns a ring in cells, with segments that are straight in degrees. `at` has the ground of
-    // each point. The edges of tiles are long, so they are divided, and at the same places in both
-    // tiles. Any thread may call this.
+    // each point. The edges of tiles are long, so they are divided, at the same places in both
+    // neighboring tiles. Any thread may call this.
     [[nodiscard]] std::vector<Point> cells_of(const std::vector<grid::GeoPoint>& ring,
                                               const std::vector<GroundPoint>& at) const {
         std::vector<Point> cells;

@@ -1,13 +1,13 @@
 // render/map/map_layer.h -- the base map as one picture shows it: projected, clipped and thinned.
 //
 // The layer is made once for the geometry of a grid, a view and a size; the frames of a loop share
-// it. Every vertex is projected by itself. A segment, which is straight in degrees in its source,
-// is divided until it follows its curve on the picture's ground to 0.2 pixels, where the view is
+// it. Every vertex is projected exactly. A segment, which is straight in degrees in its source, is
+// divided until it follows its curve on the picture's ground to 0.2 pixels, where the view is
 // finest. Lines continue beyond the grid, as far as the ground is shown (render/products/ground.h).
-// Of the three levels of detail, the layer uses the coarsest that is thinned by at most 0.7 pixels;
-// points less than 0.3 pixels from the previous point are dropped. Counties are shown if 45 km are
-// at least 30 pixels (in a picture of 796 x 532). Points that the view does not project are not
-// shown.
+// The layer uses the coarsest level of detail that is thinned by at most 0.7 pixels, or else the
+// finest. Points less than 0.3 pixels from the previous point are dropped. Counties are shown if 45
+// km are at least 30 pixels (in a picture of 796 x 532). Points that the view does not project are
+// not shown.
 //
 // Accuracy  1.2 pixels against the built-in map at its finest (tests/render/map_layer_test.cpp).
 //           For the accuracy of that map see docs/data-sources.md.
@@ -49,8 +49,8 @@ struct MapLayer {
                                            const ViewGeometry& geometry, double scale,
                                            int threads = 1);
 
-// Keeps the map of the last picture, because the frames of a loop need it only once. One thread at
-// a time may use it.
+// Keeps the map of the last picture, because all frames of a loop have the same map. One thread at
+// a time may use a cache.
 class MapCache {
   public:
     // Returns the layer, which is valid until the next call. It is made anew if the geometry of the
@@ -67,7 +67,7 @@ class MapCache {
     int times_made_ = 0;
 };
 
-// Draws the lines, thin over a darker casing that separates them from echo. The cities are marks
+// Draws thin lines over a casing that separates them from echo. The cities are marks
 // (render/map/map_marks.h).
 void draw_map(Canvas& canvas, const MapLayer& layer, const Shades& shades, double scale,
               Point offset = {});

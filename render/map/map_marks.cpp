@@ -86,7 +86,7 @@ class Planner {
     }
 
     // Chooses the corner for the arrow and the bar: the first corner without a site, or else the
-    // first. Marks that they cover there are not drawn.
+    // first. Marks under them are not drawn.
     void plan_corner() {
         const double w = scaled(2 * north_radius + 8);
         const double h = scaled(2 * north_radius + 28);

@@ -24,7 +24,7 @@
 namespace stormcellar::render {
 
 struct MarkText {
-    Rect box;  // the text lies inside
+    Rect box;  // contains the text
     Point left_baseline;
     double size = 0;
     bool bold = false;
@@ -39,7 +39,7 @@ struct ScaleBar {
     Rect box;  // of bar and text
 };
 
-// A scale of heights, at an edge of the box with nothing behind it.
+// A scale of heights, at an upright edge of the grid's box with no echo behind it.
 struct HeightScale {
     Point bottom, top;
     std::vector<Point> ticks;

@@ -53,7 +53,7 @@ int panels_in_a_row(int count, int width, int height) {
     for (int columns = 1; columns <= count; ++columns) {
         const int rows = (count + columns - 1) / columns;
         const double aspect = static_cast<double>(width) / columns / height * rows;
-        // A place that stays empty counts as well.
+        // Empty places count against an arrangement.
         const double empty = static_cast<double>(rows * columns - count) / count;
         const double worth = std::abs(std::log(aspect / best_aspect)) + empty;
         if (worth >= least) continue;

@@ -1,8 +1,8 @@
 // render/map/picture_space.h -- divides a picture of a given size into title, map, colors and small
 // print.
 //
-// There are three shapes. A wide picture has its colors at the right. A square picture and a tall
-// one have them below, so that the map has the whole width. A tall one also has more lines in its
+// There are three shapes. A wide picture has its colors at the right. Square and tall pictures have
+// the colors below, so that the map has the whole width. A tall picture also has more lines in its
 // title. All lengths grow with the picture.
 //
 // Threads   Plain values and a pure function.

@@ -62,7 +62,7 @@ bool chooses_light(const SceneOptions& options) {
 Result<FittedView> fit_picture(const EchoOutline& outline, const grid::BrickView& view,
                                const FrameFacts& facts, const SceneOptions& options, Scene& scene,
                                bool orbits, std::optional<FittedView>* last) {
-    // By default, echo that is too weak for the usual colors gets those of clear air.
+    // By default, echo that is too weak for the usual colors gets the colors of clear air.
     if (scene.colors == smooth_color_table(level2::Moment::ref) && options.colors.empty() &&
         is_clear_air(outline)) {
         scene.colors = clear_air_colors();

@@ -1,10 +1,10 @@
-// render/options/fitted_view.h -- chooses what the user did not specify from the echo: camera,
-// exaggeration, opacity, sun and light of a volume's picture (render/view/fitted_camera.h).
+// render/options/fitted_view.h -- fits the options that the user did not specify to the echo:
+// camera, exaggeration, opacity, sun and light of a volume's picture (render/view/fitted_camera.h).
 //
-// Typed options stay. A place of the camera, a zoom and a view with parallel rays each determine
-// what is in the picture, so none of them allows a fitted place. If a scene file has any key of
-// [camera], [light] or [volume], it determines how its volume is seen; keys that it leaves out then
-// have their usual defaults.
+// Typed options keep their values. The place of the camera is not fitted if the user gives a place,
+// a point to look at, a zoom or parallel rays, because each of these determines what is in the
+// picture. If a scene file has any key of [camera], [light] or [volume], no part of the view is
+// fitted; keys that the file lacks then have their usual defaults.
 #pragma once
 
 #include "render/frame/fitted_scene.h"
@@ -19,9 +19,9 @@ namespace stormcellar::render {
 [[nodiscard]] bool chooses_light(const SceneOptions& options);
 
 // Fits the scene to the echo of all grids that will be seen; `view` and `facts` belong to one of
-// them. `orbits` says that the camera will move around the echo. If `last` is not null and its view
-// still suits, that view is taken. The view that is taken is stored there. Errors: those of
-// fit_scene().
+// them. `orbits` says that the camera will move around the echo. If `last` holds a view that is
+// near the fitted view, the scene gets that view instead. The view of the scene is then stored in
+// `last`. Errors: those of fit_scene().
 [[nodiscard]] Result<FittedView> fit_picture(const EchoOutline& outline,
                                              const grid::BrickView& view, const FrameFacts& facts,
                                              const SceneOptions& options, Scene& scene,

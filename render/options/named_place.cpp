@@ -28,8 +28,7 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-// The two parts of "Moore, OK", in the form in which they are compared; without a comma there is no
-// region.
+// The two parts of "Moore, OK", prepared for comparison. The region is empty if there is no comma.
 struct Asked {
     std::string name, region;
 };

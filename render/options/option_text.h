@@ -18,9 +18,9 @@ namespace stormcellar::render {
 [[nodiscard]] Result<std::vector<double>> numbers_of(const std::string& option,
                                                      const std::string& text, std::size_t count);
 
-// Each of these sets a value from a text. They also set a number that is out of its range, which
-// scene_of() refuses later. They refuse places out of range, unknown names and texts that are no
-// number.
+// The functions below set a value from a text. They refuse places out of range, unknown names and
+// texts that are not numbers, but they accept a single number out of its range, which scene_of()
+// refuses later.
 [[nodiscard]] Status take_text(const NumbersValue& value, const std::string& option,
                                const std::string& text, PictureSettings to);
 [[nodiscard]] Status take_text(const TextValue& value, const std::string& option,

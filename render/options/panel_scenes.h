@@ -1,6 +1,6 @@
 // render/options/panel_scenes.h -- the scenes of a picture with several moments, as in "REF,VEL".
 //
-// Threads   Pure, except for the functions that they call.
+// Threads   Pure if `scene_of_panel` is.
 // Errors    See panel_scenes().
 #pragma once
 

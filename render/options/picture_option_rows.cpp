@@ -13,7 +13,8 @@ namespace {
 using To = PictureSettings;
 
 constexpr double per_km = option_units_per_km;
-// The command line accepts any direction; a scene file refuses a number that must be a mistake.
+// A scene file refuses a direction beyond ten turns, which must be a mistake; the command line
+// accepts any.
 constexpr NumberRange turns_deg{-3600, 3600};
 
 constexpr ProductUse by_volume{.only = Product::volume};
@@ -239,7 +240,7 @@ constexpr std::array option_rows{
         .value = NamesValue{set_units, units_set},
         .help = "Units in which the picture writes speeds, distances and heights, separated by "
                 "commas, as in knots,miles,kft: m/s, knots, mph or km/h; km, miles or "
-                "nautical-miles; km, kft or feet. Default: m/s,km"},
+                "nautical-miles; km, kft or feet"},
     PictureOption{.option = "--time-zone",
                   .section = "labels",
                   .key = "time_zone",

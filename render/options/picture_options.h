@@ -33,8 +33,8 @@ struct PictureSettings {
     LoopChoices* loop;  // null if only options of the scene are set
 };
 
-// Says what refuses a number on the command line that is out of range. In a scene file such a
-// number is always refused on its line.
+// Tells whether the parser or the check of the scene refuses an option whose number is out of
+// range. The reader of scene files always refuses such a number, with its line.
 enum class Checked { with_the_scene, by_the_parser };
 
 // A flag on the command line, true or false in a scene file.
@@ -69,11 +69,11 @@ struct NumbersValue {
 struct TextValue {
     std::string* (*field)(PictureSettings) = nullptr;
     Status (*check)(const std::string&) = nullptr;  // its message says why a text is refused
-    // Resolves a text of a scene file in this directory; null: a text stands for itself.
+    // Resolves a text of a scene file in `directory`; null: the text is used unchanged.
     std::string (*beside)(const std::filesystem::path& directory,
                           const std::string& text) = nullptr;
     std::string (*known)() = nullptr;  // the possible texts, for {} in the help; null: any text
-    bool (*is_file)(const std::string&) = nullptr;  // true if the text is a file; null: none is
+    bool (*is_file)(const std::string&) = nullptr;  // true if the text is a file; null: never
 };
 // "gradient,shadow" on the command line, an array of texts in a scene file. An empty array is
 // "none".
@@ -141,10 +141,11 @@ enum class ViewPart {
     opacity
 };
 [[nodiscard]] const PictureOption& option_of(ViewPart part);
-// Returns the text that help gives as the default of such an option; empty for any other option.
+// Returns the text that help gives as the default of an option with a ViewPart; empty for any other
+// option.
 [[nodiscard]] std::string_view default_of_the_view(const PictureOption& option);
-// Returns true for an option that places or moves the camera of a loop, instead of the keys of a
-// scene file.
+// Returns true for an option that places or moves the camera of a loop and so replaces the camera
+// keys of a scene file.
 [[nodiscard]] bool moves_camera(const PictureOption& option);
 
 // Returns the option as a parameter of an address: "tilt" for "--tilt".

@@ -69,7 +69,7 @@ struct OutOfRange {
 Status check_ranges(SceneOptions options) {
     const PictureSettings to{options, options.scene, nullptr};
     for (const PictureOption& row : picture_options()) {
-        // A default that is out of range means that nothing was given.
+        // A value that was not given may be out of range, because it means the default.
         const bool is_given = contains(options.typed, row) || contains(options.in_file, row);
         if (row.is_of_loop() || !is_given) continue;
         const auto said = std::visit(OutOfRange{to}, row.value);
@@ -107,8 +107,8 @@ Result<Scene> scene_of(const SceneOptions& options) {
         return fail(ErrorCode::bad_argument,
                     "a sweep is named by its elevation or by its number; give only one of them");
     }
-    // If nothing chooses colors, a picture has those without classes. A scene file keeps the
-    // defaults that it was written for.
+    // If nothing chooses colors, a picture uses the table without classes. A scene file keeps the
+    // defaults of the time when it was written.
     const bool has_own_colors = facts_of(scene.product).colors != nullptr;
     if (options.colors.empty() && options.file_product.empty() && !has_own_colors) {
         scene.colors = smooth_color_table(scene.moment);

@@ -38,7 +38,7 @@ struct SceneOptions {
     std::string time_zone;  // IANA; empty: the zone of the machine
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
-    Scene scene;      // what the options set directly; take it by scene_of()
+    Scene scene;      // set directly by options; not complete, so use scene_of()
     // The typed options, the options of the scene file, and the product of that file, which is
     // empty if there is no file.
     ChosenOptions typed;
@@ -51,7 +51,7 @@ struct SceneOptions {
 // The settings of the rows of [loop].
 struct LoopChoices {
     int last = 0;    // use only this many of the newest grids; 0: all
-    int frames = 0;  // spread over the grids; 0: one for each, or as many as the camera's way lasts
+    int frames = 0;  // spread over the grids; 0: one for each, or enough for the camera's path
     double orbit_deg = 0;  // how far the camera moves around the grid during the loop
     bool ping_pong = false;
     bool all_elevations = false;  // for a ppi: a frame for each elevation of each volume

@@ -38,8 +38,8 @@ struct StillSource {
 // Returns the facts that the labels of the still show.
 [[nodiscard]] FrameFacts facts_of_still(const StillSource& source);
 
-// Chooses unspecified options by the echo (fitted_view.h). A sweep stays as it is, seen from above.
-// Errors: those of fit_picture().
+// Chooses unspecified options by the echo (fitted_view.h). For a sweep, which is seen from above,
+// only sets the angle (scene_shown()). Errors: those of fit_picture().
 [[nodiscard]] Status fit_to_grid(const StillSource& source, Scene& scene);
 
 // The settings for writing a still.

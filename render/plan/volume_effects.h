@@ -1,5 +1,6 @@
 // render/plan/volume_effects.h -- the ladder of a volume's picture: its steps, rungs and effects.
 //
+// Each step has a lowest rung and effects, each of which turns on the next rung:
 //   slices       32 ... 2048; each effect doubles the number: slices_64, slices_128, ...
 //   integration  the nearer value of each step; value_span: all values between its ends;
 //                step_attenuation: in their order, so that near values hide far ones
@@ -9,10 +10,10 @@
 //                darker away from it
 //   light        the same everywhere; shadow_light: the light of sun and sky that gets through;
 //                scattering_light: the same, scattered once toward the camera
-// A light that the scene does not have (stormcellar/render/light.h) is not asked for, so the exact
-// picture lacks it too. Camera, exaggeration and the curve of the earth belong to the scene,
-// because they define what is shown. Sizes are color differences (CIEDE2000). The exact form has
-// every effect on; docs/accuracy.md says how far 2048 slices are from infinitely many.
+// Kinds of light that the scene does not have (stormcellar/render/light.h) are not_asked, so the
+// exact picture lacks them too. Camera, exaggeration and the curve of the earth belong to the
+// scene, because they define what is shown. Sizes are color differences (CIEDE2000). The exact form
+// has every effect on; docs/accuracy.md says how far 2048 slices are from infinitely many.
 //
 // Threads   Plain values and pure functions.
 #pragma once

@@ -31,9 +31,9 @@ class VolumeScene {
 
     struct Drawn {
         Image picture;
-        double seconds = 0;  // by the clock, including what a loop makes only once
+        double seconds = 0;  // by the clock, including the work that a loop does only once
     };
-    // Draws a choice, once; the picture is kept.
+    // Draws a choice and keeps the picture; later calls return the kept picture.
     [[nodiscard]] const Drawn& draw(const VolumeChoice& choice);
 
   private:
@@ -44,7 +44,7 @@ class VolumeScene {
     std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to these stay valid
 };
 
-// The effects to predict: those that the scene asks for, or all. A plan needs only the first.
+// The effects to predict: those that the scene asks for, which are enough for a plan, or all.
 enum class Predicted { asked, all };
 
 // Predicts the size and cost of each effect for this scene. Settings stay as they are.
@@ -63,8 +63,8 @@ struct VolumePlan {
                                              const VolumeChoice& by_default,
                                              Predicted which = Predicted::asked);
 
-// Makes a row for each rung of each step that the scene asks for, with the others exact, against
-// the picture of the exact chain.
+// Makes a row for each rung of each step that the scene asks for. A row compares the picture with
+// this rung, and with all other steps exact, with the picture of the exact chain.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene,
                                                                   const accuracy::Chain& chain);
 

@@ -19,8 +19,8 @@
 
 namespace stormcellar::render {
 
-// Returns the content of a cell, which must exist. `half_period` belongs to its moment, for a
-// Nyquist velocity that is not known.
+// Returns the content of a cell, which must exist. `half_period` becomes the half period of the
+// cell, because a grid does not hold Nyquist velocities.
 [[nodiscard]] grid::Sample cell_of(const grid::BrickView& view, float half_period, int ix, int iy,
                                    int iz);
 
@@ -30,7 +30,7 @@ class CellMixer {
     explicit CellMixer(level2::Moment moment);
 
     void clear() { count_ = 0; }
-    // Adds a cell. Weights of 0 are left out.
+    // Adds a cell. Ignores a weight of 0, and any cell after the eighth.
     void add(const grid::Sample& cell, double weight);
     [[nodiscard]] grid::CellResult result() const;
 
@@ -44,8 +44,8 @@ class CellMixer {
     std::size_t count_ = 0;
 };
 
-// The two levels around a height, and the share of the upper one. Both levels are the same at a
-// level, and within the half level by which the first and the last cells reach beyond it.
+// The two levels around a height, and the share of the upper one. They are the same level if the
+// height is at a level, or below the first or above the last level but within its cells.
 struct LevelPair {
     int lower = 0, upper = 0;
     double upper_share = 0;

@@ -15,10 +15,10 @@
 //               beside them is left out. The first and the last level reach half a level beyond
 //               themselves, like cells.
 //   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is
-//                 a mean density, so tall and low storms compare; hail shows as much in little
-//                 depth. Columns have a value where there is an echo top. If the top may be higher,
-//                 or VIL lacks cells that were not seen, the result covers the part that was seen.
-//                 A top of less than least_depth_m counts as least_depth_m.
+//                 a mean density, so that tall and low storms can be compared; hail has a high
+//                 density. Columns have a value where there is an echo top. If the top may be
+//                 higher, or VIL lacks cells that were not seen, the result covers the part that
+//                 was seen. A top of less than least_depth_m counts as least_depth_m.
 //   maximum_height   km: the height of the lowest cell with the largest value of the column, if
 //                    that value reaches a threshold.
 //   ppi         The gate of a sweep at the center of each column. A picture looks up each pixel
@@ -69,7 +69,7 @@ struct FlatField {
 // Makes the CAPPI. Errors: bad_argument for a height at which the grid has no cells.
 [[nodiscard]] Result<FlatField> cappi_field(const grid::BrickView& view, level2::Moment moment,
                                             double height_m, int threads);
-// The next two functions are for grids of reflectivity.
+// The functions from here to maximum_height_field() need a grid of reflectivity.
 [[nodiscard]] FlatField echo_top_field(const grid::BrickView& view, double threshold_dbz,
                                        int threads);
 [[nodiscard]] FlatField vil_field(const grid::BrickView& view, int threads);
@@ -86,8 +86,9 @@ inline constexpr double least_depth_m = 500;
 // Returns the height of the radar, or the mean of several.
 [[nodiscard]] double radar_height_m(const FrameFacts& facts);
 
-// Returns the field of the scene's product, whose view is a map. The scene must be valid for the
-// view and its facts. A ppi does not use the columns. Errors: bad_argument, as for the products.
+// Returns the field of the scene's product, which must be a map. The scene must be valid for the
+// view and its facts. A ppi does not use the columns. Errors: those of cappi_field(); internal for
+// a product that is not a map.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,
                                           const Scene& scene,
                                           const std::vector<ColumnSummary>& columns, int threads);

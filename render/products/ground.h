@@ -1,8 +1,8 @@
 // render/products/ground.h -- paints flat things: the ground of the 3D view, and 2D products.
 //
 // Both are opaque pictures, painted pixel by pixel. Each pixel shows the column whose cell it falls
-// into. Beyond the grid the ground continues, darker (or, on a light page, lighter), if the picture
-// has a map; else there is the page. Land and water have shades of their own.
+// into. If the picture has a map, the ground continues beyond the grid, darker (or, on a light
+// page, lighter); else the page is seen there. Land and water have shades of their own.
 //
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
@@ -25,8 +25,8 @@ namespace stormcellar::render {
 // A column that was seen below this height above sea level counts as seen from low down.
 inline constexpr double low_coverage_m = 3000;
 
-// The ground shows the way the columns over it were seen: from low down, only higher up, or not
-// at all; or, if haze shows the rest, only seen or not.
+// The shades of the ground tell how the columns over it were seen. how_low: from low down, only
+// higher up, or not at all. whether_seen: seen or not seen, for pictures with haze.
 enum class GroundTells { how_low, whether_seen };
 
 // The settings for painting the ground.

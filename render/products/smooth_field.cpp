@@ -70,8 +70,8 @@ float SmoothField::value_at(int x, int y, float beyond_x, float beyond_y) const 
             values[k] = field_.values[cell];
         }
     }
-    // The range of the middle four bounds the result, and their mean replaces those of the four
-    // without a value.
+    // The range of the middle four cells bounds the result. Their mean stands in for each of the
+    // four without a value.
     constexpr std::array<std::size_t, 4> middle = {5, 6, 9, 10};
     float sum = 0, count = 0, least = 0, largest = 0;
     for (const std::size_t k : middle) {

@@ -1,15 +1,16 @@
 // render/products/smooth_field.h -- smooths a map between the cells of its grid, for the eye alone.
 //
-// A map shows each cell as a square. Here its values change smoothly from cell to cell instead, by
-// a cubic of Catmull and Rom through 4 x 4 cells that never leaves the range of the four cells
-// around a place. The state is decided first, and values are mixed only with values:
+// A plain map shows each cell as a square. In a smoothed map, values change smoothly from cell to
+// cell, by a cubic of Catmull and Rom through 4 x 4 cells that never leaves the range of the four
+// cells around a place. The state is decided first, and values are mixed only with values:
 //   state    If all four cells are a value or no echo, the result is a value if the cells with
 //            values weigh half or more (bilinear weights), else no echo. Otherwise it is the state
 //            of the nearest cell.
-//   value    One of the four cells without a value gets the mean of those with a value. One of the
-//            twelve around them gets the nearest of the four.
-// At the center of a cell the result is exactly that cell. Beyond the outermost centers the edge
-// continues.
+//   value    In the cubic, each of the four cells without a value has the mean of the others, and
+//            each of the twelve cells around them without a value has the value of the nearest of
+//            the four.
+// At the center of a cell, the result is exactly the cell. Beyond the outermost centers, the cells
+// at the edge are repeated.
 //
 // Values on a circle (VEL, PHI) are not smoothed, because a grid does not say where they wrap.
 //

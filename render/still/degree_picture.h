@@ -4,7 +4,8 @@
 // Pixels are regular in degrees and show the cell that holds their center. A cell at the center of
 // the grid is two pixels wide, unless a side would then have more than 4096 pixels.
 //
-// Accuracy  Places are computed every eight pixels, and straight between: within 0.02 cells.
+// Accuracy  Places on the grid are computed every eight pixels and interpolated between; the error
+//           is below 0.02 cells.
 // Threads   Pure; the same bits for any number of threads.
 // Errors    unsupported for a grid that holds a pole, which no map of degrees can show.
 #pragma once

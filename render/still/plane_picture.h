@@ -2,12 +2,13 @@
 // pictures of web maps.
 //
 // A pixel shows the cell that holds its center, in the color of overlay_color(). Outside the grid
-// it is clear. The field may be coarser than the grid: then a cell of it stands for 2^halvings by
-// 2^halvings columns, from the southwest corner of the grid.
+// it is clear. The field may be coarser than the grid: each of its cells then covers 2^halvings by
+// 2^halvings columns, counted from the southwest corner of the grid.
 //
 // Units     Web Mercator (EPSG:3857) in meters of its plane, degrees as longitude and latitude.
-// Accuracy  Places between the corners of a mesh are straight. If the middle of a mesh or of a side
-//           is then off by more than a tenth of a pixel, the mesh becomes finer.
+// Accuracy  Places on the grid are interpolated between the corners of squares of pixels. If the
+//           middle of a square or of a side is then off by more than a tenth of a pixel, the square
+//           is divided.
 // Threads   Pure functions.
 // Errors    None: a window without pixels, or off the grid, gives clear pixels.
 #pragma once
@@ -43,8 +44,8 @@ struct EarthBox {
     return at.x >= -0.5 && at.x < spec.nx - 0.5 && at.y >= -0.5 && at.y < spec.ny - 0.5;
 }
 
-// These return the latitude of a place in Web Mercator, and the inverse, for latitudes below 89.9
-// degrees.
+// mercator_latitude_deg() returns the latitude of a y in Web Mercator. mercator_y_m() is its
+// inverse, for latitudes below 89.9 degrees.
 [[nodiscard]] double mercator_latitude_deg(double y_m) noexcept;
 [[nodiscard]] double mercator_y_m(double latitude_deg) noexcept;
 

@@ -39,7 +39,7 @@ struct JpegBytes {
     unsigned long size = 0;
 };
 
-// Only C calls and trivial objects may be here, because libjpeg leaves by longjmp when it fails.
+// Uses only C calls and trivial objects, because libjpeg calls longjmp when it fails.
 bool write_jpeg(jpeg_compress_struct& jpeg, JpegErrors& errors, const Image& image,
                 std::span<const unsigned char> xmp, unsigned char* row, JpegBytes& bytes) {
     if (setjmp(errors.jump) != 0) return false;

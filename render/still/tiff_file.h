@@ -22,7 +22,7 @@ namespace stormcellar::render {
 
 enum class TiffSamples {
     gray_float,  // one IEEE float
-    palette,     // one byte, a number of a color
+    palette,     // one byte, the number of a color
     rgba,        // four bytes; alpha is not premultiplied
 };
 
@@ -31,7 +31,7 @@ struct TiffRaster {
     std::vector<std::byte> pixels;  // row by row, from the top
 };
 
-// A key of GeoTIFF: a short number, numbers of double precision, or a text.
+// A key of GeoTIFF: a short number, a double or a text.
 struct GeoKey {
     std::uint16_t id = 0;
     std::uint16_t number = 0;  // of a short

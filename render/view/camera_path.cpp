@@ -39,7 +39,7 @@ Status complain(std::size_t index, std::string_view why) {
     return fail(ErrorCode::bad_argument, "key {} of the camera {}", index + 1, why);
 }
 
-// Refuses a key that is invalid by itself, or next to the first key or the previous one.
+// Refuses a key that is invalid, or that contradicts the first key or the previous key.
 Status check_key(const std::vector<CameraKey>& keys, std::size_t i) {
     const CameraKey& key = keys[i];
     const CameraKey& first = keys.front();

@@ -41,8 +41,8 @@ class KeyedCurve {
     // is held.
     KeyedCurve(std::vector<double> times, std::vector<double> values, Shape shape, bool is_closed,
                const std::vector<bool>& is_held = {});
-    // Returns the value at a time. Before the first knot and after the last, the value there is
-    // constant.
+    // Returns the value at a time; before the first knot and after the last, the value at that
+    // knot.
     [[nodiscard]] double at(double time) const;
 
   private:
@@ -51,9 +51,11 @@ class KeyedCurve {
 
 class CameraPath {
   public:
-    // Makes a path. Errors: bad_argument, which names the key (1 is the first) and its fault: times
-    // that do not rise, keys of which only some have a place or a point to look at, azimuth or tilt
-    // in addition to these two, values out of the ranges of a scene.
+    // Makes a path. Errors: bad_argument for fewer than two keys and for a faulty key; the message
+    // names the key (1 is the first). Faults are a time that does not rise or is not finite, a
+    // place, a point to look at or a field of view that only some keys have, azimuth, tilt or turns
+    // beside both a place and a point to look at, turns of the first key, and values out of the
+    // ranges of a scene.
     [[nodiscard]] static Result<CameraPath> make(const std::vector<CameraKey>& keys,
                                                  const Camera& usual);
 

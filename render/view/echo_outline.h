@@ -26,7 +26,7 @@ class EchoOutline {
 
     EchoOutline() = default;
     EchoOutline(const grid::BrickView& view, level2::Moment moment) { add(view, moment); }
-    // Adds a grid. A grid at another place than the first one is left out.
+    // Adds a grid. Ignores a grid whose spec differs from the first grid's.
     void add(const grid::BrickView& view, level2::Moment moment);
 
     // A square of columns: how many of them reach each threshold, how many have a value, and the

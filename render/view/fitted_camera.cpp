@@ -11,14 +11,14 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double least_area_km2 = 60;  // below this, only specks reach a threshold
+constexpr double least_area_km2 = 60;  // a smaller area is only specks
 constexpr double range_share = 0.02;   // of the columns beyond each end of the region
 constexpr double wider_share = 0.12, wider_m = 5e3;
 constexpr double least_half_m = 15e3;  // of the region, in each direction
 constexpr double filled_share = 0.84;
 constexpr double fitted_field_of_view_deg = 40;
 constexpr double usual_azimuth_deg = 180, farthest_turn_deg = 45;
-constexpr double long_ratio = 1.8;  // a region as long as this times its width is a line
+constexpr double long_ratio = 1.8;  // a region of at least this length to width is a line
 constexpr double least_top_m = 2e3;
 constexpr double sun_from_camera_deg = 65, sun_height_deg = 40;
 constexpr double earth_diameter_m = 2 * 6371e3;

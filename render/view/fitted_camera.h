@@ -12,9 +12,9 @@
 //   azimuth  From the south; a long region is seen from its long side, at most 45 degrees from the
 //            south.
 //   tilt, exaggeration, opacity
-//            From the size of the region: near storms are seen from aside (70 degrees, exaggeration
-//            2), wide ones from above (52 degrees), where low tops are stretched up to 5 times.
-//            Weaker echo is drawn more opaque.
+//            From the size of the region: a small region is seen from the side (70 degrees,
+//            exaggeration 2), a wide region from above (52 degrees), with low tops stretched up to
+//            5 times. Weaker echo is drawn more opaque.
 //   sun      65 degrees to the left of the camera, 40 degrees high.
 // Without any echo the camera sees the whole grid.
 //

@@ -72,7 +72,7 @@ Result<const UnitFacts*> unit_named(std::string_view name) {
 // The units that were named so far, in the order of `quantities`.
 using NamedUnits = std::array<const UnitFacts*, quantities.size()>;
 
-// Applies the unit to its quantities that no other unit has.
+// Makes the unit the unit of each of its quantities for which none is named yet.
 Status take(const UnitFacts& facts, NamedUnits& named) {
     bool is_used = false;
     const Quantity* taken = nullptr;
@@ -108,7 +108,7 @@ Result<Units> units_from_names(std::string_view names) {
         if (!unit) return pass_on(unit);
         units.push_back(*unit);
     }
-    // A unit of several quantities applies to those that the others leave.
+    // A unit of several quantities comes last and applies to the quantities that are left.
     std::stable_partition(units.begin(), units.end(),
                           [](const UnitFacts* f) { return !is_of_several(*f); });
     NamedUnits named{};

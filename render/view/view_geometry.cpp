@@ -126,8 +126,8 @@ void ViewGeometry::fit_picture(const Camera& camera) {
     metres_per_pixel_ = margin * std::max(2 * across / width_, 2 * upright / height_) / camera.zoom;
 }
 
-// Places the camera. The field of view is that of zoom 1. A camera without a place of its own is as
-// far back as the box needs.
+// Places the camera. The field of view applies at zoom 1. A camera without a place of its own goes
+// back until it sees the whole box.
 void ViewGeometry::place_eye(const Camera& camera) {
     const double half_angle = 0.5 * camera.field_of_view_deg * std::numbers::pi / 180;
     const double focal = 0.5 * width_ / std::tan(half_angle);

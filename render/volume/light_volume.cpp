@@ -192,11 +192,7 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
                 const float pv = static_cast<float>(iv) + way.dv;
                 const auto v0 = static_cast<int>(std::floor(pv));
                 const float sv = pv - static_cast<float>(v0);
-                //
-                // du
-                //  and
-                // dv
-                //  are at most 1, so these cells are at most in the border.
+                // |du| and |dv| are at most 1, so these cells are at most in the border.
                 const float* from = passed.data() +
                                     static_cast<std::size_t>(u0 + static_cast<int>(border)) * row +
                                     static_cast<std::size_t>(v0 + static_cast<int>(border));

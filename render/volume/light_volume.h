@@ -35,7 +35,7 @@ class LightVolume {
     // edges.
     [[nodiscard]] float at(float x, float y, float z) const;
 
-    // These are parts of the full light, for tests.
+    // For tests: the light of the sun alone, and the number of coarse cells along an axis.
     [[nodiscard]] float sun_at(int x, int y, int z) const { return sun_[index(x, y, z)]; }
     [[nodiscard]] int size(std::size_t axis) const { return sizes_[axis]; }
 

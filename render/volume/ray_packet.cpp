@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 
-constexpr float opaque_enough = 0.001F;  // a ray ends when less light than this reaches through
+constexpr float opaque_enough = 0.001F;  // a ray ends if less light than this gets through
 
 // Returns 1 - exp(-depth) for depths of 0 and more, to 2e-7. The library's exp() is not used,
 // because its fused operations give other bits on other targets.

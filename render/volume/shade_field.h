@@ -2,9 +2,7 @@
 // volume is drawn.
 //
 // On a grid of 2 x 2 columns and single levels, made once for each time step, this holds the factor
-//   shade = S T + 0.25 s (1 -
-// n v
-// )^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)
+//   shade = S T + 0.25 s (1 - |n v|)^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)
 // where n is the direction in which the values fall, v the view and u the sun. s = g / (g + 1.5 dB
 // per km of drawn space) tells how much of a surface there is where the values fall by g. t is the
 // light that gets through from the sun and the sky (render/volume/light_volume.h). s belongs to

@@ -35,8 +35,8 @@ void set_bits(std::uint64_t* words, int first, int last) {
     words[to / 64] |= tail;
 }
 
-// Returns the edge of the blocks. Blocks about as wide as a tile of the picture tell all that tiles
-// can use; smaller blocks, or more of them, cost more than they save.
+// Returns the edge of the blocks. Blocks about as wide as a tile of the picture are fine enough for
+// tiles; smaller blocks, or more blocks, cost more than they save.
 int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
     constexpr double most_blocks = 1 << 18;
     const double cell_m = std::min(spec.cell_width_m(), spec.cell_height_m());

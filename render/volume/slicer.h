@@ -39,8 +39,8 @@
 
 namespace stormcellar::render {
 
-// The memory for a picture while it is drawn. If it is kept for the next picture, it need not be
-// allocated again.
+// The memory in which a picture is drawn. A caller that keeps it for the next picture saves the
+// allocation.
 struct SlicerRoom {
     Layer layer;  // of the last picture
     std::optional<SliceMask> mask;
@@ -60,8 +60,8 @@ struct VolumeOptions {
     Light light = {};  // none: the table's own colors
 };
 
-// Draws grids of one quantization in one view, and makes what they share once. It is immutable, and
-// many threads may call draw().
+// Draws grids of one quantization in one view, and makes their common tables once. It is immutable,
+// and many threads may call draw().
 class VolumeSlicer {
   public:
     // The geometry must outlive this object; `cache` may be null. `threads` threads make the shared

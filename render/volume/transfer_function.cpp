@@ -120,7 +120,7 @@ void TransferFunction::choose_bins(const ColorTable& table) {
     double gap = range;
     for (std::size_t i = 1; i < stops.size(); ++i)
         gap = std::min(gap, static_cast<double>(stops[i].from - stops[i - 1].from));
-    // One bin is for the clear values below, and one for values from the highest stop on.
+    // One bin holds the clear values below the table, and one the values from the highest stop on.
     const double finest = range / (bin_count - 2);
     const double bins_a_gap = std::floor(gap / finest * (1 + 1e-9));
     bin_width_ = bins_a_gap >= 1 ? gap / bins_a_gap : finest;

@@ -3,8 +3,8 @@
 // The ending of the name selects the format:
 //   .webp  lossless; alpha is kept; metadata as XMP (libwebp)
 //   .gif   one palette of at most 255 colors for the whole loop. The same color always gets the
-//          same entry, so nothing flickers. Exact if the loop has no more colors than that. Times
-//          are in 1/100 s, at least 2/100. Metadata as a comment
+//          same entry, so nothing flickers. Colors are exact if the loop has at most 255. Times are
+//          in 1/100 s, at least 2/100. Metadata as a comment
 //   .apng  lossless; alpha is kept; metadata as tEXt chunks
 //   .mp4   H.264 (CRF 16, BT.709), or MPEG-4 part 2 if FFmpeg has no H.264 encoder
 //   .webm  VP9, or VP8
@@ -76,7 +76,9 @@ class AnimationWriter : public Interface {
     // Adds a frame. All frames must have the size of the first, or add() returns bad_argument.
     // After an error the writer is useless: every later call returns the same error.
     virtual Status add(const Image& frame) = 0;
-    virtual Status finish() = 0;  // bad_argument if there was no frame, or if called twice
+    // Writes the file. Errors: bad_argument if there was no frame or if finish() was called before;
+    // the error of an earlier call; those of the encoder and of the file system.
+    virtual Status finish() = 0;
 };
 
 }  // namespace stormcellar::render

@@ -45,7 +45,8 @@ struct ColorTable {
     std::string unit;              // "dBZ"; empty: no unit
     std::vector<ColorStop> stops;  // at least one
     float end = 0;                 // upper end of the last class in a color bar
-    // Start of a color bar. If empty, it begins with the first class, which may reach far down.
+    // Start of the color bar. If empty, the bar begins with the first class, which may reach far
+    // down.
     std::optional<float> bar_begin;
     Rgba8 range_folded{};
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly
@@ -54,13 +55,14 @@ struct ColorTable {
     bool operator==(const ColorTable&) const = default;
 };
 
-// A table may have no more stops than this. No display shows more colors, and the limit bounds
-// files.
+// The largest number of stops in a table. It bounds the size of files; no display shows more
+// colors.
 inline constexpr std::size_t most_stops = 4096;
 
-// Checks a table. Returns bad_argument, with a message that follows the name of a table, unless
-// there are 1 to most_stops stops that rise strictly, the ends of the bar enclose them, there are
-// extinction points that rise strictly, all numbers are finite, and no extinction is negative.
+// Checks a table. Returns bad_argument, with a message that is read after the name of the table,
+// unless there are 1 to most_stops stops that rise strictly, the ends of the bar enclose them,
+// there are extinction points that rise strictly, all numbers are finite, and no extinction is
+// negative.
 [[nodiscard]] Status validate(const ColorTable& table);
 
 // Returns true if no color blends, so that the table shows classes.

@@ -20,14 +20,13 @@ struct FrameFacts {
     UtcTime time;
     std::vector<grid::SitePosition> sites;
     bool partial = false;
-    // The local time of the grid: "1999-05-03 18:56:21 CDT". This and the following members may be
-    // empty.
+    // The local time of the grid, "1999-05-03 18:56:21 CDT", or empty.
     std::string local_time = {};
     // The time from the newest radial to now, for a picture that is made while its data are new.
     std::optional<std::chrono::seconds> antenna_to_picture = {};
     // The faults that radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles = {};
-    std::vector<std::string> left_out = {};  // machines, as in grid::Provenance
+    std::vector<std::string> left_out = {};  // machines whose data are missing (grid::Provenance)
     bool interpolated = false;  // the grid was interpolated between volumes, as requested
 };
 

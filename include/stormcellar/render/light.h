@@ -9,8 +9,8 @@
 //               nearest seen cell of its column.
 //   shadow      Echo between a place and the sun dims sunlight there, and echo around the place
 //               dims the light of the sky (ambient occlusion).
-//   scattering  Like shadow, but brightest toward the sun through echo: single scattering by the
-//               phase function of Henyey and Greenstein with g = 0.4.
+//   scattering  Like shadow, but echo is brightest where the camera looks through it toward the
+//               sun: single scattering by the phase function of Henyey and Greenstein with g = 0.4.
 //
 // Units     Degrees.
 // Threads   Plain data and pure functions.
@@ -35,7 +35,8 @@ struct Light {
 };
 
 // Sets the light from a list of names, separated by commas: "none", or some of gradient, shadow and
-// scattering. Returns bad_argument for any other name.
+// scattering. Returns bad_argument for any other name and for "none" beside other names; `light` is
+// then unchanged.
 [[nodiscard]] Status set_light(const std::string& names, Light& light);
 // Returns the names as set_light() takes them.
 [[nodiscard]] std::string light_names(const Light& light);

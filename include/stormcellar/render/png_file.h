@@ -16,10 +16,11 @@ namespace stormcellar::render {
 
 enum class PngAlpha { when_needed, always };
 
-// Returns the bytes of a PNG file with 8 bits in sRGB. The file is RGB if every pixel is opaque and
-// alpha is only kept when needed, else RGBA. `texts` become tEXt chunks, with a keyword of 1 to 79
-// characters and a text in Latin-1. Errors: bad_argument for an image whose bytes do not fit its
-// size, or a text with a zero byte.
+// Returns the bytes of a PNG file in sRGB with 8 bits for each channel. The file is RGB if every
+// pixel is opaque and `alpha` is when_needed, else RGBA. `texts` become tEXt chunks, with a keyword
+// of 1 to 79 characters and a text in Latin-1. Errors: bad_argument for an image without pixels, an
+// image whose bytes do not fit its size, a keyword of another length, or a zero byte in a keyword
+// or text; internal if libpng refuses.
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(
     const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {},
     PngAlpha alpha = PngAlpha::when_needed);

@@ -52,18 +52,18 @@ struct ProductFacts {
     // The value that echo must reach for a column to have a value.
     double Scene::*threshold_dbz = nullptr;
     bool may_be_higher = false;  // for tops: the picture marks where the true value may be larger
-    // True if a column that was seen may have no value: no echo, or range folded.
+    // True if a column that was seen may be without a value: no echo, or range folded.
     bool has_echo_states = true;
     bool is_smooth = false;  // true if the map may be drawn smoothly
-    // True for a sweep (BrickView::sweep) instead of a grid.
+    // True if the product draws a sweep (BrickView::sweep) instead of a grid.
     bool is_of_sweep = false;
 };
 
 [[nodiscard]] std::span<const ProductFacts> all_products();
 [[nodiscard]] const ProductFacts& facts_of(Product product);
 [[nodiscard]] std::string_view product_name(Product product);
-[[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
-// Returns the names with the additions of help: "volume, composite (column maximum), ... or
+[[nodiscard]] Result<Product> product_from_name(std::string_view name);  // else bad_argument
+// Returns the names, each with its `aside`: "volume, composite (column maximum), ... or
 // highest-seen".
 [[nodiscard]] std::string products_for_help();
 [[nodiscard]] View view_of(Product product);

@@ -48,8 +48,8 @@ inline constexpr NumberRange opacity{1e-3, 1e3};
 inline constexpr NumberRange ring_spacing_m{1e3, 1e6};
 }  // namespace limits
 
-// The place of a camera, or of the point that it looks at: meters east and north of the middle of
-// the grid, and a height above sea level.
+// The place of a camera or of the point that it looks at: meters east and north of the middle of
+// the grid, and the height above sea level.
 struct Eye {
     double x_m = 0, y_m = 0, height_m = 0;
 };
@@ -57,7 +57,7 @@ struct Eye {
 // A camera without a place of its own is outside the grid and looks at the middle of the box that
 // holds the cells and the ground under them.
 struct Camera {
-    double azimuth_deg = 180;  // where the camera is: from 180, the south, north is up
+    double azimuth_deg = 180;  // of the camera; seen from 180, the south, north is up
     double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground, and for a
                                // camera with a place of its own 180 straight up
     double zoom = 1;           // 1: the whole grid fits into the image
@@ -81,7 +81,7 @@ struct Scene {
     std::optional<SectionLine> section = std::nullopt;  // required for a section
     double echo_top_dbz = 18.5;
     // For a ppi: the elevation and the number that select the sweep of a volume. The picture shows
-    // the sweep of its view, and scene_shown() puts the angle of that sweep here.
+    // the sweep of its view, and scene_shown() sets elevation_deg to the angle of that sweep.
     static constexpr double lowest_sweep = -90;
     static constexpr int no_number = -1;
     double elevation_deg = lowest_sweep;

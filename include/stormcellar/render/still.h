@@ -64,7 +64,7 @@ struct StillMap {
 
 struct StillFormat {
     std::string_view name;                      // "JPEG"
-    std::span<const std::string_view> endings;  // of its files; the first one is the usual one
+    std::span<const std::string_view> endings;  // of file names; the first is the usual one
     std::string_view media_type;                // "image/jpeg"
     // Exactly one of the two encoders is set. Errors: bad_argument for a picture that the format
     // cannot hold, for example because it is too large; internal if a library refuses.

@@ -16,8 +16,8 @@ namespace stormcellar::render {
 enum class Theme { dark, light };
 
 [[nodiscard]] std::string_view theme_name(Theme theme);
-// Returns a theme by its name. Errors: bad_argument for any other name; the message lists the
-// names.
+// Returns a theme by its name. Errors: bad_argument for any other name; the message gives the
+// nearest name or lists all names.
 [[nodiscard]] Result<Theme> theme_from_name(std::string_view name);
 // Returns "dark or light".
 [[nodiscard]] std::string themes_for_help();

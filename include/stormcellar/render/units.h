@@ -36,8 +36,9 @@ struct Units {
 };
 
 // Reads "knots,miles,kft", in any order and case. A quantity without a name keeps its default unit.
-// km applies to distances and heights, unless another name does. Errors: bad_argument for an
-// unknown name (the message gives the nearest known one) and for two units of one quantity.
+// km is the unit of both distances and heights, unless another unit is named for one of them.
+// Errors: bad_argument for an unknown name (the message gives the nearest known name or lists all)
+// and for two units of one quantity.
 [[nodiscard]] Result<Units> units_from_names(std::string_view names);
 // Returns "m/s,km" or "knots,miles,kft", in the form that units_from_names() reads.
 [[nodiscard]] std::string unit_names(const Units& units);
@@ -50,7 +51,7 @@ struct ShownUnit {
     double per_stored = 1;  // shown = stored * per_stored
 };
 // Returns the unit that shows a value stored in the unit of a moment or a product. "m/s" is a
-// speed, and "km" a height; other units stay.
+// speed, and "km" a height; other units do not change.
 [[nodiscard]] ShownUnit shown_unit(std::string_view stored, const Units& units);
 
 }  // namespace stormcellar::render

@@ -3,12 +3,12 @@
 // Drawn space  x points east, y north, and z is the height above sea level times the vertical
 //              exaggeration, in meters from the middle of the grid. For a latitude-longitude grid
 //              these are the meters at its center, see GridSpec::cell_width_m(). If the earth is
-//              drawn curved, a point at the distance r from the middle lies r^2 / (2 R) lower, R =
-//              6,371 km, which is exaggerated too. This parabola differs from the sphere by less
+//              drawn curved, a point at the distance r from the middle is r^2 / (2 R) lower, with R
+//              = 6,371 km, before the exaggeration. This parabola differs from the sphere by less
 //              than 1 % of the drop within 1,000 km.
 // Camera       Orthographic or perspective. A camera without a place of its own looks at the middle
 //              of the box that holds the grid (the cells and the ground below them). At zoom 1 that
-//              box just fits into the picture. A given point to look at moves the picture and keeps
+//              box just fits into the picture. Its look_at, if given, moves the picture and keeps
 //              its scale.
 // Pixels       (0, 0) is the top left corner of the picture, (0.5, 0.5) the middle of its first
 //              pixel.
@@ -65,7 +65,7 @@ class ViewGeometry {
     [[nodiscard]] const Vec3& up() const { return up_; }
     [[nodiscard]] const Vec3& forward() const { return forward_; }
 
-    // Returns the pixel of a point, or NaN if the point lies behind a perspective camera.
+    // Returns the pixel of a point, or NaN if the point is behind a perspective camera.
     [[nodiscard]] Pixel project(double x_m, double y_m, double height_m) const;
     [[nodiscard]] Pixel project(const Vec3& drawn) const;
     [[nodiscard]] double depth_of(const Vec3& drawn) const;
@@ -76,8 +76,8 @@ class ViewGeometry {
     // Returns the ground under a pixel, also beyond the grid, or none where there is sky.
     [[nodiscard]] std::optional<GroundPoint> ground(Pixel pixel) const;
 
-    // Fills `row` with the ground under all pixels of a row, from left to right, and reuses its
-    // memory. The numbers equal those of ground() to the bit.
+    // Fills `row` with the ground under the middle of each pixel of row `y`, from left to right,
+    // and reuses its memory. The numbers equal the results of ground() to the bit.
     void ground_of_row(int y, GroundRow& row) const;
 
     // Return the least and the largest depth of the box of the grid's cells, in front of the
@@ -123,12 +123,14 @@ class ViewGeometry {
     double near_m_ = 0, far_m_ = 0;
 };
 
-// Returns the camera with the azimuth and the tilt that point it at its look_at, if it has a place
-// of its own. A camera right above or below that point keeps its azimuth.
+// Returns the camera with the azimuth and the tilt that turn it from its eye to its look_at. Right
+// above or below that point, the azimuth does not change. A camera without an eye or a look_at is
+// returned unchanged.
 [[nodiscard]] Camera aimed(const Camera& camera, double vertical_exaggeration,
                            bool curved_earth = false);
 
-// The range of heights of the cells: half a spacing beyond the first and the last level.
+// The range of heights of the cells: half a spacing beyond the first and the last level, or 1 km
+// about a single level.
 struct HeightRange {
     double bottom_m = 0, top_m = 0;
 };
