@@ -14,7 +14,7 @@ struct RayDifference {
     double rms = 0, worst = 0;
 };
 
-// Compares every `stride`-th pixel along both sides, from `first` on.
+// Compares every `stride`-th pixel in both directions, from `first` on.
 inline RayDifference against_reference(const ReferenceMarcher& reference, const Layer& layer,
                                        int steps, int first, int stride) {
     RayDifference difference;

@@ -21,7 +21,7 @@ std::uint32_t number_at(ChunkBytes bytes, std::size_t at) {
     return number;
 }
 
-// The CRC of the PNG specification (annex D), bit by bit.
+// Computes the CRC of the PNG specification (annex D) bit by bit.
 std::uint32_t crc_bit_by_bit(ChunkBytes bytes) {
     std::uint32_t crc = 0xFFFFFFFF;
     for (const std::byte byte : bytes) {

@@ -32,8 +32,8 @@ TEST_F(AnimationGif, FewColorsComeBackExactly) {
     expect_frames(back, frames);
 }
 
-// Noise fills the code table and restarts it many times. Every number of colors has its own width
-// of codes.
+// Noise fills the code table and restarts it many times. The width of codes depends on the number
+// of colors.
 TEST_F(AnimationGif, NoiseOfAnyNumberOfColorsComesBackExactly) {
     std::mt19937 random(20261121);
     for (const unsigned colors : {1U, 2U, 3U, 4U, 7U, 8U, 15U, 16U, 100U, 254U, 255U}) {

@@ -85,8 +85,8 @@ TEST_P(Animation, FailureAtAnyPointLeavesTheOldOneOrTheNewOneWhole) {
             }
             return (*writer)->finish().has_value();
         }();
-        // A directory takes two renames. If neither the second nor the way back can be done, the
-        // old one remains under its temporary name.
+        // A directory takes two renames. If both the second rename and the rename back fail, the
+        // old directory remains under its temporary name.
         if (!fs::exists(path())) {
             ASSERT_EQ(GetParam(), "frames/") << "after operation " << operation;
             for (const auto& entry : fs::directory_iterator(directory_.path())) {

@@ -54,8 +54,8 @@ TEST(BaseMap, ASmallMapIsReadAsTheFormatSays) {
     EXPECT_NEAR(map->cities()[0].place.longitude_deg, -10e-4, 1e-12);
 }
 
-// One byte of the payload may be anything, with a matching checksum: there is an answer, and no
-// read beyond the end.
+// Replaces each byte of the payload by every other value, with a matching checksum. The reader must
+// accept or refuse the map, and must not read beyond its end.
 TEST(BaseMap, LiesWithAGoodChecksumAreRefusedOrHarmless) {
     int refused = 0;
     for (std::size_t i = 0; i < small_payload.size(); ++i) {
@@ -151,7 +151,7 @@ TEST(BaseMap, TheBuiltInMapIsSmallAndWhole) {
     EXPECT_TRUE(sets.contains({static_cast<int>(MapKind::county), 0}));
 }
 
-// Kilometers from a place to the nearest segment of a kind, on a local plane.
+// Returns the kilometers from a place to the nearest segment of a kind, on a local plane.
 double km_to(const BaseMap& map, MapKind kind, int detail, grid::GeoPoint place) {
     const double north = 111.2;
     const double east = north * std::cos(place.latitude_deg * 0.017453292519943295);
@@ -174,7 +174,8 @@ double km_to(const BaseMap& map, MapKind kind, int detail, grid::GeoPoint place)
     return nearest;
 }
 
-// Places whose position is known by law or by survey, independent of the sources of the map.
+// Checks places whose positions are known by law or by survey, independently of the sources of the
+// map.
 TEST(BaseMap, LinesAreWhereTheyAreKnownToBe) {
     const auto map = BaseMap::built_in().value();
     struct Known {
@@ -214,7 +215,8 @@ TEST(BaseMap, LinesAreWhereTheyAreKnownToBe) {
     }
 }
 
-// Returns true if a place is within the rings of the coast, whose edges each turn land to sea.
+// Returns true if a place is within the rings of the coast: a line from it crosses an odd number of
+// their edges.
 bool is_land(const BaseMap& map, int detail, grid::GeoPoint place) {
     bool is_within = false;
     for (const MapSet& set : map.sets()) {

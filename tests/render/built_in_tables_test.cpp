@@ -21,7 +21,7 @@ TEST(BuiltInTables, AreValidOpaqueAndHaveNamesOfTheirOwn) {
         const bool is_smooth = table.name.starts_with("smooth-");
         EXPECT_EQ(is_stepped(table), !is_smooth) << table.name;
         EXPECT_EQ(table.range_folded, (Rgba8{0x77, 0, 0x7D, 255}));
-        // On maps, weak echo of the smooth tables of reflectivity lets the ground through.
+        // On maps, the smooth tables of reflectivity let the ground show through weak echo.
         if (is_smooth && table.moment == Moment::ref) continue;
         for (const ColorStop& stop : table.stops)
             EXPECT_EQ(stop.color[3], 255) << table.name;
@@ -78,7 +78,7 @@ TEST(BuiltInTables, EachMomentHasASmoothOne) {
     EXPECT_EQ(clear_air_colors().name, "smooth-clear-air");
 }
 
-// Symmetric about 0, so that both sides of a couplet weigh the same.
+// Extinction is symmetric about 0, so that both sides of a couplet are equally dense.
 TEST(DefaultExtinction, OfVelocityGoesBySpeed) {
     const ColorTable& table = default_color_table(Moment::vel);
     double before = 0;
@@ -92,7 +92,8 @@ TEST(DefaultExtinction, OfVelocityGoesBySpeed) {
     EXPECT_DOUBLE_EQ(extinction_per_m(table, -63, 1) * 1000, 0.5);
 }
 
-// For every value that the cache can hold, so that none is drawn as if it did not exist.
+// Every value that the cache can hold has extinction exactly if it has a color, so that a volume
+// leaves out no colored echo.
 TEST(DefaultExtinction, WhatHasAColorCanBeSeen) {
     for (const Moment moment : level2::all_moments) {
         const ColorTable& table = default_color_table(moment);

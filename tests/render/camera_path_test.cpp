@@ -75,7 +75,7 @@ TEST(CameraPath, GoesWithoutAJerkAndStartsAndEndsAtRest) {
             largest_jump =
                 std::max(largest_jump, std::abs(velocity(step, part) - velocity(step - 1, part)));
         }
-        // A kink would change the velocity by a part of itself within one step.
+        // A kink would change the velocity by a large share within one step.
         EXPECT_LT(largest_jump, 0.01 * fastest);
         EXPECT_LT(std::abs(velocity(0, part)), 0.01 * fastest);
         EXPECT_LT(std::abs(velocity(steps, part)), 0.01 * fastest);
@@ -113,7 +113,7 @@ TEST(CameraPath, TakesTheShortestWayRoundUnlessTurnsAreAskedFor) {
     EXPECT_NEAR(back.at(1).azimuth_deg, -10, 1e-9);
     const CameraPath once = path_of({from(0, 180), from(1, 180, 1)});
     EXPECT_TRUE(once.is_closed());
-    // One that ends where it began goes round evenly.
+    // A path that ends where it began turns at a constant rate.
     EXPECT_NEAR(once.at(0.25).azimuth_deg, 270, 1e-9);
     EXPECT_NEAR(once.at(0.5).azimuth_deg, 360, 1e-9);
     const CameraPath other_way = path_of({from(0, 180), from(1, 90, -1)});

@@ -20,7 +20,7 @@ ColorTable table_of(std::vector<ColorStop> stops, float end) {
     return table;
 }
 
-// From bottom to top, without gap or overlap.
+// Expects that the blocks fill the box from bottom to top, without gap or overlap.
 void expect_filled(const ColorBar& bar, const Rect& whole) {
     double bottom = whole.bottom();
     for (const BarBlock& block : bar.blocks) {

@@ -59,7 +59,8 @@ TEST(Ciede2000, AgreesWithThe34PublishedPairsEitherWayRound) {
     }
 }
 
-// Lightness alone, by hand: at a mean of 50 the divisor is 1, from black to white as well.
+// Two grays differ only in lightness. Their difference is computed by hand: at a mean lightness of
+// 50, as from black to white, the divisor is 1.
 TEST(Ciede2000, BlackAndWhiteAreAHundredApart) {
     EXPECT_NEAR(color_difference({0, 0, 0, 255}, {255, 255, 255, 255}), 100, 1e-9);
     EXPECT_NEAR(ciede2000({45, 0, 0}, {55, 0, 0}), 10, 1e-12);
@@ -97,7 +98,7 @@ TEST(ImageDifference, EqualPicturesDoNotDiffer) {
     EXPECT_EQ(none->max, 0);
 }
 
-// 200 pixels, three of which differ: the 99th percentile leaves out two.
+// Three of 200 pixels differ. The 99th percentile leaves out the two largest differences.
 TEST(ImageDifference, SummarisesMeanPercentileAndLargest) {
     const Rgba8 base = {0, 0, 0, 255};
     const Image one(20, 10, base);

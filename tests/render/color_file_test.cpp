@@ -62,7 +62,8 @@ TEST(PalFile, FallingValuesAreTheSameTable) {
     }
 }
 
-// Two entries at one value: the one below blends to the first, the second begins what is above.
+// If two entries have one value, the entry below blends to the first of them, and the range above
+// begins with the second.
 TEST(PalFile, TwoEntriesAtOneValueMakeAnEdge) {
     const auto table = parse_pal(
         "Color: 0 0 0 0\nColor: 10 100 100 100\nColor: 10 0 0 200\nColor: 20 0 0 0\n", "e");
@@ -72,7 +73,7 @@ TEST(PalFile, TwoEntriesAtOneValueMakeAnEdge) {
     EXPECT_EQ(color_of(*table, 10), (Rgba8{0, 0, 200, 255}));
 }
 
-// v = (w - offset) / scale.
+// A number w of the file is the value (w - offset) / scale.
 TEST(PalFile, ScaleAndOffsetLeadBackToOurUnits) {
     const auto table = parse_pal(
         "Product: BV\nUnits: KTS\nScale: 2\nOffset: 1\nSolidColor: -39 0 255 0\n"
@@ -257,7 +258,7 @@ TEST(TomlColors, ErrorsNameLineAndKey) {
         EXPECT_THAT(message(text), HasSubstr(part)) << text;
 }
 
-// A file may hold any bytes: it gives an error of one line, or a table that validate() accepts.
+// Expects that a file of any bytes gives an error of one line or a table that validate() accepts.
 template <class Parse>
 void expect_sound_for_mutations(std::string_view seed, const Parse& parse) {
     std::mt19937 random(20261122);

@@ -26,7 +26,8 @@ TEST(ColorTable, GivesTheColorsOfTheWeatherService) {
         EXPECT_EQ(color_of(nws_reflectivity(), dbz), color) << dbz;
 }
 
-// docs/rendering.md, by hand: between two points the opacity is exponential in the value.
+// Compares extinctions with docs/rendering.md, by hand: between two points the opacity is
+// exponential in the value.
 TEST(Extinction, OfReflectivityIsAVeilAndACore) {
     EXPECT_EQ(extinction_per_m(nws_reflectivity(), 4.99, 1), 0);
     EXPECT_EQ(extinction_per_m(nws_reflectivity(), std::nan(""), 1), 0);

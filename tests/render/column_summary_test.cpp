@@ -47,7 +47,8 @@ TEST(ColumnSummary, AgreesWithASlowSearchOverAStorm) {
     expect_same_as_slow(bricks_of(storm, 2));
 }
 
-// Bricks of one state, of states alone and of codes, and every mixture of states in a column.
+// The grid has bricks of one state, bricks of states without codes, and bricks of codes, with every
+// mixture of states in a column.
 TEST(ColumnSummary, AgreesWithASlowSearchOverEveryMixtureOfStates) {
     const auto grid = make_grid_of(small_spec(49, 20), [](int ix, int iy, int iz) -> Cell {
         if (ix < 16) return {CellStatus::no_echo, 0};

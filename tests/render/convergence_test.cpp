@@ -10,7 +10,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Smooth in value: colors blend, extinction rises linearly.
+// Returns a table without jumps: colors blend, and extinction rises linearly.
 ColorTable smooth_table() {
     ColorTable table;
     table.stops = {{0, {20, 40, 250, 255}, {250, 60, 20, 255}},
@@ -20,8 +20,8 @@ ColorTable smooth_table() {
     return table;
 }
 
-// A ball whose value falls off smoothly from its middle. It is so high that rays from above begin
-// inside, and the cells are so fine that its curvature counts.
+// Returns a ball whose value falls smoothly from its middle. The ball is so high that rays from
+// above begin inside it, and the cells are so fine that its curvature counts.
 grid::BrickGrid ball(const grid::GridSpec& spec) {
     return grid::BrickGrid::from(
         make_grid_of(spec,
@@ -41,7 +41,7 @@ double error_of(const grid::BrickView& bricks, const ViewGeometry& view, const C
     return against_reference({bricks, table, view, options.opacity}, layer, 8192, 2, 7).rms;
 }
 
-// The order, from the errors of 8, 16 and 32 slices.
+// Returns the order of convergence, from the errors with 8 and with 32 slices.
 double order_of(Integration integration) {
     const grid::GridSpec spec = small_spec(96, 64, 500, 250);
     const auto bricks = ball(spec);

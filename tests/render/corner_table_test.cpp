@@ -15,7 +15,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The expected word of a cell, from the codes one by one. Bricks without values count as zeros.
+// Returns the expected word of a cell, from its four codes. Bricks without values count as zeros.
 std::uint32_t expected_word(const grid::BrickView& view, int x, int y, int z) {
     const grid::GridSpec& spec = *view.spec;
     std::uint32_t word = 0;
@@ -55,7 +55,8 @@ void expect_filled(const CornerTable& table, const grid::BrickView& view) {
     EXPECT_GT(values, 100U);
 }
 
-// A ball of echo with a hard rim. The rest is clear air, except below the ball, which was not seen.
+// Returns a ball of echo with a hard rim. Levels below its middle were not seen elsewhere; the rest
+// is clear air.
 grid::BrickGrid ball_at(const grid::GridSpec& spec, double x, double y, double z) {
     return bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) {
         const double r = std::hypot(ix - x, iy - y, iz - z);
@@ -74,7 +75,7 @@ TEST(CornerTable, HoldsTheFourColumnsOfEachCell) {
     }
 }
 
-// The second ball is elsewhere: nothing of the first may remain.
+// The balls are at different places; the table must keep nothing of the previous ball.
 TEST(CornerTable, ForgetsTheGridBefore) {
     const grid::GridSpec spec = small_spec(50, 36);
     const auto first = ball_at(spec, 10, 10, 28);

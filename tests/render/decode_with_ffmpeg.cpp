@@ -1,4 +1,4 @@
-// Reads with FFmpeg's demuxers and decoders, so that our files are checked by foreign code.
+// Reads animations with FFmpeg's demuxers and decoders, so that foreign code checks our files.
 #include "render/animation/ffmpeg_handles.h"
 #include "tests/render/decoded_animation.h"
 

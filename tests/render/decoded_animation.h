@@ -1,4 +1,5 @@
-// tests/render/decoded_animation.h -- animations, written and read back by foreign decoders.
+// tests/render/decoded_animation.h -- writes test animations and reads them back with foreign
+// decoders.
 #pragma once
 
 #include <filesystem>
@@ -48,7 +49,7 @@ void expect_frames(const DecodedAnimation& animation, const std::vector<Image>& 
 // Decodes with libpng's simplified reader. Returns an image of size 0 if it cannot be read.
 [[nodiscard]] Image decode_png_file(const std::filesystem::path& path);
 
-// A square that moves over flat patches: 20 opaque colors.
+// Return frames in which a square moves over flat patches, with 20 opaque colors.
 [[nodiscard]] Image test_frame(int index, int width = 61, int height = 43);
 [[nodiscard]] std::vector<Image> test_frames(int count, int width = 61, int height = 43);
 

@@ -13,7 +13,8 @@ namespace {
 
 using level2::Moment;
 
-// A storm of this many cells' radius about a place, of one value up to 12 km.
+// Returns a cell of a square storm with one value up to 12 km. `radius` is half its side, in cells,
+// and (x, y) its middle.
 Cell storm_at(int ix, int iy, int iz, int x, int y, int radius, double dbz = 50) {
     const bool inside = std::abs(ix - x) <= radius && std::abs(iy - y) <= radius && iz < 24;
     return inside ? valued(dbz) : Cell{};
@@ -29,7 +30,7 @@ struct Bounds {
     }
 };
 
-// The pixels of a box of columns from the ground up to 12 km, in a picture of 640 by 480.
+// Returns the bounds, in a picture of 640 by 480, of a box of columns from the ground up to 12 km.
 Bounds bounds_of(const grid::GridSpec& spec, const Scene& scene, int x, int y, int radius) {
     const ViewGeometry view(spec, scene.camera, scene.vertical_exaggeration, 640, 480,
                             scene.curved_earth);

@@ -20,8 +20,8 @@ constexpr Cell unseen = {CellStatus::not_seen, 0};
 constexpr Cell quiet = {CellStatus::no_echo, 0};
 constexpr Cell folded = {CellStatus::range_folded, 0};
 
-// Levels at 500, 1000 ... m. One row of columns, each a list of cells from the lowest up; all other
-// cells have no echo.
+// Returns one row of columns, with levels at 500, 1000 ... m. Each column lists its cells from the
+// lowest up; all other cells have no echo.
 grid::BrickGrid columns_of(const std::vector<std::vector<Cell>>& columns, int levels = 20) {
     grid::GridSpec spec = small_spec(static_cast<int>(columns.size()), levels);
     spec.ny = 1;
@@ -73,7 +73,8 @@ TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
     EXPECT_EQ(at(800).status[1], CellStatus::no_echo);
 }
 
-// The status rule (docs/geometry.md), for every pair of states at a third of the way.
+// Checks the status rule (docs/geometry.md) for every pair of states, a third of the way between
+// two levels and in their middle.
 TEST(Cappi, MixesStatesByTheRule) {
     const std::vector<Cell> kinds = {unseen, quiet, folded, valued(20)};
     std::vector<std::vector<Cell>> columns;
@@ -151,7 +152,7 @@ TEST(EchoTops, AreInterpolatedBetweenLevelsInDecibels) {
     EXPECT_EQ(field.at_least, at_least);
 }
 
-// 3.44e-6 Z^(4/7) for each meter of the 20 levels of 500 m.
+// The closed form is 3.44e-6 Z^(4/7) for each meter of the 20 levels of 500 m.
 TEST(Vil, OfAnEvenColumnIsItsClosedForm) {
     const auto bricks =
         columns_of({repeated(valued(45), 20), repeated(valued(56), 20), repeated(valued(70), 20),
@@ -179,7 +180,7 @@ TEST(Vil, TakesTheMeanOfZInALayerAndLeavesOutWhatWasNotSeen) {
     EXPECT_NEAR(field.values[1], 3.44e-6 * halved * 1000, 1e-6) << "both layers with Z / 2";
 }
 
-// The slow and obvious form of both, asked cell by cell of the view.
+// The echo top and the height of the maximum, found in a slow and obvious way from single cells.
 struct SlowColumn {
     std::optional<double> top_m;
     std::optional<double> height_km;

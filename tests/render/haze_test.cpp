@@ -24,8 +24,8 @@ Image hazy(const grid::BrickView& view, const ViewGeometry& geometry, int thread
     return picture;
 }
 
-// From straight above, with nothing seen in the western half: the path of a ray is the height of
-// the box.
+// The camera looks straight down, and nothing was seen in the western half. There the path of a ray
+// through unseen air is the height of the box.
 TEST(Haze, IsAsThickAsTheWayThroughAirThatWasNotSeen) {
     const grid::GridSpec spec = small_spec(48, 16);
     const auto bricks = bricks_of(make_grid_of(spec, [](int ix, int, int iz) {
@@ -46,8 +46,8 @@ TEST(Haze, IsAsThickAsTheWayThroughAirThatWasNotSeen) {
     EXPECT_EQ(hazy(bricks.view(), geometry, 3).rgba, picture.rgba);
 }
 
-// Half of the levels of each coarse cell give half the path. Uniform bricks of either state need no
-// codes.
+// If half of the levels of each coarse cell were not seen, the path through unseen air is half as
+// long, also in bricks without values. Bricks of seen air alone give no haze.
 TEST(Haze, CountsTheShareOfEachCell) {
     const grid::GridSpec spec = small_spec(48, 16);
     const auto half = bricks_of(make_grid_of(spec, [](int, int, int iz) {

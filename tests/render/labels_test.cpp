@@ -55,7 +55,7 @@ DrawnFacts picture_of(Scene scene, level2::Moment moment, const ColorTable& tabl
     return {legend, 50e3, Coverage{0.9958, 0.4}};
 }
 
-// All texts are long.
+// Returns facts with long texts.
 FrameFacts troubled(int sites) {
     FrameFacts facts = facts_for(std::string(64, 'W'), sites, true);
     facts.local_time = "2026-11-22 18:56:21 America/Argentina/ComodRivadavia";
@@ -65,7 +65,7 @@ FrameFacts troubled(int sites) {
     return facts;
 }
 
-// Uneven classes of a moment without a unit, and a blend with long numbers.
+// Returns a table of uneven classes with long numbers, without a unit.
 ColorTable uneven_table() {
     ColorTable table = nws_reflectivity();
     table.unit = "";

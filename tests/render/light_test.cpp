@@ -70,7 +70,7 @@ TEST(Light, ChangesNoOpacityAndMakesSomeLighterAndSomeDarker) {
     }
 }
 
-// Returns the mean of the green channel, by which red is lighter.
+// Returns the mean of the green channel, which light raises in red echo.
 double mean_green(const Layer& layer, int from_x, int to_x) {
     double sum = 0, alpha = 0;
     for (int y = 0; y < layer.height; ++y) {
@@ -83,7 +83,7 @@ double mean_green(const Layer& layer, int from_x, int to_x) {
     return sum / alpha;
 }
 
-// An opaque dome under a low sun: the side toward the sun is lighter.
+// Draws an opaque dome under a low sun. Its side toward the sun must be lighter.
 TEST(Light, TheSideTurnedToTheSunIsLighter) {
     const grid::GridSpec spec = small_spec(64, 32);
     const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) -> Cell {
@@ -110,8 +110,8 @@ LightVolume volume_of(const grid::BrickGrid& bricks, const grid::GridSpec& spec,
     return {bricks.view(), transfer, 1000, geometry, light, threads};
 }
 
-// A homogeneous slab under the sun at the zenith: exp(-k d), with d from the top of the slab to
-// that of the coarse cell.
+// With the sun at the zenith, a coarse cell in a homogeneous slab gets the light exp(-k d), where d
+// is the distance from the top of the slab to the top of the cell.
 TEST(LightVolume, UnderASlabIsTheClosedForm) {
     const grid::GridSpec spec = small_spec(64, 32);  // 500 m apart: a coarse cell is 1 km high
     constexpr double dbz = 41.875 + 0.5 * 0.3125;

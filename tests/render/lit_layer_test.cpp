@@ -1,5 +1,5 @@
-// Tests the light of a volume's picture: against the reference marcher, and on real volumes that it
-// keeps the lightness and the hues that the picture has without light.
+// Tests the light of a volume's picture against the reference marcher. On real volumes, tests that
+// the picture keeps the lightness and the hues that it has without light.
 #include "render/volume/lit_layer.h"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ VolumeOptions options_of(const std::string& kinds, int slices, double tolerance 
     return options;
 }
 
-// The rays' sums of light are those of the reference marcher, which reads the same field.
+// Compares the sums of light along rays with the reference marcher, which reads the same field.
 TEST(LitLayer, TheSumOfLightAgreesWithTheReference) {
     const grid::GridSpec spec = small_spec(120, 20, 4000, 800);
     const auto bricks = bricks_of(storm_grid(spec));
@@ -108,7 +108,7 @@ TEST(LitLayer, TheSumOfLightAgreesWithTheReference) {
     }
 }
 
-// Pixels between rays are as near to their rays in light as they are in color.
+// Interpolates pixels of a lit picture between rays, and compares them with cast rays.
 TEST(LitLayer, IsInterpolatedWhereThePictureIsStraight) {
     const grid::GridSpec spec = small_spec(40, 20, 8000, 800);
     const auto bricks = bricks_of(storm_grid(spec));
@@ -135,7 +135,7 @@ grid::BrickGrid bricks_of_real(const grid::Grid& grid) {
     return grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
 }
 
-// Returns the lightness (L*) of the echo at a pixel, without what is behind it.
+// Returns the lightness (L*) of the echo at a pixel, without its background.
 double lightness_at(const Layer& layer, std::size_t i) {
     const auto level = [&](std::size_t c) {
         const float whole = layer.rgba[i + c] / layer.rgba[i + 3];
@@ -208,8 +208,8 @@ TEST_P(LitVolume, KeepsItsLightnessAndItsHues) {
     }
 }
 
-// Each frame has an exposure of its own, which must not show in a loop: where half of all echo goes
-// from one frame to the next, the rest stays as light as it was.
+// Each frame has an exposure of its own, which must not be visible in a loop. If half of all echo
+// disappears from one frame to the next, the rest must stay as light as before.
 TEST_P(LitVolume, IsAsLightWhenOtherEchoGoes) {
     STORMCELLAR_NEED_DATA();
     const grid::Grid whole = real_grid(GetParam());

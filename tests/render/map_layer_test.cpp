@@ -23,7 +23,7 @@ grid::GridSpec spec_of(Projection projection, double latitude_deg, double longit
     return projected_spec(projection, latitude_deg, longitude_deg, side, side, spacing_m);
 }
 
-// A map as for the flat products.
+// Returns the view of a 2D product, from straight above.
 ViewGeometry flat(const grid::GridSpec& spec, int width, int height, double zoom = 1) {
     return {spec, Camera{180, 0, zoom}, 1, width, height};
 }
@@ -53,7 +53,8 @@ Point exact_pixel(const GroundMap& ground, const ViewGeometry& view, GeoPoint pl
     return {pixel.x, pixel.y};
 }
 
-// A parallel of latitude with two vertices, 40 degrees apart, against all of its points projected.
+// Compares a parallel with two vertices, 40 degrees apart, with the projections of all of its
+// points.
 TEST(MapLayer, LongSegmentsFollowTheirCurve) {
     const auto bytes = SmallMap{}.set(MapKind::country, 0, 0, {{{49, -120}, {49, -80}}}).bytes();
     const auto map = BaseMap::read(bytes).value();
@@ -116,7 +117,7 @@ TEST(MapLayer, LinesAtASlantEndAroundTheGrid) {
     EXPECT_LT(farthest_m, view.half_x_m() + reach_beyond_m(view) + 1);
 }
 
-// Simplification is not visible: the finest map agrees with the lines that are drawn.
+// Simplification is not visible: points of the finest map are on the drawn lines.
 TEST(MapLayer, CoarseLinesLieOnTheFinest) {
     const auto map = BaseMap::built_in().value();
     for (const double spacing_m : {2e3, 10e3, 40e3}) {
@@ -155,7 +156,7 @@ TEST(MapLayer, CountiesAreThereWhereTheyCanBeRead) {
     EXPECT_FALSE(has_counties(4000, 1));
 }
 
-// The Aleutians: lines east and west of 180 degrees are on both sides of the middle.
+// Draws the Aleutians. Lines east and west of 180 degrees are on both sides of the middle.
 TEST(MapLayer, GoesOnAcrossTheAntimeridian) {
     const auto map = BaseMap::built_in().value();
     const grid::GridSpec spec = spec_of(Projection::azimuthal_equidistant, 52, 179.9, 200, 5000);

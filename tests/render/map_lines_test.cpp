@@ -43,7 +43,7 @@ bool is_ring(Rgba8 pixel) {
     return true;
 }
 
-// Distance along WGS84 from the site to the place of a pixel.
+// Returns the distance along WGS84 from the site to the place of a pixel.
 double arc_m(const grid::GridSpec& spec, const ViewGeometry& view, const grid::SitePosition& site,
              Pixel pixel) {
     const auto ground = view.ground(pixel);
@@ -56,7 +56,7 @@ double arc_m(const grid::GridSpec& spec, const ViewGeometry& view, const grid::S
     return arc;
 }
 
-// Every pixel of a ring is at the distance of one of the rings, within two pixels.
+// Expects that every pixel of a ring is at the distance of one of the rings, within two pixels.
 void expect_rings(const grid::GridSpec& spec, const grid::SitePosition& site) {
     const auto fonts = Fonts::load();
     ASSERT_TRUE(fonts);

@@ -28,7 +28,7 @@ grid::GridSpec spec_of(Projection projection, double latitude_deg, double longit
     return spec;
 }
 
-// A plan and what it was made of.
+// A plan of marks and its input.
 struct Planned {
     grid::GridSpec spec;
     ViewGeometry view;
@@ -134,8 +134,8 @@ TEST(MapMarks, NamesTheLargestCitiesAndTheDistances) {
     EXPECT_EQ(planned.marks.site_texts[0].text, "KTLX");
 }
 
-// Tulsa is 10 km inside this grid's eastern edge, and its name is longer than that, so the name is
-// west of the town. Nothing else is there, so it would fit across the edge.
+// Tulsa is 10 km inside this grid's eastern edge, and its name is longer than 10 km, so the name
+// must be west of the town, although there is room for it across the edge.
 TEST(MapMarks, NamesOfCitiesDoNotCrossTheGridsEdge) {
     const Planned planned(spec_of(Projection::azimuthal_equidistant, 36.0, -97.05, 220, 230, 1000),
                           Camera{180, 0, 0.8}, 672, 462, 1, {});
@@ -152,7 +152,8 @@ TEST(MapMarks, NamesOfCitiesDoNotCrossTheGridsEdge) {
     EXPECT_EQ(found, 1);
 }
 
-// From above the map goes on beyond the grid, with its towns; at a slant the ground fades there.
+// Seen from above, the map and its towns continue beyond the grid; seen at a slant, the ground
+// fades there.
 TEST(MapMarks, TownsBeyondTheGridStandInMaps) {
     const grid::GridSpec spec =
         spec_of(Projection::azimuthal_equidistant, 35.3333, -97.2778, 200, 200, 1000);
@@ -200,7 +201,8 @@ TEST(MapMarks, AViewAlongTheGroundHasNoScaleBar) {
     EXPECT_FALSE(planned.marks.height_texts.empty());
 }
 
-// The tip of the arrow is its only bright part away from the middle: it points north.
+// The tip of the arrow is its only bright part away from the middle, so bright pixels show where it
+// points.
 TEST(MapMarks, TheArrowPointsNorth) {
     for (const double azimuth_deg : {180.0, 90.0, 0.0, 270.0}) {
         const Planned planned(spec_of(Projection::azimuthal_equidistant, 40, -97, 100, 100, 4000),

@@ -11,7 +11,7 @@
 namespace stormcellar::render {
 namespace {
 
-// A smooth image with 128 x 128 different colors.
+// Returns a smooth image with 128 x 128 different colors.
 Image gradient() {
     Image image(128, 128, {});
     for (int y = 0; y < 128; ++y) {

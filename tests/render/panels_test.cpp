@@ -76,7 +76,7 @@ TEST(PanelLayout, NothingOverlapsAtAnySize) {
                     EXPECT_EQ(picture.width, std::round(picture.width));
                     shown += picture.width * picture.height;
                 }
-                // With three panels, a place stays empty.
+                // With three panels, the place of a fourth is empty.
                 EXPECT_GT(shown / width / height, count == 3 ? 0.4 : 0.5);
             }
         }
@@ -109,7 +109,7 @@ TEST(Panels, EachHasItsGridAndItsColors) {
     ASSERT_TRUE(picture) << picture.error().message;
     EXPECT_EQ(picture->width, 1280);
     EXPECT_EQ(picture->height, 960);
-    // Off the middle, where the mark of the site and rings are.
+    // Reads a pixel beside the middle of a panel, where the mark of the site and the rings are not.
     const auto at = [&](int column, int row) {
         return picture->at(320 + 640 * column + 37, 300 + 430 * row - 31);
     };

@@ -27,7 +27,7 @@ Camera standing_at(const Eye& eye, double azimuth_deg, double tilt_deg, double f
     return camera;
 }
 
-// All kinds of views of one grid: from outside, inside and below.
+// Returns all kinds of views of one grid: from outside, inside and below.
 std::vector<Camera> cameras() {
     return {Camera{200, 50, 1},
             perspective(180, 55, 40),
@@ -93,8 +93,8 @@ TEST(Perspective, AboveTheHorizonIsNoGround) {
     EXPECT_FALSE(ViewGeometry(small_spec(100, 16), up, 1, 80, 60).ground({40, 30}));
 }
 
-// From 2 km up, the horizon is where the line of sight touches the parabola: sqrt(2 h / R) below
-// level.
+// From 2 km up, the line of sight touches the parabola of the earth at the horizon, which is sqrt(2
+// h / R) below level.
 TEST(Perspective, TheHorizonOfACurvedEarthLiesBelowTheLevel) {
     const Camera camera = standing_at({0, 0, 2e3}, 180, 90, 40);
     const ViewGeometry view(small_spec(100, 16), camera, 1, 800, 600, true);
@@ -159,7 +159,7 @@ TEST(Perspective, ASlabIsThickerTowardsThePicturesEdge) {
     }
 }
 
-// From inside one sees as far as the walls.
+// A camera inside the box sees as far as its walls.
 TEST(Perspective, ACameraInsideSeesUpToTheWalls) {
     const grid::GridSpec spec = small_spec(100, 16);
     const auto bricks = homogeneous(spec);
@@ -188,7 +188,7 @@ TEST(Perspective, EveryCameraAgreesWithTheReference) {
     }
 }
 
-// A layer at 3 km over 960 km: at its edge the curved earth puts it 18 km lower.
+// A layer at 3 km is 960 km wide. The curved earth lowers its edge by 18 km.
 TEST(CurvedEarth, AWideLayerBends) {
     const grid::GridSpec spec = small_spec(240, 12, 4000, 500);
     const auto bricks = bricks_of(

@@ -28,7 +28,8 @@ LabelLayout layout_for(int width, int height, Product product) {
         .value();
 }
 
-// The map goes on beyond the grid, so that the picture of it is all that the map fills.
+// The map continues beyond the grid and fills its part of the picture, so this test measures that
+// part.
 TEST(PictureSpace, TheMapFillsMostOfTheFrame) {
     for (const auto& [width, height] : common_sizes) {
         const LabelLayout layout = layout_for(width, height, Product::composite);
@@ -60,7 +61,7 @@ TEST(PictureSpace, LettersGrowWithThePicture) {
         if (one.scale > 0.85) {
             EXPECT_NEAR(twice.scale, 2 * one.scale, 1e-9);
         }
-        // Small print is 8.5 pixels at scale 1: never under a hundredth of the shorter side.
+        // Small print, 8.5 pixels at scale 1, is at least a hundredth of the shorter side.
         EXPECT_GE(8.5 * one.scale / std::min(width, height), 0.01) << width << "x" << height;
     }
 }

@@ -13,7 +13,8 @@ namespace {
 
 using grid::CellStatus;
 
-// 100 x 100 columns. The column 30, 70 has 45 dBZ at 2.5 km; nothing is seen below 1 km.
+// The grid has 100 x 100 columns. Column (30, 70) has 45 dBZ at 2.5 km; nothing was seen below 1
+// km.
 class ProbeTest : public ::testing::Test {
   protected:
     ProbeTest()
@@ -27,7 +28,7 @@ class ProbeTest : public ::testing::Test {
           bricks_(bricks_of(grid_)) {
         scene_.product = Product::composite;
         scene_.labels = false;
-        scene_.width = scene_.height = 520;  // 5 pixels a cell, the border 2 % from the edge
+        scene_.width = scene_.height = 520;  // 5 pixels for each cell, and a margin of 2 %
     }
 
     Result<Probe> at(int ix, int iy) {

@@ -57,7 +57,7 @@ TEST(ProductLegend, SaysWhatIsNotInTheColorBar) {
     EXPECT_THAT(legend_texts(scene_of(Product::lowest_seen, Moment::ref)), ElementsAre("not seen"));
 }
 
-// Ground under haze cannot tell by its own shade how low it was seen.
+// With haze, the ground does not tell how low it was seen, so the legend explains the air.
 TEST(ProductLegend, OfAHazyVolumeIsOfTheAir) {
     using ::testing::ElementsAre;
     Scene scene = scene_of(Product::volume, Moment::ref);

@@ -1,5 +1,5 @@
-// Pictures of real domains, at the sizes in which they are shared: nothing that is written is cut,
-// shortened or on anything else, and the map fills its frame.
+// Tests pictures of real domains in common sizes: no text is cut, shortened or on top of anything,
+// and the map fills its frame.
 #include <algorithm>
 
 #include <gmock/gmock.h>
@@ -50,8 +50,8 @@ Domain domain_of(std::string name, std::initializer_list<const char*> stations) 
     return domain;
 }
 
-// Plains, a coast, the crowded northeast with seven radars and with all of its radars, and a site
-// of another kind whose names are long.
+// Returns a site in the plains, two sites at coasts, a TDWR, whose names are long, and the crowded
+// northeast with seven radars and with all of its radars.
 std::vector<Domain> domains() {
     return {domain_of("KTLX", {"KTLX"}),
             domain_of("KLIX", {"KLIX"}),
@@ -132,7 +132,7 @@ std::vector<Box> boxes_of(const LabelLayout& layout) {
 
 class RealLayout : public ::testing::Test {
   protected:
-    // Calls with each domain, size and choice of units.
+    // Calls check(domain, scene) for each domain, size and choice of units.
     template <class Check>
     void for_all(Product product, Check check) {
         for (const Domain& domain : domains_) {
@@ -217,7 +217,7 @@ TEST_F(RealLayout, MarksAreApart) {
                  {&marks.site_texts, &marks.ground_texts, &marks.height_texts}) {
                 for (const MarkText& text : *texts) {
                     boxes.push_back({text.box, text.text});
-                    // The box holds what is drawn.
+                    // The box contains the drawn text.
                     EXPECT_GE(text.box.width, fonts_.width(text.text, text.size, text.bold));
                 }
             }
@@ -249,7 +249,8 @@ TEST_F(RealLayout, PanelsAreWholeAndApart) {
     });
 }
 
-// Axes are drawn without a plan, so the pixels tell: nothing touches the picture's edge.
+// Axes are drawn without a plan, so this test reads pixels: nothing may touch the edge of the
+// picture.
 TEST_F(RealLayout, AxesOfASectionAreNotCut) {
     for_all(Product::section, [&](const Domain& domain, const Scene& scene) {
         if (domain.name != "KTLX" || scene.width > 1920) return;
@@ -260,7 +261,7 @@ TEST_F(RealLayout, AxesOfASectionAreNotCut) {
         section.in_grid.assign(static_cast<std::size_t>(place.width), 0);
         section.bottom_m = 0;
         section.top_m = 16250;
-        // At these lengths the last number stands at the end of the axis.
+        // At these lengths the last number is at the end of the axis.
         for (const double length_m : {200e3, 120 * 1852.0, 120 * 1609.344, 300e3}) {
             section.length_m = length_m;
             const GroundLook look{&shades::dark, nullptr, layout.scale};

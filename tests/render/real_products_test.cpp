@@ -86,8 +86,8 @@ TEST_F(RealProducts, ACappiShowsTheGatesAtItsHeight) {
     EXPECT_LT(std::sqrt(squares / valued), 0.5);
 }
 
-// The largest value of the volume that another decoder found is an upper bound of the column
-// maxima; a point sample at 1 km need not reach it.
+// The largest value that another decoder found in the volume is an upper bound of the column
+// maxima, which point samples at 1 km need not reach.
 TEST_F(RealProducts, TheCompositesMaximumIsThatOfTheGolden) {
     std::ifstream file(*testing::data_directory() / "golden/KTLX19990503_235621.gz.json");
     ASSERT_TRUE(file);
@@ -106,8 +106,8 @@ TEST_F(RealProducts, TheCompositesMaximumIsThatOfTheGolden) {
     EXPECT_GT(found, most - 6);
 }
 
-// The tornadic supercells of that evening: tops between 13 km and the top of the grid, and the most
-// liquid where a column is strong and deep.
+// The tornadic supercells of that evening have tops between 13 km and the top of the grid, and the
+// most liquid where a column is strong and deep.
 TEST_F(RealProducts, EchoTopsAndVilAreThoseOfSevereStorms) {
     const auto view = bricks_->view();
     const FlatField tops = echo_top_field(view, 18.5, 2);

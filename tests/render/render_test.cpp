@@ -23,7 +23,8 @@ Scene plain(Product product, int size) {
     return scene;
 }
 
-// The map is 104 cells across 520 pixels: 5 pixels a cell, the border 2 % from the edge.
+// Returns the pixel in the middle of a cell. The picture has 520 pixels for 104 cells: 100 of the
+// grid, and a margin of two on each side.
 Rgba8 map_pixel(const Image& image, int ix, int iy) {
     return image.at(10 + 5 * ix + 2, 520 - 11 - 5 * iy - 2);
 }
@@ -46,7 +47,8 @@ TEST(Composite, ShowsEachColumnsStateWhereItIs) {
     EXPECT_EQ(map_pixel(*image, 30, 20), shades::dark.land.seen) << "below the table";
     EXPECT_EQ(map_pixel(*image, 50, 50), shades::dark.land.seen);
     EXPECT_EQ(image->at(1, 1), shades::dark.page);
-    // Not seen is hatched, and so is neither clear air nor a single color.
+    // Ground that was not seen is hatched: it has two colors, and neither is the color of clear
+    // air.
     int lines = 0;
     int between = 0;
     for (int ix = 81; ix < 99; ++ix) {
@@ -113,7 +115,7 @@ TEST(RenderFrame, WhatIsKeptChangesNoPixel) {
     };
     expect_same(bricks, Product::composite, 32);
     expect_same(bricks, Product::composite, 32);
-    expect_same(bricks, Product::volume, 400);  // so many that the corner table is used
+    expect_same(bricks, Product::volume, 400);  // enough slices for the corner table
     expect_same(other, Product::volume, 400);
     expect_same(bricks, Product::volume, 400);
     expect_same(other, Product::volume, 16);
@@ -162,7 +164,8 @@ TEST(RenderFrame, RefusesWhatItCannotDraw) {
               ErrorCode::bad_argument);
 }
 
-// Every product of reflectivity and every moment, with labels, gives pictures of the full size.
+// Draws every product of reflectivity and every moment with labels. The pictures must have the full
+// size.
 TEST(RenderFrame, DrawsEveryProductAndMoment) {
     const auto grid = storm_grid(small_spec(60, 16, 4000, 1000));
     const auto bricks = bricks_of(grid);
@@ -227,7 +230,7 @@ TEST(EchoTops, ThatMayBeHigherAreDotted) {
     EXPECT_LT(dots, 30000);
 }
 
-// Codes are addressed with 31 bits: a wide grid with few levels has more.
+// Codes are addressed with 31 bits, but a wide grid with few levels can have more codes.
 TEST(RenderFrame, AVolumeTooLargeToAddressIsRefused) {
     grid::GridSpec spec = small_spec(grid::GridSpec::greatest_side, 4, 100);
     grid::BrickView view;

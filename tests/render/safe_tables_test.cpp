@@ -64,7 +64,7 @@ bool lightness_rises(const ColorTable& table, std::size_t first, std::size_t end
     return true;
 }
 
-// Gray stays gray, and these two colors look alike to people who see neither red nor green.
+// Gray stays gray, and these two colors look alike to people who cannot tell red from green.
 TEST(Sights, KeepGreysAndMixWhatTheyShould) {
     for (const Sight& sight : sights) {
         EXPECT_LT(ciede2000(seen_by(sight, {128, 128, 128, 255}), lab_of({128, 128, 128, 255})),
@@ -133,8 +133,8 @@ TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     EXPECT_LT(least_step(velocity, sights[0]), least_safe_step);
 }
 
-// Two values of a smooth table that are so far apart differ for everybody. Those of reflectivity
-// are not in the middle of the 1 dB in which a hue changes.
+// Any two values of a smooth table that are at least `apart` apart must look different to
+// everybody. The values of reflectivity avoid the middle of the 1 dB in which a hue changes.
 struct FarApart {
     const char* table;
     float from, to, apart, step;
@@ -176,7 +176,8 @@ TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {
     }
 }
 
-// In OKLab a step of the table is nowhere much larger than elsewhere, but where hues change.
+// A table without classes has no jump: each stop begins with the color in which the previous one
+// ends.
 TEST(SmoothTables, HaveNoClassesAndRiseInLightness) {
     for (const char* name :
          {"smooth-spectrum-width", "smooth-zdr", "smooth-rho", "smooth-cfp", "smooth-clear-air"}) {

@@ -70,7 +70,8 @@ TEST(Section, ThroughCentresOfColumnsShowsTheCells) {
         return valued(iz * 5 + 10);
     });
     const auto bricks = bricks_of(grid);
-    // North to south along the middle column: a straight line on this map.
+    // Each section runs from north to south along a column of the grid. This is nearly a straight
+    // line on the map.
     for (const auto& [ix, status] :
          {std::pair{5, CellStatus::not_seen}, std::pair{15, CellStatus::no_echo},
           std::pair{25, CellStatus::range_folded}, std::pair{35, CellStatus::value}}) {

@@ -13,7 +13,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The relative luminance and the contrast ratio of WCAG 2.
+// Return the relative luminance and the contrast ratio of WCAG 2.
 double luminance(Rgba8 color) {
     const auto linear = [](std::uint8_t level) {
         const double c = level / 255.0;
@@ -46,7 +46,7 @@ TEST_P(ShadesOfTheme, LettersOnThePageCanBeRead) {
     EXPECT_GE(contrast(shades.warning_text, shades.page), 6);
 }
 
-// On the ground, and on their halo, which is over echo of any color.
+// Letters can be read on the ground, and on their halo over echo of any color.
 TEST_P(ShadesOfTheme, LettersOnTheMapCanBeRead) {
     const Shades& shades = shades_of(GetParam());
     for (const Rgba8& letter : {shades.text, shades.quiet_text, shades.city, shades.small_city}) {
@@ -77,7 +77,7 @@ TEST_P(ShadesOfTheme, LinesOfTheMapStandOutByTheirRank) {
     }
 }
 
-// Land and water differ where both were seen alike, and what was not seen differs from what was.
+// Land and water of the same state differ, and ground that was not seen differs from seen ground.
 TEST_P(ShadesOfTheme, GroundsDiffer) {
     const Shades& shades = shades_of(GetParam());
     EXPECT_GE(contrast(shades.land.seen, shades.water.seen), 1.07);
@@ -109,7 +109,7 @@ TEST(Theme, NamesAreReadBack) {
               "there is no theme 'ligth'; did you mean 'light'?");
 }
 
-// The promise of nearest_level(): that of std::lround(), halves and their neighbors included.
+// nearest_level() promises the results of std::lround(), also for halves and their neighbors.
 TEST(NearestLevel, IsThatOfTheLibrary) {
     for (int i = 0; i <= 510; ++i) {
         const double half = i / 2.0;

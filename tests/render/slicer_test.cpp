@@ -19,8 +19,9 @@ Layer slice(const grid::BrickView& view, const ViewGeometry& geometry, int slice
     return sliced(view, geometry, {slices, integration, opacity}, threads);
 }
 
-// Closed form: a slab of one value and height H, seen at tilt t, has the opacity 1 - exp(-k H e /
-// cos t) wherever a ray crosses it from top to bottom. Its value is the middle of a bin.
+// In closed form, a slab of one value and height H, seen at tilt t with exaggeration e, has the
+// opacity 1 - exp(-k H e / cos t) wherever a ray crosses it from top to bottom. Its value is the
+// middle of a bin.
 TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     const grid::GridSpec spec = small_spec(200, 16);
     constexpr double dbz = 41.875 + 0.5 * 0.3125;
@@ -75,7 +76,8 @@ void expect_cells_where_geometry_puts_them(const grid::GridSpec& spec) {
             const Pixel expected =
                 geometry.project(spec.x_m(place.ix), spec.y_m(place.iy),
                                  spec.levels_m[static_cast<std::size_t>(place.iz)]);
-            // At the edge of the grid, half of the cell's reach is cut off, which moves its middle.
+            // At the edge of the grid, half of the cell's reach is cut off, which moves the middle
+            // of the echo.
             const double pixels_per_cell = std::max(1000.0, 1500.0) / geometry.metres_per_pixel();
             const bool at_edge = place.ix == 39 || place.iz == 0;
             EXPECT_NEAR(x / sum, expected.x, at_edge ? 0.4 * pixels_per_cell : 0.35);
@@ -125,7 +127,7 @@ TEST(Slicer, MoreSlicesComeNearerToTheReference) {
     }
 }
 
-// Random blocks of every state, so that every case of the skipping occurs.
+// The grid has random blocks of every state, so that every case of skipping occurs.
 TEST(Slicer, SkippingEmptyBricksChangesNothing) {
     const grid::GridSpec spec = small_spec(60, 33);
     std::mt19937 random(5);
@@ -153,7 +155,7 @@ TEST(Slicer, NothingIsDrawnForCellsWithoutAValue) {
     for (const auto status :
          {CellStatus::not_seen, CellStatus::no_echo, CellStatus::range_folded}) {
         const grid::GridSpec spec = small_spec(40, 8);
-        // One value below the table makes the bricks stored ones.
+        // Values below the table are invisible, but make the bricks store codes.
         const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int, int) -> Cell {
             return ix % 16 == 0 ? valued(0) : Cell{status, 0};
         }));

@@ -1,4 +1,4 @@
-// Base maps of a few lines, encoded as the format says, for tests.
+// tests/render/small_map.h -- encodes base maps of a few lines for tests.
 #pragma once
 
 #include <cmath>

@@ -10,7 +10,7 @@ namespace {
 
 using grid::CellStatus;
 
-// Small multiples of 1/4, so that sums in float are exact enough.
+// Returns small multiples of 1/4, so that sums in float are exact enough.
 float value_of_cell(int k) {
     return 20 + 0.25F * static_cast<float>((k * 37 + 11) % 61);
 }
@@ -19,7 +19,8 @@ double cubic(double a, double b, double c, double d, double t) {
     return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-// The rule as it is written in the header, for a place between the middle cells of a 4 x 4 field.
+// Applies the rule of render/products/smooth_field.h, for a place between the middle cells of a 4 x
+// 4 field.
 SmoothField::Place slowly(const FlatField& field, double x, double y) {
     const auto status = [&](int ix, int iy) { return field.status[field.index(ix, iy)]; };
     const double tx = x - 1, ty = y - 1;
@@ -71,7 +72,7 @@ FlatField field_of(unsigned inner, unsigned outer) {
         for (int x = 0; x < 4; ++x) {
             const bool is_inner = x >= 1 && x <= 2 && y >= 1 && y <= 2;
             unsigned& pattern = is_inner ? inner : outer;
-            // An outer cell only matters by having a value or none.
+            // An outer cell only matters if it has a value.
             const unsigned states = is_inner ? 4 : 2;
             const unsigned state = pattern % states;
             pattern /= states;
@@ -84,8 +85,8 @@ FlatField field_of(unsigned inner, unsigned outer) {
     return field;
 }
 
-// All patterns of the four states in the four middle cells, and of value or none in the twelve
-// around them: 2^20 fields.
+// Tests 2^20 fields: all patterns of the four states in the four middle cells, and of value or no
+// value in the twelve cells around them.
 TEST(SmoothField, AgreesWithTheSlowFormForEveryPatternOfStates) {
     constexpr double places[][2] = {{1.25, 1.375}, {1.5, 1.5}, {1.875, 1.125}};
     std::size_t values = 0;

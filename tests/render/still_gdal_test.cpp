@@ -1,5 +1,5 @@
-// Opens GeoTIFF and KMZ with GDAL's own programs, which know projections by code of their own: a
-// cell must stand where they look for it.
+// Opens GeoTIFF and KMZ files with GDAL's programs, which have their own code for projections, and
+// checks that they find each cell at its place.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -62,11 +62,11 @@ class StillGdal : public ::testing::TestWithParam<grid::ProjectionFacts> {
     [[nodiscard]] nlohmann::json info(const std::string& name) const {
         const auto ran = testing::run_program(gdal_info, {"-json", "-stats", file(name)});
         EXPECT_EQ(ran.status, 0) << ran.err;
-        EXPECT_EQ(ran.err, "") << "GDAL warns of nothing";
+        EXPECT_EQ(ran.err, "") << "GDAL must not warn";
         return nlohmann::json::parse(ran.out);
     }
 
-    // Returns what GDAL finds at each place, band by band.
+    // Returns the numbers that GDAL reads at each place, band by band.
     [[nodiscard]] std::vector<std::vector<double>> at(const std::string& name, int bands,
                                                       const std::vector<grid::GeoPoint>& places) {
         {
@@ -121,7 +121,7 @@ std::vector<grid::ColumnPoint> some_columns(const grid::GridSpec& spec) {
     return columns;
 }
 
-// Places 0.4 cells off the middle of a cell find a shift by half a cell.
+// Reads places 0.4 cells off the middle of a cell, so that a raster shifted by half a cell fails.
 TEST_P(StillGdal, EachValueOfAGeotiffIsWhereItsCellIs) {
     write("a.tif", {});
     const auto field = still_field({bricks_.view(), facts_, scene_}, 1);
@@ -176,7 +176,7 @@ TEST_P(StillGdal, AGeotiffIsCloudOptimizedAndSaysWhatItIs) {
     EXPECT_NEAR(band["maximum"], most, 1e-3);
 }
 
-// Also an overview must be read: GDAL takes the one that a smaller copy needs.
+// Makes a copy of half the size, for which GDAL reads an overview.
 TEST_P(StillGdal, OverviewsHoldValuesOfCells) {
     write("a.tif", {});
     const auto ran =
@@ -241,7 +241,7 @@ TEST_P(StillGdal, AKmzLiesWhereItsCellsAre) {
 INSTANTIATE_TEST_SUITE_P(Projections, StillGdal, ::testing::ValuesIn(grid::projection_facts),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// A map of the synthetic storm.
+// A map of the synthetic storm, with its grid.
 struct StormMap {
     grid::Grid grid;
     grid::BrickGrid bricks = bricks_of(grid);

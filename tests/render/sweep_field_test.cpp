@@ -47,7 +47,7 @@ class SweepField : public ::testing::Test {
         scene.labels = false;
         return scene;
     }
-    // Where the middle of a pixel is from the radar, by geodesics.
+    // Returns azimuth and arc from the radar to the middle of a pixel, by geodesics.
     [[nodiscard]] grid::PolarPoint exact(const grid::GridSpec& spec, const ViewGeometry& geometry,
                                          int x, int y) const {
         const auto p = geometry.ground({x + 0.5, y + 0.5}).value();
@@ -56,7 +56,8 @@ class SweepField : public ::testing::Test {
                                                p.y_m / spec.cell_height_m() + 0.5 * (spec.ny - 1)});
         return grid::SiteFrame(real_.site.latitude_deg, real_.site.longitude_deg).to_polar(geo);
     }
-    // True if the gate at the place, or at one 0.5 m beside it, has this state and value.
+    // Returns true if the gate at the place, or at a place 0.5 m beside it, has this state and
+    // value.
     [[nodiscard]] bool is_there(grid::PolarPoint place, CellStatus status, float value) const {
         const grid::PlanePoint at = grid::SiteFrame::to_plane(place);
         for (const double east : {0.0, -0.5, 0.5}) {
@@ -75,7 +76,8 @@ class SweepField : public ::testing::Test {
 };
 
 TEST_F(SweepField, EachPixelShowsItsGate) {
-    // About the radar, about places 300 km off, and on planes of other projections.
+    // The planes are about the radar and about other places, up to 300 km off, in three
+    // projections.
     std::vector<grid::GridSpec> planes = {plane(real_.site.latitude_deg, real_.site.longitude_deg),
                                           plane(35, -99), plane(31.5, -103.5), plane(34, -101),
                                           plane(34, -101)};
@@ -121,7 +123,7 @@ TEST_F(SweepField, ColumnsShowTheGateAtTheirCenter) {
     }
 }
 
-// The picture has the color of the gate that the slow way finds, or a state's shade.
+// The picture has the color of the gate that exact() finds, or the shade of its state.
 TEST_F(SweepField, ThePictureHasTheColorsOfTheGates) {
     const grid::GridSpec spec = plane(real_.site.latitude_deg, real_.site.longitude_deg);
     grid::BrickView view;

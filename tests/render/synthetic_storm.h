@@ -1,4 +1,4 @@
-// tests/render/synthetic_storm.h -- grids for tests of the renderer, defined by a function of
+// tests/render/synthetic_storm.h -- makes grids for tests of the renderer from functions of the
 // place.
 #pragma once
 
@@ -27,7 +27,7 @@ inline grid::GridSpec small_spec(int n, int levels, double spacing_m = 1000,
     return spec;
 }
 
-// The same in degrees: columns are narrower than rows are high.
+// Returns such a spec in degrees. Its cells are narrower than they are high.
 inline grid::GridSpec small_degrees_spec(int n, int levels) {
     grid::GridSpec spec = small_spec(n, levels);
     spec.projection = grid::Projection::latitude_longitude;
@@ -36,7 +36,7 @@ inline grid::GridSpec small_degrees_spec(int n, int levels) {
     return spec;
 }
 
-// The columns of a grid in any projection, with spacings near `spacing_m`.
+// Returns a spec of two levels in any projection, with a spacing near `spacing_m`.
 inline grid::GridSpec projected_spec(grid::Projection projection, double latitude_deg,
                                      double longitude_deg, int nx, int ny, double spacing_m) {
     grid::GridSpec spec = small_spec(nx, 2, spacing_m);
@@ -83,8 +83,8 @@ inline grid::BrickGrid bricks_of(const grid::Grid& grid, int code_bytes = 1) {
     return grid::BrickGrid::from(grid, {code_bytes, -32, code_bytes == 1 ? 0.5F : 0.01F});
 }
 
-// A storm without any symmetry, in the coverage of a synthetic radar: a leaning core with an anvil
-// to the northeast, a line to the southwest, a cone of silence, a missing sector.
+// Returns a cell of a storm without any symmetry, as a synthetic radar sees it: a leaning core with
+// an anvil to the northeast, a line to the southwest, a cone of silence, a missing sector.
 inline Cell storm_cell(const grid::GridSpec& spec, int ix, int iy, int iz) {
     const double x = spec.x_m(ix) / 1000;
     const double y = spec.y_m(iy) / 1000;
@@ -126,14 +126,14 @@ inline FrameFacts facts_of(const grid::Grid& grid) {
             false};
 }
 
-// Draws a volume by the slicer alone.
+// Draws only the volume, with the slicer.
 inline Layer sliced(const grid::BrickView& bricks, const ViewGeometry& view,
                     const VolumeOptions& options, int threads = 2,
                     const ColorTable& table = nws_reflectivity()) {
     return VolumeSlicer(table, bricks.quantization, view, options).draw(bricks, threads);
 }
 
-// Red, green, blue and opacity, as the layer has them.
+// Returns red, green, blue and opacity of a pixel of the layer.
 inline std::array<double, 4> pixel_of(const Layer& layer, int x, int y) {
     const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(layer.width) +
                             static_cast<std::size_t>(x)) *

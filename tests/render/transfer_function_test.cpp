@@ -93,7 +93,7 @@ TEST(TransferFunction, ATableOfOneStopIsATable) {
     EXPECT_FLOAT_EQ(transfer.entry(bin_of(transfer, 21), bin_of(transfer, 70)).depth, 1);
 }
 
-// The integral in the order from the nearer value to the farther one, in 20,000 pieces.
+// The result of integrate(), which sums 20,000 pieces from the nearer value to the farther value.
 struct Exact {
     double alpha = 0;
     std::array<double, 3> color{};
@@ -116,7 +116,7 @@ Exact integrate(double from, double to, double step_m) {
     return sum;
 }
 
-// Between the middles of two bins. Values below the table count as its lowest value.
+// Compares steps between the middles of two bins with integrate().
 TEST(TransferFunction, SecondOrderIsTheIntegralInItsOrder) {
     for (const double step_m : {50.0, 700.0, 8000.0}) {
         const auto transfer = of_reflectivity(step_m, Integration::second_order);
@@ -146,7 +146,7 @@ TEST(TransferFunction, SecondOrderTellsFrontFromBack) {
     EXPECT_EQ(first.entry(weak, strong).green, first.entry(strong, weak).green);
 }
 
-// A thin step hides nothing, so both orders give the mean by extinction.
+// A thin step hides nothing, so both orders give the mean color weighted by extinction.
 TEST(TransferFunction, OrdersMeetInThinSteps) {
     const auto first = of_reflectivity(0.01, Integration::first_order);
     const auto second = of_reflectivity(0.01, Integration::second_order);

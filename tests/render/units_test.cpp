@@ -58,7 +58,8 @@ TEST(Units, WrongNamesAreRefused) {
     EXPECT_EQ(refusal("mph,knots"), "mph and knots are both units of speeds; give one of them");
 }
 
-// By definition: a nautical mile is 1852 m, a foot 0.3048 m, a mile 5280 feet.
+// The factors follow from definitions: a nautical mile is 1852 m, a foot 0.3048 m, a mile 5280
+// feet.
 TEST(Units, ValuesAreConverted) {
     EXPECT_NEAR(shown_unit("m/s", units("knots")).per_stored, 3600.0 / 1852, 1e-12);
     EXPECT_NEAR(shown_unit("m/s", units("mph")).per_stored, 2.236936, 1e-6);
@@ -115,7 +116,7 @@ TEST(Units, LegendsAndTitlesHaveThem) {
     EXPECT_EQ(product_title(scene), "Reflectivity at 9.843 kft above sea level (CAPPI)");
 }
 
-// The number beside each color is what that color stands for.
+// The number beside each color is the value of the color.
 TEST(Units, NumbersOfABarStandAtTheirValues) {
     const Rect box = {0, 0, 20, 400};
     const double per_value = shown_unit("m/s", units("knots")).per_stored;
@@ -129,7 +130,7 @@ TEST(Units, NumbersOfABarStandAtTheirValues) {
         EXPECT_DOUBLE_EQ(std::remainder(knots, 5.0), 0) << tick.text << " is not round";
         EXPECT_NEAR(tick.at, 400 - (knots * 1852 / 3600 - lowest) / span * 400, 1e-6);
     }
-    // The classes of the Weather Service are of whole knots, and stored in m/s.
+    // The classes of the Weather Service have bounds in whole knots, but are stored in m/s.
     std::vector<std::string> texts;
     for (const BarTick& tick :
          color_bar({default_color_table(level2::Moment::vel), per_value}, box, 12, {}).ticks)

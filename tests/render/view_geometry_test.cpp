@@ -13,7 +13,7 @@ ViewGeometry view_from(double azimuth_deg, double tilt_deg, double zoom = 1) {
     return {small_spec(100, 16), Camera{azimuth_deg, tilt_deg, zoom}, 8, 800, 600};
 }
 
-// The whole orientation in one table: the directions of east, north and up in the picture.
+// Tests the orientation by a table of the directions of east, north and up in the picture.
 TEST(ViewGeometry, EastNorthAndUpGoWhereAForecasterExpects) {
     struct Case {
         double azimuth_deg, tilt_deg;
@@ -84,7 +84,7 @@ TEST(ViewGeometry, TheGroundUnderAPixelProjectsBackToIt) {
     EXPECT_FALSE(view_from(30, 90).ground({200.5, 333.5}));
 }
 
-// The promise of ground_of_row(): the numbers of ground(), to the bit.
+// ground_of_row() promises the numbers of ground(), to the bit.
 TEST(ViewGeometry, TheGroundOfARowIsThatOfItsPixels) {
     const Camera from_above{180, 0, 1}, aslant{211, 63, 1.7}, level{180, 90, 1};
     Camera perspective{140, 71, 1};

@@ -1,8 +1,8 @@
 // Tests that the planner of pictures is honest, over scenes of real volumes and of a simulated
-// storm. An effect that it left off, if forced on, changes the picture by less than the budget. An
-// effect that it turned on, if forced off, changes it by more than a tenth of the budget, in at
-// least one scene for each effect. The picture that it chose is within the budget of that of the
-// exact chain.
+// storm. If an effect that the planner left off is forced on, the picture changes by at most the
+// budget. If an effect that it turned on is forced off, the picture changes by more than a tenth of
+// the budget, in at least one scene for each effect. The chosen picture differs from the exact
+// chain's picture by at most the budget.
 #include "render/plan/volume_plan.h"
 
 #include <cmath>
@@ -100,7 +100,8 @@ struct Prepared {
     }
 };
 
-// Made once for all tests, because each draws some 15 pictures.
+// Returns a prepared scene. Each scene is made once for all tests, because it needs some 15
+// pictures.
 Prepared& prepared(std::size_t number) {
     static std::map<std::size_t, std::unique_ptr<Prepared>> all;
     auto& one = all[number];
@@ -139,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PictureHonesty, ::testing::Range(std::size_t{0}
 
 TEST(PictureHonesty, EveryEffectMattersSomewhere) {
     STORMCELLAR_NEED_DATA();
-    std::map<std::string, double> largest;  // as parts of the budget, of effects that were on
+    std::map<std::string, double> largest;  // of effects that were on, as a share of the budget
     for (const accuracy::Step& step : volume_chain().steps) {
         for (const accuracy::Effect& effect : step.effects)
             largest[effect.name] = 0;
@@ -155,18 +156,19 @@ TEST(PictureHonesty, EveryEffectMattersSomewhere) {
                          scene.difference(plan.choice, without) / *scene.budget.image_de);
         }
     }
-    // With 2,048 slices, no step is thick enough to hide its own far part, so the effect is never
-    // needed.
+    // With 2,048 slices, no step is thick enough to hide its own far part, so no plan turns
+    // step_attenuation on.
     EXPECT_EQ(largest["step_attenuation"], 0);
     largest.erase("step_attenuation");
     for (const auto& [effect, part] : largest)
         EXPECT_GT(part, stated_part) << effect;
 }
 
-// For light that the scene does not ask for, the size is reported; plan and budget do not change.
+// The plan reports the size of light that the scene does not ask for, but its choice does not
+// change.
 TEST(PictureHonesty, LightIsOffUnlessTheSceneAsksForIt) {
     STORMCELLAR_NEED_DATA();
-    // Light shows where echo is opaque; scattering differs from shadows where it is thick.
+    // Light is visible where echo is opaque; scattering differs from shadows where echo is thick.
     PlannedScene unlit = scenes().front();
     unlit.scene.opacity = 10;
     unlit.scene.light.sun_elevation_deg = 15;
@@ -181,7 +183,8 @@ TEST(PictureHonesty, LightIsOffUnlessTheSceneAsksForIt) {
         EXPECT_FALSE(decision.on);
         EXPECT_FALSE(decision.is_asked);
         EXPECT_EQ(decision.reason, "the scene does not ask for it");
-        // The exposure takes away what scattering changes everywhere.
+        // The exposure removes the part of scattering that is the same everywhere, but the rest is
+        // visible.
         EXPECT_GT(decision.predicted.image_de, 0.5) << decision.effect;
     }
     EXPECT_EQ(lights, 3);

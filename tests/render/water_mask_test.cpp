@@ -41,7 +41,8 @@ TEST(WaterMask, IsStraightBetweenTheCentersOfItsCells) {
     EXPECT_EQ(WaterMask{}.water_at({0, 0}), 0);
 }
 
-// A square of land about the origin of four tiles, as the map has it, with a lake.
+// Four rectangles of land that meet at 40 N 100 W, as the map's tiles do, and a lake in one of
+// them.
 TEST(WaterMask, OfAMapHasNoSeamsBetweenTiles) {
     using Ring = std::vector<grid::GeoPoint>;
     const auto quarter = [](double south, double west, double north, double east) {
@@ -73,7 +74,7 @@ TEST(WaterMask, OfAMapHasNoSeamsBetweenTiles) {
         EXPECT_EQ(water(40, -101.2), 1);
         EXPECT_EQ(water(40.6, -99.4), 1) << "the lake";
         EXPECT_LT(water(40.6, -99.6), 0.01);
-        // The coast has an outer edge, and none between the tiles.
+        // The coast is drawn around the land, but not along the edges of the tiles inside it.
         for (const MapStroke& stroke : layer.strokes) {
             if (stroke.kind != MapKind::coast) continue;
             for (const Point& p : stroke.points) {

@@ -7,7 +7,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Land with a lake, a sea at the east, and a strip of half water.
+// Returns a mask of land with a lake, a sea in the east, and a strip that is half water.
 WaterMask mask_of(int width, int height) {
     WaterMask mask;
     mask.west_m = -1000;
