@@ -7,8 +7,8 @@
 // Source    Sharma, Wu, Dalal (2005), The CIEDE2000 color-difference formula, Color Research and
 //           Application 30, 21-30; sRGB by IEC 61966-2-1, whose white is taken as the sum of its
 //           primaries, so that grays have a = b = 0. The weights kL, kC and kH are 1. The formula
-//           jumps where two hues are opposite; hues within 1e-9 degrees of that count as opposite,
-//           so that the order of the colors never matters.
+//           jumps where two hues are opposite; hues within 1e-9 degrees of opposite count as
+//           opposite, so that the order of the colors never matters.
 // Accuracy  5e-5, half the last digit of the 34 published pairs.
 // Threads   Pure functions.
 #pragma once

@@ -57,7 +57,7 @@ constexpr Anchor reflectivity_anchors[] = {
     {70, 0xEBCBFF, 1},    {75, 0xFFFFFF, 1},
 };
 
-// Colors for insects, birds and dust, which the other reflectivity table leaves out.
+// Colors for insects, birds and dust, which smooth-reflectivity leaves out.
 constexpr Anchor clear_air_anchors[] = {
     {-30, 0x343C48, 0.1F}, {-15, 0x4A6B80, 0.5F}, {-5, 0x4A93A3, 0.8F}, {5, 0x62BFA0, 1},
     {15, 0x9CC868, 1},     {25, 0xE6CC40, 1},     {37, 0xFFF6D0, 1},    {50, 0xFFFFFF, 1},

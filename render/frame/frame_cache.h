@@ -1,5 +1,5 @@
-// render/frame/frame_cache.h -- keeps what the frames of a loop share, so that it is made only
-// once.
+// render/frame/frame_cache.h -- keeps the map, the tables and the memory that the frames of a loop
+// share.
 //
 // The pixels are the same with and without the cache.
 //

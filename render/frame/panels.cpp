@@ -26,8 +26,8 @@ Status check_panels(std::span<const Panel> panels) {
     return {};
 }
 
-// Returns the facts for the labels of the whole picture: those of the first panel, with the moments
-// of all panels as the product.
+// Returns the facts of the first panel for the labels of the whole picture, with the moments of all
+// panels as the product.
 DrawnFacts facts_of_whole(std::span<const Panel> panels,
                           const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();

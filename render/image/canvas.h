@@ -66,7 +66,7 @@ class Canvas {
     // Draws many lines as one, so that a translucent color does not add up where they cross.
     void add_to_path(const std::vector<Point>& points, Point offset = {});
     void draw_path(double line_width, Rgba8 color);  // draws the path and begins a new one
-    // Restricts drawing to the polygon until the next clip() or unclip().
+    // Restrict drawing to a polygon, or to the common part of two, until the next clip or unclip().
     void clip(const std::vector<Point>& polygon);
     void clip_both(const std::vector<Point>& one, const std::vector<Point>& other);
     void unclip();

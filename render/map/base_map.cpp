@@ -126,7 +126,7 @@ Status check_head(std::span<const std::byte> bytes) {
     if (bytes.empty()) return fail(ErrorCode::empty, "the map has no bytes");
     if (bytes.size() < head_bytes) return fail(ErrorCode::truncated, "the map ends in its head");
     if (std::memcmp(bytes.data(), magic.data(), magic.size()) != 0) {
-        return fail(ErrorCode::corrupt, "the map does not begin as a map does");
+        return fail(ErrorCode::corrupt, "the map does not begin with SCBASMAP");
     }
     if (little_endian<std::uint32_t>(bytes, 8) != version) {
         return fail(ErrorCode::unsupported, "the map is of version {}, not {}",

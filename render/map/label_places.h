@@ -13,7 +13,7 @@ namespace stormcellar::render {
 
 class LabelPlaces {
   public:
-    // Everything must be inside the frame.
+    // Boxes that are not inside the frame are never free.
     explicit LabelPlaces(const Rect& frame) : frame_(frame) {}
 
     [[nodiscard]] bool is_free(const Rect& box) const {

@@ -4,7 +4,7 @@
 // The ground is the plane of the grid's projection about the middle of the grid, as in
 // ViewGeometry.
 //
-// Accuracy  That of stormcellar/grid/projection.h, 1e-7 m.
+// Accuracy  1e-7 m, as in stormcellar/grid/projection.h.
 // Threads   Immutable.
 #pragma once
 

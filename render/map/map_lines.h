@@ -26,7 +26,7 @@ struct MapLines {
     const ViewGeometry* geometry = nullptr;
     const grid::GridSpec* spec = nullptr;
     const std::vector<grid::SitePosition>* sites = nullptr;
-    const MapLayer* map = nullptr;  // source of the cities to mark; null: no cities
+    const MapLayer* map = nullptr;  // its cities are marked; null: no cities
     double ring_spacing_m = 50e3;   // as drawn, from drawn_ring_spacing()
     Units units;                    // units of written numbers
     bool heights = false;           // a scale of heights at the left edge of the box

@@ -9,8 +9,8 @@
 //
 // The length of the scale bar is valid across the middle of the picture. It is 1, 2 or 5 times a
 // power of ten, by the distance on WGS84 (to 1 % at worst). There is no bar if the middle of the
-// view shows no ground. Planning needs only the places of points and the ground under pixels from
-// the view.
+// view shows no ground. Planning asks the view only for the places of points and the ground under
+// pixels.
 //
 // Threads   Plain data; pure functions, except that they draw on the canvas.
 #pragma once

@@ -23,8 +23,8 @@
 
 namespace stormcellar::render {
 
-// The grid and the options that a still is drawn from. The objects that it refers to must outlive
-// it.
+// The grid and the options that a still is drawn from. The referenced objects must outlive the
+// source.
 struct StillSource {
     const std::string& domain;
     const grid::BrickView& view;

@@ -57,7 +57,7 @@ struct VolumePlan {
 };
 // Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan holds
 // `by_default` with the size of each effect. Errors: those of accuracy::govern(); bad_argument for
-// a budget that bounds other errors than those of the picture.
+// a budget that bounds anything but a color difference or a time.
 [[nodiscard]] Result<VolumePlan> plan_volume(VolumeScene& scene, accuracy::Chain chain,
                                              const std::optional<accuracy::Budget>& budget,
                                              const VolumeChoice& by_default,

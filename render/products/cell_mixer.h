@@ -2,10 +2,10 @@
 //
 // This is the status rule (docs/geometry.md, grid/sweep/mixture.h) with the weights of the cells:
 // not seen if more than half is not seen; else range folded if that is the largest part; else no
-// echo if that outweighs the values; else the weighted mean of the values. No echo does not enter a
-// value, because a grid does not hold the detection limits of its cells. PHI is averaged on its
-// circle of 360 degrees. For VEL, whose circle a grid does not hold, the value that weighs most is
-// the result.
+// echo if that outweighs the values; else the weighted mean of the values. Cells with no echo do
+// not lower a value, because a grid does not hold the detection limits of its cells. PHI is
+// averaged on its circle of 360 degrees. For VEL, whose circle a grid does not hold, the value that
+// weighs most is the result.
 //
 // Threads   Plain values.
 #pragma once

@@ -67,8 +67,8 @@ struct GroundPatch {
                              const ColorTable& table, const GroundPatch& patch,
                              const GroundLook& look);
 
-// Paints a product, whose columns and rows are those of the grid; `smoothed` paints it by
-// render/products/smooth_field.h.
+// Paints a field with the columns and rows of the grid; if `smoothed`, smooths it
+// (render/products/smooth_field.h).
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColorTable& table, const ViewGeometry& geometry,
                                 const GroundLook& look, int threads, bool smoothed = false);

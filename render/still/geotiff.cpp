@@ -130,7 +130,7 @@ std::string states_text() {
     return text;
 }
 
-// Makes a raster of a field. Rows of the field run from south to north, those of the raster from
+// Makes a raster of a field. Rows of the field run from south to north, but rows of the raster from
 // north to south.
 template <class PixelOf>
 TiffRaster raster_of(const FlatField& field, const PixelOf& pixel_of) {

@@ -49,7 +49,7 @@ struct EarthBox {
 [[nodiscard]] double mercator_latitude_deg(double y_m) noexcept;
 [[nodiscard]] double mercator_y_m(double latitude_deg) noexcept;
 
-// A product to draw. The objects that it refers to must outlive it.
+// A product to draw. The referenced objects must outlive the PlaneMap.
 struct PlaneMap {
     const grid::GridSpec& spec;
     const EarthBox& box;     // of the spec

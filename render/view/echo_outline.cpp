@@ -13,7 +13,7 @@ constexpr double clear_air_20_dbz_km2 = 150, clear_air_30_dbz_km2 = 60;
 
 }  // namespace
 
-// Reads the columns of one brick after the other.
+// Reads the columns of a view, brick by brick.
 class EchoOutline::Reader {
   public:
     Reader(const grid::BrickView& view, level2::Moment moment) : view_(view) {

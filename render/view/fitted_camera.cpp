@@ -53,7 +53,7 @@ void for_each_tile(const EchoOutline& outline, Each each) {
 std::optional<std::size_t> threshold_shown(const EchoOutline& outline) {
     const auto columns = outline.columns();
     for (std::size_t k = 0; k < all_columns; ++k) {
-        if (k == 1) continue;  // 35 dBZ only adds columns to those of 40
+        if (k == 1) continue;  // 35 dBZ only adds columns to the region of 40 dBZ
         if (columns[k] * outline.column_km2() >= least_area_km2) return k;
     }
     if (!(columns[all_columns] > 0)) return std::nullopt;

@@ -69,7 +69,7 @@ Status check_look_at(const Camera& camera) {
         std::hypot(camera.eye->x_m - camera.look_at->x_m, camera.eye->y_m - camera.look_at->y_m,
                    camera.eye->height_m - camera.look_at->height_m);
     if (apart_m > 0) return {};
-    return fail(ErrorCode::bad_argument, "the camera stands at the very point that it looks at");
+    return fail(ErrorCode::bad_argument, "the camera is at the very point that it looks at");
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ HWY_INLINE Number load_as(const std::byte* from) {
     return number;
 }
 
-// The numbers of a vector one by one. Compilers that see through the memory take the vector apart
-// by shuffles, which is slower than reading it back; the asm statement keeps them from doing so.
+// The numbers of a vector one by one. Some compilers would replace the memory by shuffles, which
+// are slower than reading the vector back; the asm statement prevents this.
 class LaneNumbers {
   public:
     HWY_INLINE explicit LaneNumbers(IntVec numbers) {

@@ -30,7 +30,7 @@ struct Steps {
     DoubleVec step[3], inverse[3], length;
 
     HWY_INLINE Steps(const RayLines& lines, DoubleVec x, DoubleVec y) {
-        // stands for 0 along an axis, so that the ray never leaves the box there
+        // Replaces a step of 0 along an axis, so that the ray never leaves the box there.
         constexpr double no_step = 1e-30;
         const Doubles d;
         DoubleVec square = hn::Zero(d);

@@ -20,13 +20,13 @@ namespace stormcellar::render::HWY_NAMESPACE {
 
 // For each ray, a bin of the transfer function and the share of valued cells.
 struct Samples {
-    // The compiler would make an implicit constructor for the default target, not for this one.
+    // The compiler would make an implicit constructor for the default target, not for this target.
     HWY_INLINE Samples() {}
     IntVec bin;
     FloatVec valued;
 };
 
-// A place along one axis: the cell below it, and how far beyond that cell it lies.
+// A place along one axis: the cell below it, and the distance beyond that cell, in cells.
 struct Place {
     IntVec cell;
     FloatVec beyond;

@@ -7,13 +7,13 @@
 // per km of drawn space) tells how much of a surface there is where the values fall by g. t is the
 // light that gets through from the sun and the sky (render/volume/light_volume.h). s belongs to
 // `gradient`, and t to `shadow` and `scattering` (stormcellar/render/light.h). If a scene does not
-// ask for them, s = 0 or T = 1. A factor of 1 leaves a color as it is.
+// ask for them, s = 0 or T = 1. A factor of 1 does not change a color.
 //
-// The values are those of reflectivity from 0 to 60 dBZ (or from the lowest color of the table, if
-// that is lower); other moments count as 30 wherever there is a value. They are averaged over 2 x 2
-// columns and smoothed along each axis by 1-4-6-4-1. Air without echo counts as 0. Cells that were
-// not seen or are range folded take the value of the nearest seen cell of their column, so that
-// neither the cone of silence nor the lowest beam looks like a surface.
+// The value of a cell is its reflectivity above 0 dBZ (or above the lowest color of the table, if
+// that is below 0), counted up to 60 dBZ; any value of another moment counts as 30. They are
+// averaged over 2 x 2 columns and smoothed along each axis by 1-4-6-4-1. Air without echo counts as
+// 0. Cells that were not seen or are range folded take the value of the nearest seen cell of their
+// column, so that neither the cone of silence nor the lowest beam looks like a surface.
 //
 // Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
 // Threads   Immutable. The same bits for any number of threads.

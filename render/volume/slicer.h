@@ -3,11 +3,11 @@
 //
 // The depth of the grid's box is divided into `slices` equal steps. Every ray samples the volume at
 // the planes between them, and where it enters and leaves the box.
-//   sample   Trilinear over the 8 cells around it, of which only those with a value count. The
-//            value is their weighted mean, and the sum of their weights is the sample's share. So
-//            echo tapers to nothing over one cell toward cells without a value, whatever their
-//            state, and no state ever adds a color. Half a cell beyond the outermost centers of
-//            cells, the value is that of the cell.
+//   sample   Trilinear over the 8 cells around the point, without the cells that have no value. The
+//            sample's value is the weighted mean of the cells with a value, and its share is the
+//            sum of their weights. So echo tapers to nothing over one cell toward cells without a
+//            value, whatever their state, and no state ever adds a color. Up to half a cell beyond
+//            the outermost centers, the outermost cells continue.
 //   step     The entry of the TransferFunction for the values at its two ends. Its optical depth is
 //            multiplied by the mean of their shares and by the length of the ray through the step,
 //            also where the box cuts the step. An end without any value takes the value of the

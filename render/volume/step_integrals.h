@@ -14,7 +14,7 @@
 namespace stormcellar::render {
 
 inline constexpr std::size_t step_bins = 256;
-// Vectors may read this far beyond the last bin; those numbers are not used.
+// Vectors may read this many numbers beyond the last bin; they do not use these.
 inline constexpr std::size_t bins_of_a_vector = 8;
 using OfBins = std::array<double, step_bins + bins_of_a_vector>;
 

@@ -1,7 +1,7 @@
 // render/volume/transfer_function.h -- a color table, prepared for steps through a volume.
 //
 // A path of length s through an extinction k (ColorTable::extinction) has the optical depth k s
-// and the opacity 1 - exp(-k s). Lengths are those of the drawn scene, with heights exaggerated.
+// and the opacity 1 - exp(-k s). Lengths are measured in the drawn scene, with heights exaggerated.
 //
 // Values are sorted into bins, and all values of a bin look like its middle. Bin 0 is clear and
 // holds the values below the table or below its first extinction. The other bins have equal widths,

@@ -15,7 +15,7 @@
 namespace stormcellar::render {
 
 struct DecodedFrame {
-    Image image;  // the whole canvas, as it is shown
+    Image image;  // the whole canvas, with all earlier frames
     double start_s = 0;
     double duration_s = 0;
 };

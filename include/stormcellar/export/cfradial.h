@@ -7,8 +7,8 @@
 // of a volume differ in length, RangeAxes chooses between one axis, on which long gates are
 // repeated, and one axis for each pair of first gate and spacing (REF_2 on range_2). Gates that
 // differ in scale or word size are variables of their own (REF_2). No code is changed. A gate
-// without a value is _FillValue; REF_status tells valid, below threshold, range folded, no data and
-// the flags of CFP apart. docs/export.md lists every variable.
+// without a value is _FillValue; REF_status distinguishes valid, below threshold, range folded, no
+// data and the flags of CFP. docs/export.md lists every variable.
 //
 // If the volume has no radials, time and sweep have no elements. If it has no position, latitude,
 // longitude and altitude are _FillValue. If it has no VCP, there is no scan_id, and fixed_angle is

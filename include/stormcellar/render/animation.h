@@ -10,7 +10,7 @@
 //   .webm  VP9, or VP8
 //   NAME/  a directory of frame_0000.png, frame_0001.png, ...; alpha is kept
 // .mp4 and .webm need a build with STORMCELLAR_VIDEO. A module that is installed with the program
-// writes them; it is loaded when such a writer is created.
+// writes them; it is loaded when a video writer is created.
 //
 // Loops repeat without end if the format can say so (MP4, WebM and PNG files cannot). Video has
 // even sizes, so a picture with an odd size gets its last column or row twice. Formats drop alpha

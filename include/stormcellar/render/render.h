@@ -3,7 +3,7 @@
 // The product (volume, map or section) is drawn first; range rings, site marks, color bar, title
 // and time are drawn over it. The same input gives the same pixels for any number of threads.
 //
-// Units     Those of stormcellar/render/scene.h.
+// Units     As in stormcellar/render/scene.h.
 // Threads   Any thread may call; render_frame() uses `threads` threads of its own. A FrameCache
 //           may be used by one call at a time.
 // Errors    See each function.

@@ -55,7 +55,7 @@ struct StillOptions {
     int threads = 1;
 };
 
-// A 2D product of a grid. The objects that it refers to must outlive it.
+// A 2D product of a grid. The referenced objects must outlive the StillMap.
 struct StillMap {
     const grid::BrickView& view;
     const FrameFacts& facts;
