@@ -1,4 +1,4 @@
-// The moments of a CfRadial file: packed codes, and the status of each gate.
+// Writes the moments of a CfRadial file: packed codes, and the status of each gate.
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,4 @@
-// The variables of a CfRadial file that have one element for each sweep or each radial.
+// Writes the variables of a CfRadial file that have one element for each sweep or each radial.
 #include <algorithm>
 #include <chrono>
 #include <optional>

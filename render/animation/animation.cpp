@@ -20,7 +20,7 @@ Result<std::unique_ptr<FrameEncoder>> make_built_in(const AnimationOptions& opti
     return make(options);
 }
 
-// Null if this build has no videos.
+// Returns the function that makes a video encoder; null if this build has no videos.
 template <VideoContainer container>
 constexpr MakeEncoder make_video() {
 #if STORMCELLAR_VIDEO

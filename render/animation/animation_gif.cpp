@@ -1,6 +1,6 @@
-// GIF through giflib, because FFmpeg's writer has no comments and would add a palette to each
-// frame. The loop count is Netscape's application block. The palette is known only after the last
-// frame, so frames are kept deflated until then.
+// Writes GIF loops with giflib, because FFmpeg's writer has no comments and would add a palette to
+// each frame. Netscape's application block holds the loop count. The palette is known only after
+// the last frame, so frames are kept deflated until then.
 #include <algorithm>
 #include <array>
 #include <bit>

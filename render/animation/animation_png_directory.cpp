@@ -1,5 +1,4 @@
-// A directory of PNG files. They are written into a temporary directory beside it, which is then
-// renamed.
+// Writes a directory of PNG files: first a temporary directory beside it, which is then renamed.
 #include <atomic>
 #include <optional>
 

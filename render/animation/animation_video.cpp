@@ -1,4 +1,4 @@
-// MP4 and WebM through FFmpeg's libavcodec and libavformat: the module for videos.
+// Writes MP4 and WebM with FFmpeg's libavcodec and libavformat. This is the module for videos.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
-// WebP through libwebp's animation encoder. It is lossless because colors are data, and lossy WebP
-// halves their resolution. Method 1 and effort 50 give most of the compression for little time
-// (docs/decisions.md).
+// Writes WebP loops with libwebp's animation encoder. They are lossless, because colors are data
+// and lossy WebP would halve their resolution. Method 1 and effort 50 give most of the compression
+// for little time (docs/decisions.md).
 #include <climits>
 #include <cmath>
 
@@ -71,7 +71,7 @@ class WebpEncoder final : public FrameEncoder {
             return webp_version_mismatch();
         }
         options.anim_params.loop_count = 0;  // without end
-        // Only seeking needs key frames; without them, only what changed is stored.
+        // Only seeking needs key frames. Without them, a frame stores only its changed part.
         options.kmax = INT_MAX;
         options.kmin = INT_MAX - 1;
         config_.lossless = 1;

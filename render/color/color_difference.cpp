@@ -60,7 +60,7 @@ Hues hues_of(const Polar& one, const Polar& other) {
             sum < 360 ? (sum + 360) / 2 : (sum - 360) / 2};
 }
 
-// Returns how much less hue counts in some directions (T of the formula).
+// Returns the weight of a difference in hue at a mean hue (T of the formula).
 double hue_weight(double mean_deg) {
     return 1 - 0.17 * std::cos((mean_deg - 30) * degree) + 0.24 * std::cos(2 * mean_deg * degree) +
            0.32 * std::cos((3 * mean_deg + 6) * degree) -

@@ -1,4 +1,4 @@
-// GRLevelX color tables.
+// Reads color tables of the GRLevelX programs (.pal).
 #include <algorithm>
 #include <array>
 #include <cctype>

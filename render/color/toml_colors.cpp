@@ -1,4 +1,4 @@
-// Color tables in TOML.
+// Reads color tables in TOML.
 #include <array>
 #include <charconv>
 #include <cmath>

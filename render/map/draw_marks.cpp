@@ -60,7 +60,7 @@ class GroundTurn {
         };
         east_ = slope(1, 0);
         north_ = slope(0, 1);
-        // Computes the larger singular value.
+        // Computes the larger singular value of the slopes.
         const double squares =
             east_.x * east_.x + east_.y * east_.y + north_.x * north_.x + north_.y * north_.y;
         const double area = east_.x * north_.y - east_.y * north_.x;

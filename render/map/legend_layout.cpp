@@ -12,7 +12,8 @@ constexpr double bar_text = 10;
 constexpr double row_text = 9.5;
 constexpr double swatch_side = 11;
 
-// Returns one size for all rows. If one has no room, all become smaller, down to three quarters.
+// Returns one size for all rows. If a row has no room, all rows become smaller, down to three
+// quarters.
 double size_of_rows(const LabelBuilder& builder, const std::vector<LegendRow>& rows, double room) {
     double size = row_text;
     const auto too_wide = [&](const LegendRow& row) {

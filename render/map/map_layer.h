@@ -53,8 +53,8 @@ struct MapLayer {
 // a time may use a cache.
 class MapCache {
   public:
-    // Returns the layer, which is valid until the next call. It is made anew if the geometry of the
-    // grid, the view of the ground, the size or the scale differs from the last call.
+    // Returns the layer, which is valid until the next call. A new layer is made if the geometry of
+    // the grid, the view of the ground, the size or the scale differs from the last call.
     [[nodiscard]] Result<const MapLayer*> get(const grid::GridSpec& spec,
                                               const ViewGeometry& geometry, double scale,
                                               int threads = 1);

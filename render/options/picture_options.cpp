@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The ends of an option's range, or its possible texts.
+// Completes the help of an option with the ends of its range or its possible texts.
 struct HelpOf {
     std::string help;
     std::string operator()(const WholeValue& value) const { return with(value.range); }

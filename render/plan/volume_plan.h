@@ -2,9 +2,9 @@
 // of each effect in it.
 //
 // A size is the 99th percentile of CIEDE2000 over all pixels of the picture, without labels and
-// over the page's color. It compares a rung with the rung below, with every other step exact. The
-// whole picture is measured against the picture of the exact chain, so nothing is estimated; the
-// price is that this picture must be drawn once.
+// over the page's color. A size compares a rung with the rung below, with every other step exact.
+// The planned picture is compared with the picture of the exact chain, so nothing is estimated, but
+// that picture must be drawn once.
 //
 // Threads   A VolumeScene may be used by one thread at a time; it draws with `threads` threads.
 #pragma once
@@ -41,13 +41,13 @@ class VolumeScene {
     const ColorTable& table_;
     Scene scene_;
     int width_, height_, threads_;
-    std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to these stay valid
+    std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // a deque, so that references stay valid
 };
 
 // The effects to predict: those that the scene asks for, which are enough for a plan, or all.
 enum class Predicted { asked, all };
 
-// Predicts the size and cost of each effect for this scene. Settings stay as they are.
+// Predicts the size and cost of each effect for this scene. Settings do not change.
 [[nodiscard]] Status predict(VolumeScene& scene, accuracy::Chain& chain,
                              Predicted which = Predicted::asked);
 

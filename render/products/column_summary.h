@@ -29,8 +29,8 @@ struct ColumnSummary {
     }
 };
 
-// Returns true if all bricks of this column of bricks are uniform. Then the columns of cells in
-// them are all the same, and have no value.
+// Returns true if all bricks of this column of bricks are uniform. Then all columns of cells in
+// them are equal and have no value.
 [[nodiscard]] bool is_uniform_stack(const grid::BrickView& view, int bx, int by);
 
 // Returns the states of 16 cells of a column in a brick of states, from this cell of the brick

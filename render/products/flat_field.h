@@ -87,7 +87,7 @@ inline constexpr double least_depth_m = 500;
 [[nodiscard]] double radar_height_m(const FrameFacts& facts);
 
 // Returns the field of the scene's product, which must be a map. The scene must be valid for the
-// view and its facts. A ppi does not use the columns. Errors: those of cappi_field(); internal for
+// view and its facts. Only a composite uses `columns`. Errors: those of cappi_field(); internal for
 // a product that is not a map.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,
                                           const Scene& scene,

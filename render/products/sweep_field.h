@@ -4,7 +4,7 @@
 // Each place shows one gate (stormcellar/grid/sweep_lookup.h): values are not mixed.
 //
 // Accuracy  On a plane about the radar itself the places are exact. On another plane, azimuth and
-//           arc are computed every few pixels and straight in between, within 0.5 m for radars up
+//           arc are computed every few pixels and interpolated linearly, within 0.5 m for radars up
 //           to 500 km off the middle of the picture (tests/render/sweep_field_test.cpp).
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once

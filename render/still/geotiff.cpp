@@ -1,6 +1,6 @@
-// GeoTIFF: the cells of a map in the grid's own projection. A pixel is a column of the grid, so
-// nothing is resampled. Overviews take every second cell of the previous raster, so that every
-// value is the value of a cell.
+// Writes GeoTIFF: the cells of a map in the grid's own projection. A pixel is a column of the grid,
+// so nothing is resampled. Overviews take every second cell of the previous raster, so that each of
+// their values is the value of a cell.
 #include <algorithm>
 #include <array>
 #include <cmath>

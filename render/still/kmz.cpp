@@ -1,5 +1,5 @@
-// KMZ: a zip with doc.kml, the map in degrees as a GroundOverlay, and a legend as a ScreenOverlay.
-// Source: OGC 12-007r2 (KML 2.3).
+// Writes KMZ: a zip with doc.kml, the map in degrees as a GroundOverlay, and a legend as a
+// ScreenOverlay. Source: OGC 12-007r2 (KML 2.3).
 #include <span>
 #include <string>
 

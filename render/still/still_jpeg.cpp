@@ -1,5 +1,5 @@
-// JPEG through libjpeg. Colors are data, so they are not subsampled, and the quality keeps the
-// classes of a color table apart.
+// Writes JPEG with libjpeg. Colors are data, so they are not subsampled, and the quality is so high
+// that the classes of a color table stay distinct.
 #include <array>
 #include <csetjmp>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// WebP through libwebp, lossless as in loops (render/animation/animation_webp.cpp).
+// Writes WebP with libwebp, lossless as in loops (render/animation/animation_webp.cpp).
 #include <webp/encode.h>
 
 #include "render/image/check_size.h"

@@ -164,7 +164,7 @@ double azimuth_for(const std::vector<Column>& columns) {
     return usual_azimuth_deg + 5 * std::round(turn_deg / 5);
 }
 
-// 0 for a region as small as one storm, 1 for one as wide as a radar sees.
+// Returns 0 for a region as small as a storm, 1 for a region as wide as a radar sees.
 double wideness(const Region& region) {
     constexpr double storm_m = 110e3, wide_m = 380e3;
     return std::clamp(std::log(region.side_m() / storm_m) / std::log(wide_m / storm_m), 0.0, 1.0);

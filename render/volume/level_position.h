@@ -1,9 +1,9 @@
 // render/volume/level_position.h -- converts a height into a position among the levels, with a
 // fraction.
 //
-// 2.25 is a quarter of the way from level 2 to level 3. Below the first level the position is 0,
-// above the last level nz - 1. For evenly spaced levels this takes one multiplication. For others a
-// table of buckets gives the interval, within a few steps.
+// The position 2.25 is a quarter of the way from level 2 to level 3. It is 0 below the first level,
+// and nz - 1 above the last. Evenly spaced levels need one multiplication. For other levels, a
+// table of buckets leads to the interval in a few steps.
 //
 // Accuracy  Single precision, 1e-3 of a level over 1,024 levels.
 // Threads   Immutable.
@@ -23,7 +23,7 @@ class LevelPosition {
     LevelPosition(const grid::GridSpec& spec, double exaggeration);
 
     [[nodiscard]] bool is_uniform() const { return uniform_; }
-    // The straight line for evenly spaced levels: position = offset + slope * height.
+    // For evenly spaced levels, position = offset + slope * height.
     [[nodiscard]] double offset() const { return offset_; }
     [[nodiscard]] double slope() const { return slope_; }
 

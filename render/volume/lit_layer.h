@@ -1,8 +1,8 @@
 // render/volume/lit_layer.h -- lights a picture of a volume: each pixel's color by one factor.
 //
 // The rays find the color and, besides it, the mean factor of the light along them
-// (render/volume/shade_field.h), weighted as the colors are. A factor below 1 darkens and one above
-// 1 lightens, in OKLab (Ottosson 2020), where the hue stays:
+// (render/volume/shade_field.h), weighted as the colors are. A factor below 1 darkens, and a factor
+// above 1 lightens, in OKLab (Ottosson 2020), where the hue stays:
 //   darker   l' = l max(0.5, 1 - 0.9 (1 - f)), chroma times sqrt(l' / l)
 //   lighter  l' = l + (0.98 - l) (1 - exp(-1.44 (f - 1)))
 // A color that no display shows has its chroma reduced until it can be shown. All factors of a
@@ -24,7 +24,7 @@ namespace stormcellar::render {
 
 using Rgb = std::array<float, 3>;  // sRGB, 0..1
 
-// Returns a color, lit.
+// Returns a color, darkened or lightened by a factor.
 [[nodiscard]] Rgb lit_color(const Rgb& color, float factor);
 // Returns the exposure; 1 for a layer without echo. `light` has, for each pixel, the sum of the
 // factors weighted by the seen opacity, so that it is the mean factor times alpha.

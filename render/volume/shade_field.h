@@ -10,7 +10,7 @@
 // ask for them, s = 0 or T = 1. A factor of 1 does not change a color.
 //
 // The value of a cell is its reflectivity above 0 dBZ (or above the lowest color of the table, if
-// that is below 0), counted up to 60 dBZ; any value of another moment counts as 30. They are
+// that is below 0), counted up to 60 dBZ; any value of another moment counts as 30. Values are
 // averaged over 2 x 2 columns and smoothed along each axis by 1-4-6-4-1. Air without echo counts as
 // 0. Cells that were not seen or are range folded take the value of the nearest seen cell of their
 // column, so that neither the cone of silence nor the lowest beam looks like a surface.

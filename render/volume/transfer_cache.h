@@ -14,7 +14,7 @@ namespace stormcellar::render {
 
 class TransferCache {
   public:
-    // Returns the function; makes it anew if anything differs from the last call.
+    // Returns the function. Makes a new one if anything but `threads` differs from the last call.
     [[nodiscard]] std::shared_ptr<const TransferFunction> get(
         const ColorTable& table, const grid::Quantization& quantization, double opacity,
         double step_m, Integration integration, int threads = 1);

@@ -66,9 +66,10 @@ struct AnimationOptions {
 class AnimationWriter : public Interface {
   public:
     // Creates a writer. `file_system` must outlive it. Errors: bad_argument for an ending that this
-    // build does not know (the message lists the endings that it knows) or options outside their
-    // range; unsupported if the module for videos is missing; the system's reason if the file
-    // cannot be written, so that nobody draws frames in vain.
+    // build does not know (the message lists the endings that it knows) options outside their
+    // range, or metadata with a zero byte or a keyword that has not 1 to 79 characters; unsupported
+    // if the module for videos is missing; the system's reason if the file cannot be written, which
+    // is checked here before any frame is drawn.
     static Result<std::unique_ptr<AnimationWriter>> create(
         const std::string& output, const AnimationOptions& options,
         FileSystem& file_system = real_file_system());

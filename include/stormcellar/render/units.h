@@ -45,7 +45,7 @@ struct Units {
 // Returns "m/s, knots, mph or km/h for speeds; km, ... for distances; km, kft or ft for heights".
 [[nodiscard]] std::string units_for_help();
 
-// The unit in which a stored value is shown, and the factor from the stored value.
+// The unit in which a stored value is shown, and the factor from stored to shown values.
 struct ShownUnit {
     std::string symbol;     // "kt"; empty for a number without a unit
     double per_stored = 1;  // shown = stored * per_stored
