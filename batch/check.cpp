@@ -99,7 +99,7 @@ class Check {
         const auto standing = grids_standing(*store_, plan_, task);
         if (!standing) return pass_on(standing);
         if (digest_of(*standing) != record.digest) return false;
-        // Frames that lack a damaged grid are not done; the grid may be made again.
+        // Frames that were made without a damaged grid are not done; the grid may be whole again.
         if (task.kind() == TaskKind::frames && !record.left_out.empty()) return false;
         for (const StandingGrid& grid : *standing) {
             const auto sound = is_sound(grid);
@@ -119,7 +119,7 @@ class Check {
             const bool is_whole = totals.tasks() == tasks;
             if (is_whole && json.at("plan") == plan_.facts().hash) return totals;
         } catch (const std::exception&) {
-            // A damaged summary is made again.
+            // Treat a damaged summary as missing.
         }
         return std::nullopt;
     }

@@ -1,11 +1,11 @@
 // batch/check.h -- finds which tasks of a plan are done, from their records.
 //
-// The task that completes a directory of a thousand records sums them up in
-// PLAN/tasks/00012/summary.json. The file appears by rename; the sum of the same records is the
-// same whoever writes it. So checking a plan of millions of tasks reads thousands of files.
+// The task that writes the last of a directory's thousand records also writes their sum to
+// PLAN/tasks/00012/summary.json. The file appears by rename, and every process writes the same sum
+// for the same records. So checking a plan of millions of tasks reads thousands of files.
 //
 // Threads   One thread at a time for a plan; other processes may check it at the same time.
-// Errors    Those of reading the plan and, with `deep`, the cache.
+// Errors    Those of reading the plan and, with `deep`, of reading grids.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ namespace stormcellar::batch {
 struct CheckReport {
     Totals done;
     std::vector<std::size_t> missing;  // tasks that are not done, ascending
-    std::vector<std::size_t> changed;  // tasks among these whose grids differ from their record
-    double cost_left_s = 0;            // for the missing tasks, as the plan estimates
+    std::vector<std::size_t> changed;  // missing tasks whose record does not fit the cache (`deep`)
+    double cost_left_s = 0;            // estimated processor time of the missing tasks
     // Estimated from the work since the first task began; none before the first task is done.
     std::optional<double> seconds_left;
 };
@@ -43,11 +43,12 @@ struct CheckOptions {
 // done.
 [[nodiscard]] Status drop_record(const Plan& plan, const Task& task);
 
-// Files that tasks left out, with reasons, from their records.
+// A file that a task left out, with the reason.
 struct LeftOutFile {
     std::size_t task = 0;
     NamedReason file;
 };
+// Returns the files that tasks left out, from their records. Skips tasks without a record.
 [[nodiscard]] std::vector<LeftOutFile> left_out_of(const Plan& plan,
                                                    const std::vector<std::size_t>& tasks);
 

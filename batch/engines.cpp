@@ -15,12 +15,12 @@
 namespace stormcellar::batch {
 namespace {
 
-// The tasks of one kind, as a job array.
+// The tasks of one kind, which become a job array.
 struct Step {
     const char* name;        // "grids"
     const char* command;     // subcommand of `stormcellar batch`
-    std::size_t first, end;  // its tasks in the plan, [first, end)
-    Resources needed;        // by one task
+    std::size_t first, end;  // numbers of the tasks, [first, end)
+    Resources needed;        // resources of one task
 };
 
 // Returns "0-3,7,9-11".

@@ -1,7 +1,7 @@
 // batch/engines.h -- writes scripts for Slurm and make that run the tasks that are not done.
 //
-// An engine only starts tasks. Records decide which tasks are done, so whatever an engine loses is
-// submitted again.
+// An engine only starts tasks. Records decide which tasks are done, so a task that an engine loses
+// is submitted again.
 //
 // Threads   Pure functions.
 // Errors    Those of reading the plan.
@@ -18,7 +18,7 @@
 namespace stormcellar::batch {
 
 struct EngineOptions {
-    std::filesystem::path program = "stormcellar";  // as the machines find it
+    std::filesystem::path program = "stormcellar";  // a name or path on every machine
     int jobs = 0;     // tasks at a time; 0: as many as the engine lets run
     int threads = 1;  // for each task
     std::string partition = {};
@@ -27,8 +27,8 @@ struct EngineOptions {
     std::size_t array_size = 1000;
 };
 
-// Returns bad_argument if the plan's directory, the program or the partition has a name that a
-// script cannot hold, because a line would end within it.
+// Returns bad_argument if the plan's directory, the program or the partition has characters that a
+// script cannot hold, such as a line feed.
 [[nodiscard]] Status check_names(const Plan& plan, const EngineOptions& options);
 
 // The tasks that are not done, in three steps: grids, then frames, then statistics.
@@ -42,7 +42,8 @@ struct SlurmJob {
     std::string name;  // "grids", "frames" or "statistics"
     std::string text;  // the script
 };
-// Returns the jobs in the order of submission; each begins when the one before it has ended.
+// Returns the jobs in the order of submission; the caller makes each job wait until the previous
+// job has ended.
 [[nodiscard]] std::vector<SlurmJob> slurm_jobs(const Plan& plan, const TaskLists& tasks,
                                                const EngineOptions& options);
 

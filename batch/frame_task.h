@@ -1,10 +1,9 @@
 // batch/frame_task.h -- makes the mosaics of an hour from the grids of the grid tasks.
 //
-// Records decide which tasks are done, not the engine: frames are made only once all of their grid
-// tasks have a record. An existing frame that was made from the present partials is kept.
+// The task makes frames only once all of its grid tasks have a record, whatever the engine says. It
+// keeps an existing frame that was made from the present partials.
 //
-// Threads   One task at a time in a process, because the resources of the whole process are
-// measured.
+// Threads   One task at a time in a process, because Usage measures the whole process.
 // Errors    unmet, naming the first grid task that is not done; those of the cache and of making
 //           frames; busy after a stop.
 #pragma once
@@ -13,8 +12,8 @@
 
 namespace stormcellar::batch {
 
-// Checks that the grid tasks are done. Errors: unmet, naming the first task without a record; those
-// of check_stands(), and of opening the cache.
+// Checks that the tasks [first, end) are done and that the cache has their grids. Errors: unmet,
+// naming the first task without a record; those of check_stands(), and of opening the cache.
 [[nodiscard]] Status check_needs(const Plan& plan, std::size_t first, std::size_t end);
 
 [[nodiscard]] Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task,

@@ -32,7 +32,7 @@ using pipeline::IngestResult;
 using StandingFiles = std::map<std::string, std::int64_t>;
 
 std::size_t hour_of(const fs::path& path) {
-    const std::string name = path.filename();  // the file's name, or that of a member
+    const std::string name = path.filename();  // of the file, or of a member
     const auto volume = volume_named(name.substr(name.find_last_of(member_mark) + 1));
     if (!volume) return 0;
     return static_cast<std::size_t>((volume->start - UtcTime{volume->day()}) /
@@ -108,8 +108,8 @@ class GridRun {
                     recipe_.source, brought.files.size(), day_.files);
     }
 
-    // Returns the files that need not be read again: the files with an unchanged grid that are
-    // before the last file with a grid. The last one may lack a grid of some moment.
+    // Returns the files that need not be read again, because they have a grid that is not older.
+    // Excludes the last such file, which may lack the grid of another moment.
     Result<std::set<fs::path>> files_done(const std::vector<fs::path>& files) const {
         const auto standing = grids_standing(store_, plan_, task_);
         if (!standing) return pass_on(standing);
@@ -187,7 +187,7 @@ class GridRun {
     cache::StoreWriter& store_;
     Usage usage_;
     Record record_;
-    std::optional<Error> unread_;  // for the first file that could not be read or gridded
+    std::optional<Error> unread_;  // of the first file that could not be read or gridded
 };
 
 }  // namespace

@@ -1,14 +1,14 @@
 // batch/grid_task.h -- grids the files of one station and day.
 //
-// The daemon's own chain (pipeline/ingest/ingest.h) grids the files one after the other, so a task
-// that was killed continues with the last file that has a grid; all files before it are complete. A
-// bad file is left out with its reason. The chain's catalog is in the scratch directory. The task
-// puts no lock and no database on the cache, so other writers may be at work there.
+// The daemon's own chain (pipeline/ingest/ingest.h) grids the files one after the other. If a task
+// was killed, its next run begins with the last file that has a grid, because that file may lack
+// the grid of another moment. A bad file is left out with its reason. The chain's catalog is in the
+// scratch directory. The task puts no lock and no database on the cache, so other writers may be at
+// work there.
 //
-// Threads   One task at a time in a process, because the resources of the whole process are
-// measured.
-// Errors    io, no_space and others that another try or another machine may not have; busy after a
-//           stop; bad_argument and corrupt for a plan that makes no sense.
+// Threads   One task at a time in a process, because Usage measures the whole process.
+// Errors    io, no_space and others, after which another try or another machine may succeed; busy
+//           after a stop; bad_argument and corrupt for a plan that makes no sense.
 #pragma once
 
 #include <atomic>
@@ -27,7 +27,7 @@ struct TaskOptions {
 };
 
 struct TaskOutcome {
-    bool stood = false;  // everything was done before
+    bool stood = false;  // an earlier run had done everything
     Record record;
 };
 

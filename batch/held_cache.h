@@ -17,7 +17,7 @@ namespace stormcellar::batch {
 
 class HeldCache {
   public:
-    // Opens the directory. If it does not exist, check() fails.
+    // Opens the directory. If that fails, check() fails, too.
     explicit HeldCache(const std::filesystem::path& cache);
 
     // Returns ok if the path still leads to the same directory as at the start.

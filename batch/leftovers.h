@@ -3,7 +3,7 @@
 // Many writers share a cache, so no one may remove a file that another is writing. The name of a
 // temporary file contains the host and process that write it (stormcellar/base/file_system.h).
 //
-// Threads   Pure functions, apart from the files.
+// Threads   Functions without state.
 // Errors    None. Files that cannot be removed stay.
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace stormcellar::batch {
 
-// Removes temporary files in the directories of the task's grids whose process ran on this host and
-// has ended.
+// Removes temporary files from the directories of the task's grids if the process that wrote them
+// ran on this host and has ended.
 void remove_own_leftovers(const Recipe& recipe, const Task& task);
 
-// Removes all temporary files in the cache and beside the records. Call it when no task runs any
-// more. Returns the number of removed files.
+// Removes all temporary files in the cache, and beside the records and counts. Call it when no task
+// runs any more. Returns the number of removed files.
 std::size_t remove_all_leftovers(const Plan& plan);
 
 }  // namespace stormcellar::batch

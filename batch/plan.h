@@ -1,4 +1,4 @@
-// batch/plan.h -- the tasks that make an archive, in a file from which each task reads one line.
+// batch/plan.h -- the tasks that make an archive, in a file with a line for each task.
 //
 // PLAN/plan.jsonl has one JSON document on each line. The first line holds the recipe. Each further
 // line is a task, padded with blanks to a common length, so that a program finds task N without
@@ -52,9 +52,9 @@ struct PlanFacts {
     std::size_t grid_tasks = 0, frame_tasks = 0, statistics_tasks = 0;
     std::size_t volumes = 0;    // 0: not known before the tasks run
     std::uint64_t bytes = 0;    // of the raw files
-    std::uint64_t largest = 0;  // largest station-day
+    std::uint64_t largest = 0;  // of the largest station-day
     double cost_s = 0;          // sum over all tasks
-    double largest_cost_s = 0;  // largest of one task
+    double largest_cost_s = 0;  // largest of all tasks
 
     [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
 };

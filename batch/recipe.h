@@ -25,10 +25,10 @@ namespace stormcellar::batch {
 struct Recipe {
     std::string source;           // an absolute directory, or the URL of a bucket
     std::filesystem::path cache;  // directory of the grids
-    UtcTime from, to;             // of the frames, or without a domain of the volumes' starts;
+    UtcTime from, to;             // of the frames; without a domain, of the volumes' starts;
                                   // inclusive
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    std::optional<grid::Tallied> statistics;  // of the domain's frames; none: no statistics
+    std::optional<grid::Tallied> statistics;  // to count in the domain's frames; none: nothing
     std::optional<pipeline::Domain> domain;   // none: each station's own grids, with this spec
     double spacing_m = 1000;
     int nx = 460, ny = 460;
@@ -45,10 +45,11 @@ struct Recipe {
 [[nodiscard]] bool is_address(const std::string& source);  // true for the URL of a bucket
 
 [[nodiscard]] nlohmann::ordered_json json_of(const Recipe& recipe);
-// Reads a recipe. Errors: corrupt for a document that json_of() did not make.
+// Reads a recipe. Errors: corrupt for a document of another form.
 [[nodiscard]] Result<Recipe> recipe_of(const nlohmann::ordered_json& json);
 
-// Identifies the recipe and the software; a task with another hash belongs to another plan.
+// Returns a hash of the recipe and the software version. A record with another hash belongs to
+// another plan.
 [[nodiscard]] std::string hash_of(const Recipe& recipe);
 
 }  // namespace stormcellar::batch

@@ -4,11 +4,11 @@
 // Their sum is in the same directory once all exist (batch/check.h). docs/guides/batch.md lists the
 // fields.
 //
-// A record appears by rename. If two runs of a task overlap, the record of the last one stays; both
-// make the same grids.
+// A record appears by rename. If two runs of a task overlap, the later record stays; both runs make
+// the same grids.
 //
 // Units     Seconds, bytes; times are UTC.
-// Threads   Pure functions, apart from the files.
+// Threads   Functions without state.
 // Errors    Those of reading and writing files; corrupt.
 #pragma once
 
@@ -25,7 +25,7 @@
 namespace stormcellar::batch {
 
 struct NamedReason {
-    std::string name;  // name of a file, without directories
+    std::string name;  // of a file, without directories; for frames a fixed text
     std::string reason;
 };
 
@@ -33,15 +33,16 @@ using HourCounts = std::array<std::uint32_t, 24>;  // by the hour of the day, UT
 
 struct Record {
     std::size_t number = 0;
-    std::string plan;  // the hash of its recipe
+    std::string plan;  // hash of the plan's recipe
     TaskKind kind = TaskKind::grids;
     std::string station;  // for grids
-    std::string day;      // for a station's files, as 20130520
-    // Numbers of raw files, taken or left out, and of the grids or frames that exist.
+    std::string day;      // for grids, as 20130520
+    // Counts of raw files, whether taken or left out, and of existing grids, frames or files of
+    // counts.
     std::size_t files = 0;
     std::size_t grids = 0;
-    std::string digest;                 // identifies the grids to the byte
-    std::vector<NamedReason> left_out;  // for frames: damaged grids
+    std::string digest;                 // of all bytes of the grids
+    std::vector<NamedReason> left_out;  // raw files; for frames: damaged grids
     std::vector<NamedReason> notes;     // files taken, with a remark
     HourCounts taken_by_hour{}, left_out_by_hour{};
     // Resources of the last run of the task, which are lower if an earlier run had made some grids.

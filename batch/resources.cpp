@@ -80,7 +80,7 @@ std::uint64_t bytes_of_counts(const Plan& plan) {
 Resources resources_of_statistics(const Plan& plan) {
     Resources needed;
     if (!plan.recipe().statistics) return needed;
-    // Memory holds the counts, their bytes, and these compressed.
+    // Memory holds the counts, their bytes, and the compressed bytes.
     const std::uint64_t counts =
         grid::GridTally::bytes_of(plan.recipe().domain->spec, *plan.recipe().statistics);
     needed.memory_bytes = program_bytes + 3 * counts;

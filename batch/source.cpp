@@ -49,8 +49,8 @@ std::string own_name_of(const std::string& member) {
     return fs::path(member.substr(member.find_last_of(member_mark) + 1)).filename();
 }
 
-// Calls `take` for each member that is a file, and then `leave_out` for what the archive does not
-// give and may be a volume.
+// Calls `take` for each member that is a file. Then calls `leave_out` for each unreadable member
+// that may be a volume or an archive, and for a cut end of the archive.
 template <class Take, class LeaveOut>
 Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
@@ -193,7 +193,7 @@ Status set_time(const fs::path& path, UtcTime time) {
     return tl::unexpected(failure(path, {errno, std::system_category()}));
 }
 
-// Returns the time of a file. Members without a time of their own have their tar's.
+// Returns the time at which a file was last changed.
 Result<UtcTime> time_of(const fs::path& path) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0) {
@@ -260,7 +260,7 @@ Result<BroughtFiles> fetch_files(const Recipe& recipe, const StationDay& what, c
     const auto report = fetch::fetch(request);
     if (!report) return pass_on(report);
     if (report->stopped) return fail(ErrorCode::busy, "stopped while files were fetched");
-    // Leave out files that the source lists but refuses, because no other try would bring them.
+    // Leave out files that the bucket lists but refuses, because another try would not bring them.
     // After any other failure, fail: another try may succeed.
     std::vector<pipeline::LeftOut> refused;
     for (const fetch::FetchFailure& failure : report->failures) {

@@ -5,7 +5,7 @@
 // volume (KTLX20130520_200356_V06.gz, 6500KTLX19910720_160529.Z). A plan is made without decoding.
 //
 // Units     Sizes are in bytes; days are UTC.
-// Threads   Pure functions, apart from the files that they read.
+// Threads   Functions without state.
 // Errors    Those of reading directories and tars, and of fetch::fetch(). Damaged files are left
 //           out. A file that cannot be read gives an error, because another try may succeed.
 #pragma once
@@ -71,7 +71,7 @@ struct SourceListing {
 // The files of a station-day, made readable, by start and name.
 struct BroughtFiles {
     std::vector<std::filesystem::path> files;
-    std::filesystem::path beneath;  // the directory that holds all of them
+    std::filesystem::path beneath;  // holds all of them; empty if some come from tars
     std::vector<pipeline::LeftOut> left_out;
 };
 // Makes the files of a station-day readable. Members of tars and files of a bucket are copied to

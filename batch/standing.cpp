@@ -16,7 +16,8 @@ namespace stormcellar::batch {
 namespace {
 
 // A volume begins at most this long before the time in its file's name. A file of several joined
-// volumes may hold later ones; those that begin later than this are made again each time.
+// volumes may hold later ones. If one begins more than `most_after` after the day, its grid is not
+// found here, and each run makes it again.
 constexpr std::chrono::minutes most_before{15};
 constexpr std::chrono::hours most_after{2};
 
@@ -52,7 +53,7 @@ bool may_be_sound(const Error& error) {
 
 struct Found {
     std::vector<StandingGrid> standing;
-    std::size_t damaged = 0;  // damaged headers do not name their task
+    std::size_t damaged = 0;  // grids of any task: a damaged header does not name its task
 };
 
 Result<Found> find_grids(const cache::StoreReader& store, const Recipe& recipe, const Task& task) {

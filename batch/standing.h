@@ -1,6 +1,6 @@
 // batch/standing.h -- finds the grids of a task in the cache, whoever made them.
 //
-// Threads   Pure functions, apart from the files.
+// Threads   Functions without state.
 // Errors    Those of listing the cache and of reading its files. A grid does not count if its
 //           header is damaged, if it has another shape, or if another version of this software made
 //           it.
@@ -19,26 +19,26 @@
 namespace stormcellar::batch {
 
 struct StandingGrid {
-    std::string volume;        // level2::volume_name() of its volume; empty: a frame
-    std::int64_t made_ns = 0;  // time of its file, since 1970
+    std::string volume;        // level2::volume_name(); empty for frames and counts
+    std::int64_t made_ns = 0;  // modification time of its file, since 1970
     UtcTime time;
     std::uint64_t checksum = 0;
     std::uint64_t bytes = 0;  // on disk
     std::filesystem::path path;
 };
 
-// Returns the grids of the task in order of moment, then time. For statistics this is the file of
-// counts.
+// Returns the grids of the task in order of moment, then time. A task of statistics has its file of
+// counts instead.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
 
-// Returns ok if the cache has the grids of the task's record. Damaged grids count as present. If
-// another plan added grids of the same day, only the number is compared. Errors: also io if there
-// are fewer or different grids, for example because the cache is not mounted.
+// Returns ok if the cache has the grids of the task's record. Damaged grids count as present, and
+// additional grids are accepted, because another plan may have made them. Errors: also io if there
+// are fewer grids, or as many but other ones, for example because the cache is not mounted.
 [[nodiscard]] Status check_stands(const cache::StoreReader& store, const Plan& plan,
                                   const Task& task, const Record& record);
 
-// Returns true if all bytes of the grid are as they were written.
+// Returns true if the grid's bytes fit its checksum. Does not read a file of counts.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
 // Removes the record of a task with damaged grids, and then these grids.
 [[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,

@@ -31,7 +31,7 @@ std::string name_of(const MonthHour& part) {
     return fmt::format("{:04}{:02}-{:02}", part.year, part.month, part.hour);
 }
 
-// Returns the instants at which the hour has frames, on all days of the month.
+// Returns the instants at which the hour can have frames, on all days of the month.
 std::vector<UtcTime> instants_of(const Recipe& recipe, const MonthHour& part) {
     using namespace std::chrono;
     const auto first = year{part.year} / month{part.month} / day{1};
@@ -48,7 +48,8 @@ std::vector<UtcTime> instants_of(const Recipe& recipe, const MonthHour& part) {
     return all;
 }
 
-// Counts the frames that exist. An instant without volumes around it has none.
+// Adds the frames that exist to `tally` and returns their size on disk. An instant without volumes
+// around it has no frame.
 Result<std::uint64_t> count_frames(const cache::StoreReader& store, const Recipe& recipe,
                                    const std::vector<UtcTime>& instants, const TaskOptions& options,
                                    grid::GridTally& tally) {

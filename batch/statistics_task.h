@@ -2,8 +2,9 @@
 //
 // PLAN/statistics/201305-20.tally has the counts of the frames from 20:00 to 21:00 in May 2013
 // (grid/cells/grid_tally.h). Its first line is JSON: month, hour, the number of frames, the number
-// of instants that could have a frame, and the checksum and size of the rest, which is the counts
-// compressed by zlib. Climatologies of hours, months or the whole time are sums of these files.
+// of instants that could have a frame, and the checksum and size of the rest. The rest is the
+// counts, compressed by zlib. Climatologies of hours, months or the whole time are sums of these
+// files.
 //
 // Threads   One task at a time in a process.
 // Errors    unmet, naming the first frame task that is not done; corrupt for damaged counts; those

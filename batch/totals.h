@@ -25,9 +25,9 @@ struct Totals {
     std::size_t grid_tasks = 0, frame_tasks = 0, statistics_tasks = 0;  // done
     std::size_t files = 0, left_out = 0, grids = 0, frames = 0;
     [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
-    double cpu_s = 0, cost_s = 0;  // used, and the plan's estimate for the same tasks
+    double cpu_s = 0, cost_s = 0;  // processor time used, and estimated by the plan
     std::uint64_t bytes_read = 0, bytes_written = 0, most_memory_bytes = 0;
-    std::optional<UtcTime> started, ended;  // of the first task, and of the last
+    std::optional<UtcTime> started, ended;  // first start, and last end
     std::map<std::string, StationHours> stations;
     std::vector<std::size_t> with_left_out;  // tasks that left files out
 };

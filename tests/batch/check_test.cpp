@@ -1,4 +1,4 @@
-// Tests how far a plan is done, by the records of its tasks.
+// Tests how much of a plan check() finds done, from the records of the tasks.
 #include "batch/check.h"
 
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ TEST_F(BatchCheck, ASummaryStandsForItsRecords) {
     EXPECT_EQ(summed->done.started, records->done.started);
     EXPECT_EQ(*read_file(summary), bytes);
     EXPECT_THAT(check(plan, {true, {}})->missing, ElementsAre(1)) << "a deep check reads them";
-    // A summary that is damaged is made again.
+    // A damaged summary is written again.
     fs::resize_file(summary, 20);
     ASSERT_TRUE(run(plan, 1));
     EXPECT_THAT(check(plan, {})->missing, IsEmpty());

@@ -1,4 +1,4 @@
-// Tests what the engines tell Slurm and make to do.
+// Tests the scripts that are written for Slurm and make.
 #include "batch/engines.h"
 
 #include <cstdlib>
@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// Ten stations on two days in tasks 0 to 19, and frames from 22:00 to 02:00 in tasks 20 to 23.
+// A plan with ten stations on two days in tasks 0 to 19, and frames from 22:00 to 02:00 in tasks 20
+// to 23.
 class BatchEngines : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -59,7 +60,7 @@ TEST_F(BatchEngines, SlurmHasAnArrayOfGridsAndOneOfFrames) {
     ASSERT_THAT(all, SizeIs(2));
     EXPECT_EQ(all[0].name, "grids");
     EXPECT_THAT(all[0].text, HasSubstr("#SBATCH --array=0-19%4\n"));
-    // 100 s of a processor, four times, and five minutes.
+    // The limit in minutes is four times the estimated 100 s, plus five minutes.
     EXPECT_THAT(all[0].text, HasSubstr("#SBATCH --time=12\n"));
     EXPECT_THAT(all[0].text, HasSubstr("first=$((0 + SLURM_ARRAY_TASK_ID * 1))\n"));
     EXPECT_THAT(all[0].text, HasSubstr("((last < 20)) || last=19\n"));
@@ -78,7 +79,7 @@ TEST_F(BatchEngines, OnlyWhatIsMissingIsSubmitted) {
     EXPECT_THAT(jobs({}), IsEmpty());
 }
 
-// 20 tasks in an array of at most 7 elements: three to an element, two in the last.
+// If an array may have 7 elements, each gets three of the 20 tasks, and the last one two.
 TEST_F(BatchEngines, AnArrayHasNoMoreElementsThanSlurmTakes) {
     const auto all = jobs(numbers(20), {.array_size = 7});
     EXPECT_THAT(all.at(0).text, HasSubstr("#SBATCH --array=0-6\n"));
@@ -94,7 +95,7 @@ TEST_F(BatchEngines, MakeKnowsWhichGridsTheFramesNeed) {
     ASSERT_TRUE(text);
     EXPECT_THAT(*text, HasSubstr("GRIDS = grid-1 grid-2 grid-12\n"));
     EXPECT_THAT(*text, HasSubstr("/it'\\''s a $$plan \\\\\\#1' --threads 1 --task\n"));
-    // 22:00 to 22:59 lies in one day; the hour after midnight needs both days.
+    // Frames from 22:00 to 22:59 need one day; the hour after midnight needs both days.
     EXPECT_THAT(*text, HasSubstr("frame-20: needs-0-10\n"));
     EXPECT_THAT(*text, HasSubstr("needs-0-10: grid-1 grid-2\n"));
     EXPECT_THAT(*text, HasSubstr("frame-22: needs-0-20\n"));
@@ -102,8 +103,8 @@ TEST_F(BatchEngines, MakeKnowsWhichGridsTheFramesNeed) {
     EXPECT_THAT(*text, HasSubstr("frame-23: needs-10-20\nneeds-10-20: grid-12\n"));
 }
 
-// 2026-11-28: a # in a plan's path ended the line for make, and a line feed in it ended a comment
-// of the script, so that the rest of the name ran as a command. So did one in --partition.
+// 2026-11-28: make took a # in a plan's path for the start of a comment. A line feed in the path or
+// in --partition ended a comment of the script, so the rest of the text ran as a command.
 TEST_F(BatchEngines, MakeReadsThePathOfThePlanBack) {
     const auto text = makefile_of(*plan_, lists_of(*plan_, {1}), {.program = "/bin/echo"});
     ASSERT_TRUE(text);

@@ -1,14 +1,13 @@
-// tests/batch/failing_reads.h -- files whose bytes cannot be read for a while, as on a disk or a
-// share that fails.
+// tests/batch/failing_reads.h -- makes files unreadable for a while, as on a failing disk or share.
 //
-// It takes the place of the C library's read() and pread() in the program that it is linked to.
+// It replaces the C library's read() and pread() in the program that links it.
 #pragma once
 
 #include <string>
 
 namespace stormcellar::testing {
 
-// While this exists, reading the file whose path ends so fails with EIO.
+// While this object exists, reading a file whose path ends with `ending` fails with EIO.
 class FailingReads {
   public:
     explicit FailingReads(std::string ending);

@@ -1,4 +1,4 @@
-// Plans: the same every time, and each task is found without the others.
+// Tests that a plan is the same every time, and that each task is read without the others.
 #include "batch/plan.h"
 
 #include <fstream>
@@ -47,7 +47,8 @@ TEST(Plan, HasGridTasksByDayAndStationThenFramesByHour) {
     EXPECT_THAT(second.in, ElementsAre("2013/a b", "KTLX"));
     EXPECT_EQ(plan->task(1)->cost_s, 2) << "70 MB at 35 MB/s";
 
-    // The hour before midnight needs both days, by the volumes that begin in its 25 minutes after.
+    // The hour before midnight needs both days, because its frames use volumes that begin up to 25
+    // minutes later.
     const auto evening = std::get<FrameHour>(plan->task(6)->work);
     EXPECT_EQ(evening.from, at("2013-05-20T23:30Z"));
     EXPECT_EQ(evening.first_need, 0U);
@@ -106,7 +107,7 @@ TEST(Plan, ADamagedPlanIsToldFromAMissingOne) {
     ASSERT_TRUE(write_plan(directory / "a", recipe_of_two_days(), days_of_three_stations()));
     const fs::path path = directory / "a" / Plan::file_name;
     const auto bytes = *read_file(path);
-    // The line of the last task is cut, then the first line.
+    // Cut the line of the last task, then the first line.
     fs::resize_file(path, bytes.size() - 30);
     EXPECT_EQ(Plan::open(directory / "a")->task(8).error().code, ErrorCode::corrupt);
     EXPECT_TRUE(Plan::open(directory / "a")->task(7));

@@ -26,7 +26,7 @@ inline UtcTime at(const std::string& text) {
     return *parse_utc(text, UtcTime{});
 }
 
-// Frames of the small domain, of an archive that no test reads.
+// Returns a recipe for frames of the small domain from an archive that no test reads.
 inline Recipe recipe_between(const std::string& from, const std::string& to) {
     Recipe recipe;
     recipe.source = "/archive";
@@ -49,13 +49,13 @@ class SmallArchive : public ::testing::Test {
             const auto to = raw_ / "day" / name;
             fs::copy_file(from, to);
             fs::permissions(to, fs::perms::owner_write, fs::perm_options::add);
-            // Tars keep whole seconds.
+            // Tars store times in whole seconds, so round the file's time for comparison.
             fs::last_write_time(
                 to, std::chrono::floor<std::chrono::seconds>(fs::last_write_time(from)));
         }
     }
 
-    // Frames every minute from 02:45 to 03:00, in a cache of this name.
+    // Returns a recipe for frames every minute from 02:45 to 03:00, in a cache of this name.
     [[nodiscard]] Recipe recipe(const std::string& cache) const {
         Recipe recipe;
         recipe.source = raw_.native();

@@ -1,4 +1,4 @@
-// Tests which files an archive has, and how they come to a task.
+// Tests how the files of an archive are listed, and how a task gets them.
 #include "batch/source.h"
 
 #include <fstream>
@@ -23,7 +23,7 @@ void write(const fs::path& path, const std::string& text = "x") {
     std::ofstream(path) << text;
 }
 
-// An archive of files and tars in a directory, and the recipe of an hour of it.
+// An archive of files and tars in a directory, and the recipe of one of its hours.
 class Source : public ::testing::Test {
   protected:
     Source() {
@@ -51,7 +51,7 @@ class Source : public ::testing::Test {
         EXPECT_TRUE(brought) << brought.error().message;
         return std::move(brought).value();
     }
-    // Expects that the listing and the task both name what is missing.
+    // Expects that the listing and the task both report one missing file.
     void expect_one_left_out(const std::string& path, const std::string& reason) {
         EXPECT_THAT(list().cut, ElementsAre(HasSubstr(reason)));
         const BroughtFiles brought = bring_first_day();
@@ -94,7 +94,7 @@ TEST_F(Source, ListsADirectoryByDayAndStation) {
     write(directory_ / "a/.KFDR20130521_000900");
     write(directory_ / "a/KFDR20130521_000900.part");
     write(directory_ / "a/readme");
-    // 2026-11-28: a plan wrote this name with another letter, and its task failed for good.
+    // 2026-11-28: a plan replaced the byte EF of this name, so its task never found the files.
     write(directory_ / "d\xEFx/KTLX20130521_001500");
     const SourceListing listing = list();
     ASSERT_EQ(listing.days.size(), 3U);
@@ -129,7 +129,7 @@ TEST_F(Source, BringsTheFilesOfARangeInTheirOrder) {
                 ElementsAre("KTLX20130520_203000", "KTLX20130520_210000", "KTLX20130520_220000"));
 }
 
-// 2026-11-29: links were passed over without a word.
+// 2026-11-29: links were skipped without a report.
 TEST_F(Source, LinksAreNotFollowedAndCounted) {
     const testing::TemporaryDirectory other;
     write(directory_ / "KTLX20130520_200356");
@@ -142,7 +142,8 @@ TEST_F(Source, LinksAreNotFollowedAndCounted) {
     EXPECT_EQ(listing.first_link.parent_path(), directory_.path());
 }
 
-// 2026-11-29: the plan said that its name has no station and time.
+// 2026-11-29: a file that is named as a tar, but is none, was reported as having no station and
+// time in its name.
 TEST_F(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
     write(directory_ / "README");
     write(directory_ / "day.tar", "<html>404</html>");
@@ -151,7 +152,7 @@ TEST_F(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
     EXPECT_EQ(listing.nameless, 1U);
 }
 
-// 2026-11-29: what lay behind the cut was neither made nor named.
+// 2026-11-29: members after the cut were neither gridded nor reported.
 TEST_F(Source, ATarThatIsCutIsNamed) {
     write_tar("day.tar",
               {{"KTLX20130520_203000", archive::bytes_of(std::string(9000, 'a'))},
@@ -170,7 +171,7 @@ TEST_F(Source, ATarThatIsCutIsNamed) {
     EXPECT_EQ(brought.left_out[1].path, "day.tar");
 }
 
-// 2026-11-29: a member that could not be read vanished without a word.
+// 2026-11-29: a member that could not be read was not reported.
 TEST_F(Source, AMemberThatCannotBeReadIsNamed) {
     using enum archive::Put::What;
     write_tar("day.tar",
@@ -181,7 +182,7 @@ TEST_F(Source, AMemberThatCannotBeReadIsNamed) {
                         "day.tar!day/KTLX20130520_204000: is a link");
 }
 
-// 2026-11-29: what lay behind the cut was not named if no volume was cut.
+// 2026-11-29: members after the cut were not reported unless the cut was within a volume.
 TEST_F(Source, ATarThatIsCutBehindItsVolumesIsNamed) {
     write_tar("day.tar",
               {{"KTLX20130520_203000", archive::bytes_of("a")},
@@ -191,7 +192,8 @@ TEST_F(Source, ATarThatIsCutBehindItsVolumesIsNamed) {
     expect_one_left_out("day.tar", "behind README");
 }
 
-// 2026-11-29: of two archives with a volume, the one that was read last counted, whole or not.
+// 2026-11-29: if two archives had the same volume, the copy that was read last was taken, even if
+// it was incomplete.
 TEST_F(Source, FilesOfOneNameInTwoArchivesAreBothBrought) {
     for (const char* name : {"a.tar", "b.tar"})
         write_tar(name, {{"KTLX20130520_203000", archive::bytes_of(name)}});
@@ -219,7 +221,7 @@ TEST_F(Source, ABucketIsFetchedToTheScratchDirectory) {
                 ElementsAre("KTLX20170101_030027_V06", "KTLX20170101_030627_V06"));
     EXPECT_EQ(fs::file_size(brought->files[0]), 5000U);
 
-    // A file that cannot be had now may come with another try.
+    // A failed transfer may succeed at another try.
     fs::remove(brought->files[0]);
     bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
                      std::vector(6, fetch::MockBucket::Fault::unavailable));
@@ -228,7 +230,7 @@ TEST_F(Source, ABucketIsFetchedToTheScratchDirectory) {
     EXPECT_EQ(failed.error().code, ErrorCode::io);
     EXPECT_THAT(failed.error().message, HasSubstr("1 of 2 files could not be fetched"));
 
-    // A file that the bucket lists but does not give never comes.
+    // No try brings a file that the bucket lists but refuses.
     bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
                      {fetch::MockBucket::Fault::missing});
     const auto without = bring(what);

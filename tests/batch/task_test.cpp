@@ -1,4 +1,4 @@
-// Tasks: what they make is the same however often, where and in how many steps they run.
+// Tests that tasks make the same bytes however often, where and in how many steps they run.
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -29,7 +29,7 @@ using ::testing::SizeIs;
 
 class BatchTasks : public SmallArchive {
   protected:
-    // The directory of the partials.
+    // Returns the directory of the partials.
     [[nodiscard]] fs::path partials(const std::string& cache) const {
         return directory_ / cache / "north.KBGM/REF/20050822";
     }
@@ -71,7 +71,7 @@ TEST_F(BatchTasks, ASecondRunFindsWhatStandsAndASecondCacheHasTheSameBytes) {
     EXPECT_EQ(tree_of(directory_ / "two"), bytes);
 }
 
-// A task that an engine started twice: both run at the same time, in processes of their own.
+// An engine may start a task twice. Here both run at the same time, each in its own process.
 TEST_F(BatchTasks, TwoAtTheSameTimeLeaveTheBytesOfOne) {
     run_all(plan_of(recipe("one"), "plan-one"));
     const Plan plan = plan_of(recipe("two"), "plan-two");
@@ -174,7 +174,8 @@ TEST_F(BatchTasks, WhatMayPassIsAnErrorOfTheSystem) {
     EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
 }
 
-// 2026-11-29: a directory in whose place nothing was mounted made a task that was done for good.
+// 2026-11-29: while the source was not mounted, a task found an empty directory and counted as done
+// for good.
 TEST_F(BatchTasks, ASourceThatLacksFilesOfThePlanMayCome) {
     const Plan plan = plan_of(recipe("one"), "plan");
     fs::rename(raw_ / "day", directory_ / "unmounted");
@@ -186,7 +187,7 @@ TEST_F(BatchTasks, ASourceThatLacksFilesOfThePlanMayCome) {
     EXPECT_EQ(run(plan, 0)->record.grids, 3U);
 }
 
-// 2026-11-29: the file was left out for good, and the task was done.
+// 2026-11-29: a file that could not be read was left out for good, and its task counted as done.
 TEST_F(BatchTasks, AFileThatCannotBeReadMayBeReadLater) {
     const Plan plan = plan_of(recipe("one"), "plan");
     {
@@ -200,7 +201,7 @@ TEST_F(BatchTasks, AFileThatCannotBeReadMayBeReadLater) {
     EXPECT_EQ(tree_of(directory_ / "one"), tree_of(directory_ / "two"));
 }
 
-// 2026-11-29: what a tar did not give in such a moment was left out for good.
+// 2026-11-29: members of a tar that could not be read for a while were left out for good.
 TEST_F(BatchTasks, ATarThatCannotBeReadMayBeReadLater) {
     fs::create_directory(directory_ / "tars");
     const std::string command = fmt::format("tar -C {} -cf {} day", raw_.native(),
@@ -219,7 +220,8 @@ TEST_F(BatchTasks, ATarThatCannotBeReadMayBeReadLater) {
     EXPECT_EQ(run(plan, 0)->record.grids, 3U);
 }
 
-// 2026-11-29: frames were made without a station's grid that could not be read, and stayed so.
+// 2026-11-29: frames were made without a station's grid that could not be read, and were never made
+// again.
 TEST_F(BatchTasks, FramesWaitForAGridThatCannotBeRead) {
     run_all(plan_of(recipe("one"), "plan-one"));
     const Plan plan = plan_of(recipe("two"), "plan-two");
@@ -238,7 +240,8 @@ TEST_F(BatchTasks, FramesWaitForAGridThatCannotBeRead) {
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
 }
 
-// 2026-11-29: on a machine without the cache, frames and statistics of nothing were made, for good.
+// 2026-11-29: on a machine without the cache, tasks made empty frames and statistics and counted as
+// done for good.
 TEST_F(BatchTasks, FramesAndStatisticsWaitForTheGridsOfTheirRecords) {
     Recipe counted = recipe("one");
     counted.statistics = grid::Tallied::columns;
@@ -255,7 +258,8 @@ TEST_F(BatchTasks, FramesAndStatisticsWaitForTheGridsOfTheirRecords) {
     EXPECT_EQ(run(plan, 3).error().code, ErrorCode::io);
 }
 
-// 2026-11-29: two hours of the next day stood in for what was lost of a day.
+// 2026-11-29: grids of the next day's first two hours counted as replacements for lost grids of a
+// day.
 TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
     const Plan plan = plan_of(recipe("one"), "plan");
     ASSERT_TRUE(run(plan, 0));
@@ -273,7 +277,8 @@ TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
     expect_unreadable(run(plan, 1), "has 2 of the 3 grids that task 0 made");
 }
 
-// Another plan's grid of the same day is one more, and does no harm; in place of ours it does.
+// An additional grid of the same day from another plan does no harm. In place of our own grid it is
+// an error.
 TEST_F(BatchTasks, AnotherPlansGridOfTheDayDoesNotStandForOurs) {
     const Plan plan = plan_of(recipe("one"), "plan");
     ASSERT_TRUE(run(plan, 0));
@@ -293,8 +298,8 @@ TEST_F(BatchTasks, AnotherPlansGridOfTheDayDoesNotStandForOurs) {
     EXPECT_THAT(frames.error().message, HasSubstr("other grids than task 0 made"));
 }
 
-// 2026-11-29: a cache that was mounted while a task ran hid its first grids, and nothing missed
-// them.
+// 2026-11-29: a cache that was mounted while a task ran hid the task's first grids, and no check
+// noticed.
 TEST_F(BatchTasks, ACacheThatIsReplacedMeanwhileLeavesATaskUndone) {
     const Plan plan = plan_of(recipe("one"), "plan");
     std::thread mount([&] {
@@ -312,7 +317,8 @@ TEST_F(BatchTasks, ACacheThatIsReplacedMeanwhileLeavesATaskUndone) {
     EXPECT_THAT(check(plan, {true, {}})->changed, IsEmpty());
 }
 
-// 2026-11-29: frames without a damaged grid were made without a word, and a deep check passed it.
+// 2026-11-29: frames were made without a damaged grid and without a report, and a deep check found
+// no fault.
 TEST_F(BatchTasks, ADamagedGridIsNamedAndMadeAgain) {
     run_all(plan_of(recipe("one"), "plan-one"));
     const Plan plan = plan_of(recipe("two"), "plan-two");
@@ -331,7 +337,7 @@ TEST_F(BatchTasks, ADamagedGridIsNamedAndMadeAgain) {
     EXPECT_THAT(frames->record.left_out[0].reason, HasSubstr(grid.native()));
     EXPECT_EQ(check(plan, {})->done.left_out, 1U);
     EXPECT_THAT(check(plan, {true, {}})->changed, SizeIs(2)) << "the grid, and frames without it";
-    // 2026-11-29: while it could not be made again, frames were made without it.
+    // 2026-11-29: while a damaged grid could not be made again, frames were made without it.
     fs::rename(raw_ / "day", directory_ / "unmounted");
     fs::create_directory(raw_ / "day");
     EXPECT_EQ(run(plan, 0).error().code, ErrorCode::io);
@@ -359,7 +365,8 @@ TEST_F(BatchTasks, MembersOfATarGiveTheGridsOfTheFiles) {
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
 }
 
-// Two plans of one bucket, as two machines would run them: files have the times of the bucket.
+// Two machines may run plans of one bucket: fetched files have the times of the bucket, so the
+// grids are equal.
 TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
     fetch::MockBucket bucket;
     for (const std::string& name : pipeline::sequence) {
@@ -381,7 +388,7 @@ TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
     EXPECT_EQ(tree_of(directory_ / "one"), tree_of(directory_ / "two"));
 }
 
-// The counts of a month and hour are those of its frames, whichever task counts first.
+// The counts of a month and hour cover exactly its frames, in any order of counting.
 TEST_F(BatchTasks, StatisticsCountTheFramesOfAMonthsHour) {
     Recipe counted = recipe("one");
     counted.statistics = grid::Tallied::columns_and_cells;
@@ -405,7 +412,7 @@ TEST_F(BatchTasks, StatisticsCountTheFramesOfAMonthsHour) {
     EXPECT_EQ(again.to_bytes(), tally->tally.to_bytes());
     EXPECT_THAT(check(plan, {true, {}})->missing, IsEmpty());
 
-    // A file of counts that is damaged is told, and counted again.
+    // A damaged file of counts is reported, and the frames are counted again.
     const fs::path path = tally_path(plan, part);
     const auto bytes = *read_file(path);
     fs::resize_file(path, bytes.size() - 1);
