@@ -62,7 +62,7 @@ void look_at_drop(const std::filesystem::path& drop) {
         names.error().message);
 }
 
-// Takes a turn. If it fails because memory or threads have run out, the server goes on unchanged.
+// Does the work of one turn. If memory or threads run out, the server goes on unchanged.
 void take_turn(WebService& service, const std::filesystem::path& file, bool reloads) {
     try {
         if (reloads) {

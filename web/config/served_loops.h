@@ -1,8 +1,8 @@
 // web/config/served_loops.h -- the animations that stormcellard keeps up to date, as the data
 // server gives them out.
 //
-// The loops are those of the tables [[loop]]. stormcellard checks these tables; this reader skips
-// entries that make no sense.
+// The tables [[loop]] define the loops. stormcellard checks these tables; this reader skips entries
+// that make no sense.
 //
 // Threads   Plain data and a pure function, which reads files.
 #pragma once
@@ -15,7 +15,8 @@ namespace stormcellar::web {
 
 struct ServedLoop {
     std::string name;
-    std::vector<std::filesystem::path> files;  // absolute; directories of pictures are left out
+    // Absolute. Directories of pictures, which end with a slash, are left out.
+    std::vector<std::filesystem::path> files;
     bool operator==(const ServedLoop&) const = default;
 };
 

@@ -30,14 +30,14 @@ struct BindAddress {
     [[nodiscard]] std::string text() const;  // "127.0.0.1:8090", "[::1]:8090"
     bool operator==(const BindAddress&) const = default;
 };
-// Errors: bad_argument for a text that is not ADDRESS:PORT with a numeric address.
+// Reads ADDRESS:PORT with a numeric address. Errors: bad_argument for any other text.
 [[nodiscard]] Result<BindAddress> parse_bind_address(std::string_view text);
 
 // Parts that the server can serve, in the order of names_of_parts.
 enum class WebPart {
     volumes,   // raw files: /volumes
     thredds,   // the THREDDS radar server: /thredds
-    polling,   // what GR2Analyst and GRLevel2 poll: /nexrd2
+    polling,   // files for GR2Analyst and GRLevel2: /nexrd2
     s3,        // the listing of a bucket: /s3
     grids,     // JSON, packed grids, netCDF: /api/v1
     zarr,      // /zarr and /zarr3
@@ -59,7 +59,7 @@ struct PublicAddress {
     [[nodiscard]] std::string host() const;  // without the port, and without brackets
     bool operator==(const PublicAddress&) const = default;
 };
-// Errors: bad_argument.
+// Reads such an address. Errors: bad_argument.
 [[nodiscard]] Result<PublicAddress> parse_public_address(std::string_view text);
 
 // Returns true if the text may be the name of a host: letters, digits, "-" and "." as in DNS, or a
@@ -75,7 +75,7 @@ struct ConfiguredCollection {
     // A directory of files of Level III, named Level3_FTG_N0Q_20150615_1201.nids. Empty: the data
     // set is described, but has no files.
     std::filesystem::path files;
-    std::vector<std::string> stations;  // the stations to list; empty: those of the catalog
+    std::vector<std::string> stations;  // to list; empty: all that have files
     bool operator==(const ConfiguredCollection&) const = default;
 };
 
@@ -100,7 +100,7 @@ struct WebLimits {
     int event_streams = 2048;             // counted apart from other connections
     int event_streams_of_a_client = 64;
     std::uint64_t header_bytes = 32'768;
-    std::chrono::seconds request{20};  // from the opening, or the last answer, to a request's end
+    std::chrono::seconds request{20};  // from the opening or last answer to a request's end
     std::uint64_t least_bytes_per_second = 1'000;  // a client must take an answer this fast
     int workers = 0;                               // 0: two for each processor
     int renders = 1;                               // pictures and grids computed at the same time
@@ -115,12 +115,12 @@ struct WebLimits {
 
 struct WebConfig {
     std::vector<BindAddress> listen = {{"127.0.0.1", 8090}, {"::1", 8090}};
-    std::vector<std::string> names;  // in lower case, beside the names of the loopback
+    std::vector<std::string> names;  // further host names, in lower case
     std::optional<PublicAddress> public_address;
     std::vector<std::string> trusted_proxies;  // numeric addresses
-    std::vector<WebPart> serve = all_parts();  // each once, in their order
+    std::vector<WebPart> serve = all_parts();  // each once, in the order of WebPart
     std::string bucket = "unidata-nexrad-level2";
-    bool cors = false;  // "*" on paths of public data
+    bool cors = false;  // pages of other servers may read answers
     // A station from which nothing came for this long is silent.
     std::chrono::seconds silent{1200};
     ThreddsConfig thredds = usual_thredds();

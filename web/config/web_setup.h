@@ -30,8 +30,9 @@ struct WebSetup {
     bool operator==(const WebSetup&) const = default;
 };
 
-// Relative paths start at the directory of the file. Tables that only stormcellard uses are
-// ignored. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key: why".
+// Reads the setup. Relative paths start at the directory of the file. Tables that only stormcellard
+// uses are ignored. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key:
+// why".
 [[nodiscard]] Result<WebSetup> load_web_setup(const std::filesystem::path& file);
 
 // Returns a sentence for each difference between `fresh` and `running` that a reload cannot apply:

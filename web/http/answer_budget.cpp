@@ -17,7 +17,7 @@ AnswerBudget::HeldObject object_of(const Piece& piece) {
 
 }  // namespace
 
-// Returns true if the pieces together are large enough; many small pieces count as one large one.
+// Returns true if the pieces together are large enough to be counted.
 bool AnswerBudget::is_counted(const Pieces& pieces) {
     std::uint64_t sum = 0;
     for (const Piece& piece : pieces)

@@ -1,10 +1,11 @@
 // web/http/answer_budget.h -- limits the memory of answers that are on their way to clients.
 //
-// The budget counts bytes in memory and nameless files, each once however many answers share it.
-// Answers below 64 KiB are not counted, so they pass even when the budget is spent. One client may
-// hold at most half of what the others leave. A larger answer passes if it is the only one. For 10
-// s after a refusal, clients that hold something get nothing more. Otherwise clients whose slow
-// answers were cut off would ask again and share what others hold, and nothing would become free.
+// The budget counts texts in memory and nameless files. It counts each object once, however many
+// answers share it. Answers below 64 KiB are not counted, so they pass even when the budget is
+// spent. One client may hold at most half of what the others leave, or one answer that is larger.
+// An answer beyond the whole budget passes if nothing else is held. For 10 s after the budget had
+// no room, clients that hold something get nothing more. Otherwise clients whose slow answers were
+// cut off would ask again and share the objects of others, and nothing would become free.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -41,7 +42,8 @@ class AnswerBudget {
   private:
     using Objects = std::vector<HeldObject>;
     static Objects objects_of(const Pieces& pieces);
-    // Objects that one client, or all together, hold, with the number of answers that use each.
+    // The objects that one client holds, or all clients together, with the number of answers that
+    // use each object.
     struct Holder {
         std::map<const void*, std::uint64_t> uses;
         std::uint64_t bytes = 0;

@@ -1,4 +1,4 @@
-// web/http/client_address.h -- maps addresses to the clients that limits count.
+// web/http/client_address.h -- maps addresses to clients, for limits per client.
 //
 // Threads   Pure functions.
 #pragma once

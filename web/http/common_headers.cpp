@@ -38,7 +38,7 @@ const Fields& headers_of_pages() {
 
 void add_common_headers(Answer& answer, const Request& request, bool any_origin) {
     answer.with("X-Content-Type-Options", "nosniff");
-    // The page uses this header to tell refusals of this server from those of a proxy.
+    // The page uses this header to tell refusals of this server from a proxy's refusals.
     if (answer.status >= 400) answer.with("Stormcellar-Status", std::to_string(answer.status));
     if (!is_data(answer)) {
         for (const auto& [name, value] : headers_of_pages())

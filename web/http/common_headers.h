@@ -1,5 +1,5 @@
-// web/http/common_headers.h -- adds the headers that every answer has: restrictions for browsers,
-// and which origins may read it.
+// web/http/common_headers.h -- adds the headers that say which origins may read an answer and,
+// except for data, restrict what a browser does with it.
 //
 // Threads   Pure functions.
 #pragma once

@@ -62,7 +62,7 @@ void ConnectionWatch::run() {
         try {
             over = look(std::chrono::steady_clock::now());
         } catch (const std::exception&) {
-            // For want of memory; the next look does what was left.
+            // Memory is short; the next look does the rest.
         }
         const MutexUnlock unlocked(mutex_);
         for (const auto& stream : over)
@@ -222,9 +222,9 @@ ConnectionWatch::Open* ConnectionWatch::longest_without_request() {
     return is_new ? nullptr : oldest;
 }
 
-// Returns the body to cut first: a body that hardly moves, whoever its client is, else the slowest
-// one of the client that has most connections. A proxy counts as if it had one connection, because
-// it represents many clients.
+// Returns the body to cut first. Bodies below `times_least_rate` come before others, then bodies of
+// clients with more connections, then slower bodies. A proxy counts as if it had one connection,
+// because it represents many clients.
 ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
     const auto least_rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
     Open* slowest = nullptr;

@@ -1,4 +1,4 @@
-// web/http/connection_watch.h -- cuts off connections that wait too long, and counts them.
+// web/http/connection_watch.h -- counts connections, and cuts off those that take too long.
 //
 // libmicrohttpd's own timeout is for inactivity, so a client that sends one byte every few seconds
 // would hold a connection forever. This watch limits the total time of a request's arrival, and the
@@ -40,7 +40,8 @@ class ConnectionWatch {
     [[nodiscard]] bool may_open(const std::string& client) const;
     // Call when a connection has opened. If three quarters of the connections are open, the watch
     // ends the one that has waited longest for a request. While seven eighths are open, it also
-    // ends the slowest bodies of the client that has most connections. Streams do not count.
+    // ends bodies: first those below twenty times the least rate, the client with most connections
+    // first. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
@@ -49,8 +50,8 @@ class ConnectionWatch {
     void sending_body(MHD_Connection* connection, std::uint64_t bytes, bool holds_memory = false);
     void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
-    // Call when an answer was refused for want of memory. The watch ends the slowest body that
-    // holds some, unless its client takes it at twenty times the least rate.
+    // Call when an answer was refused for want of memory. The watch ends up to 16 of the slowest
+    // bodies that hold memory, but none that its client takes at twenty times the least rate.
     void memory_is_short() { is_memory_short_ = true; }
     [[nodiscard]] std::size_t count() const;  // including streams
     // Returns true if no answer is being made or sent, and no request may be about to be read.
@@ -62,10 +63,10 @@ class ConnectionWatch {
         int descriptor = -1;
         std::string client;  // the name under which it is counted
         Phase phase = Phase::request;
-        SteadyTime since;                       // of the phase, or of the last look at the rate
-        std::uint64_t taken_bytes = 0;          // acknowledged by the client at that time
+        SteadyTime since;                       // start of the phase, or last look at the rate
+        std::uint64_t taken_bytes = 0;          // acknowledged by the client at `since`
         SteadyTime began = {};                  // start of the phase
-        std::uint64_t acknowledged_before = 0;  // acknowledged by the client at that time
+        std::uint64_t acknowledged_before = 0;  // acknowledged by the client at `began`
         std::uint64_t body_bytes = 0;
         bool holds_memory = false;
         bool is_cut = false;
@@ -91,7 +92,7 @@ class ConnectionWatch {
     void count_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
     void forget_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
     static void cut(Open& open);
-    // Returns the rate of the phase, in bytes a second.
+    // Returns the average rate since `began`, in bytes a second.
     static double rate_of(const Open& open, SteadyTime now);
 
     const ServerLimits limits_;

@@ -8,7 +8,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns true if a path is the prefix or is below it, by whole segments.
+// Returns true if the path is the prefix, or below it by whole segments.
 bool lies_below(std::string_view path, std::string_view prefix) {
     if (!path.starts_with(prefix)) return false;
     return path.size() == prefix.size() || prefix.ends_with('/') || path[prefix.size()] == '/';
@@ -36,8 +36,7 @@ Counters::PerDoor& Counters::door_of(const Request* request) {
     PerDoor* longest = &other_;
     std::size_t length = 0;
     for (PerDoor& door : doors_) {
-        // "/" counts only the index page, so that requests for unknown paths are not hidden among
-        // its own.
+        // The door "/" counts only the index page. Requests for unknown paths count as "other".
         const bool fits =
             door.prefix == "/" ? request->path == "/" : lies_below(request->path, door.prefix);
         if (fits && door.prefix.size() > length) {

@@ -24,7 +24,7 @@
 
 namespace stormcellar::web {
 
-// The statuses that the server sends; any other status is counted as the last.
+// The statuses that the server sends. Any other status is counted as status 0.
 inline constexpr std::array<unsigned, 22> counted_statuses = {
     200, 204, 206, 301, 302, 304, 308, 400, 403, 404, 405,
     406, 410, 412, 414, 416, 421, 429, 431, 500, 501, 503};

@@ -53,9 +53,9 @@ class Doors {
     void add(std::string prefix, std::shared_ptr<Door> door);
     // Returns the door; never null once "/" was added.
     [[nodiscard]] std::shared_ptr<Door> find(std::string_view path) const;
-    // Returns the prefixes, the longest first; "/" is one of them.
+    // Returns the prefixes that were added, the longest first.
     [[nodiscard]] std::vector<std::string> prefixes() const;
-    // Returns the doors' own workers, each once.
+    // Returns the doors' own workers of both kinds, each once.
     [[nodiscard]] std::vector<std::shared_ptr<WorkQueue>> workers() const;
 
   private:

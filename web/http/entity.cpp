@@ -33,7 +33,7 @@ bool names_tag(std::string_view list, std::string_view etag, bool weakly) {
     return found;
 }
 
-// Returns the second of the last change, because dates of HTTP have whole seconds.
+// Returns the time in whole seconds, as dates of HTTP have them.
 std::optional<std::chrono::sys_seconds> seconds_of(std::optional<UtcTime> time) {
     if (!time) return std::nullopt;
     return std::chrono::floor<std::chrono::seconds>(*time);
@@ -82,7 +82,7 @@ std::optional<std::uint64_t> whole_number(std::string_view text) {
 
 struct Ranges {
     bool makes_sense = true;
-    std::vector<ByteRange> parts;  // the parts that the bytes have
+    std::vector<ByteRange> parts;  // the parts that are within the bytes
 };
 
 Ranges parse_ranges(std::string_view header, std::uint64_t size) {

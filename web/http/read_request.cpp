@@ -176,7 +176,7 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
         return reading;
     }
     const bool is_proxied = identity.proxies.contains(raw.client);
-    // If a proxy gives no address but, say, "unknown", the proxy itself stays the client.
+    // If a proxy gives a name such as "unknown" instead of an address, the proxy stays the client.
     if (is_proxied) {
         if (auto client = read_address(forwarded_facts(request).client))
             request.client = *std::move(client);

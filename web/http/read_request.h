@@ -36,11 +36,11 @@ struct Identity {
 };
 [[nodiscard]] Identity identity_of(const ServerOptions& options);
 
-// Returns whether a Host field names this server: a loopback name, or one of `names`, with any
+// Returns true if a Host field names this server: a loopback name, or one of `names`, with any
 // port.
 [[nodiscard]] bool names_us(std::string_view host, const Identity& identity);
 
-// A decoded request, and the refusal; none if the request may be answered.
+// A decoded request, and the reason to refuse it; none if it may be answered.
 struct Reading {
     Request request;
     std::optional<Refusal> refusal;

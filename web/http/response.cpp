@@ -35,7 +35,7 @@ HttpResponse response_of_file(const FileSlice& slice) {
     return response;
 }
 
-// Reads pieces one after another. If a file became shorter, the connection ends.
+// Reads pieces one after another. Ends the connection if a file has become shorter.
 ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::size_t most) try {
     const Pieces part = part_of(*static_cast<const Pieces*>(pieces), position, most);
     std::size_t filled = 0;
@@ -100,8 +100,8 @@ HttpResponse response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Conne
     return response;
 }
 
-// Answers HEAD for a stream. libmicrohttpd would write the end of a chunked body even here, where
-// no body is allowed; without chunks, the connection closes after the answer.
+// Answers HEAD for a stream. libmicrohttpd would write the end of a chunked body, but an answer to
+// HEAD must have no body. Without chunks, the connection closes after the answer.
 HttpResponse response_without_stream() {
     const auto ends = +[](void*, std::uint64_t, char*, std::size_t) -> ssize_t {
         return MHD_CONTENT_READER_END_OF_STREAM;

@@ -50,7 +50,7 @@ Answer answer_of_exception(std::string_view what) {
         answer = come_back(std::chrono::seconds{5}, "This server cannot answer at the moment.");
         answer.trouble = what;
     } catch (const std::exception&) {
-        // There is memory for the status only.
+        // Memory is short; send the status only.
     }
     return answer;
 }
@@ -207,7 +207,7 @@ void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*o
 
 // Handles a request. libmicrohttpd calls this when the headers have come, again at the end of the
 // request, and again when a suspended connection is resumed. An answer to the first call closes the
-// connection, because the client may still be sending a body; so only refusals are given there.
+// connection, because the client may still be sending a body, so the first call only refuses.
 MHD_Result Server::Impl::handle(MHD_Connection* connection, const char* method, const char* version,
                                 Exchange& exchange) {
     switch (exchange.stage) {
@@ -307,8 +307,8 @@ void Server::Impl::work(WorkQueue::Turn turn, MHD_Connection* connection, Exchan
     }
 }
 
-// Takes the answer's bytes from the budget, also for HEAD: a client that sends many such requests
-// and reads nothing holds all of the answers.
+// Takes the answer's bytes from the budget. This includes HEAD, because the server holds the
+// answers of a client that sends many such requests and reads nothing.
 void Server::Impl::take_budget(Exchange& exchange) {
     const auto* pieces = std::get_if<Pieces>(&exchange.answer->body);
     if (pieces == nullptr) return;
@@ -387,7 +387,7 @@ void Server::Impl::stop_listening(const Listener& listener) {
     };
     const int epoll = info(MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
     const int listening = info(MHD_DAEMON_INFO_LISTEN_FD)->listen_fd;
-    // At its limit of connections the daemon has removed the socket itself, and will put it back
+    // At its limit of connections the daemon itself has removed the socket, and will add it again
     // later.
     const bool was_in = ::epoll_ctl(epoll, EPOLL_CTL_DEL, listening, nullptr) == 0;
     ::dup3(listener.silent.number(), listening, O_CLOEXEC);

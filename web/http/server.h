@@ -2,7 +2,7 @@
 //
 // One thread for each listening address serves all of its connections. A bounded number of workers
 // makes the answers that take time. The server answers GET, HEAD and OPTIONS only. It checks the
-// Host field first, because otherwise a page of the web could read what is served on loopback (DNS
+// Host field first, because otherwise a web page could read data that is served on loopback (DNS
 // rebinding).
 //
 // Threads   Many threads may use it. Doors are called from many threads.
@@ -41,7 +41,7 @@ class Server {
     // finished if that takes at most two seconds.
     ~Server();
 
-    // Returns "http://127.0.0.1:8090/", one for each address, with its actual port.
+    // Returns a URL such as "http://127.0.0.1:8090/" for each address, with the actual port.
     [[nodiscard]] std::vector<std::string> addresses() const;
     [[nodiscard]] ServerFacts facts() const;
 

@@ -30,12 +30,12 @@ struct ServerLimits {
     // Limit from the opening of a connection, or the end of the previous answer, to the end of a
     // request's headers.
     std::chrono::seconds request_time{20};
-    // A client that takes a waiting body more slowly than this, averaged over such a time, is cut
+    // A client that takes a waiting body more slowly than this, averaged over `rate_time`, is cut
     // off. 0: never.
     std::uint64_t least_bytes_per_s = 1000;
     std::chrono::seconds rate_time{30};
     // A client is also cut off if it has not taken a whole body after this time plus the time that
-    // the body takes at twenty times that rate.
+    // the body takes at twenty times `least_bytes_per_s`.
     std::chrono::seconds answer_time{60};
     // Limit of the memory of answers on their way (web/http/answer_budget.h). Answers beyond it get
     // 503.

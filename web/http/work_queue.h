@@ -1,9 +1,10 @@
 // web/http/work_queue.h -- a bounded number of threads that make answers, and a bounded number of
 // waiting requests.
 //
-// Clients share the threads. The next client served is the one with the fewest requests under way;
-// among equals, the one that came, or whose last turn ended, longest ago. If all places are taken,
-// a client with fewer requests than another takes the place of the other's newest request.
+// Clients share the threads. The next turn goes to the client with the fewest requests being
+// answered; among equals, to the client that came, or whose last turn ended, longest ago. If all
+// places are taken, a new request takes the place of the newest waiting request of the client with
+// most requests, if that client has at least two more.
 //
 // Threads   Many threads may add work.
 #pragma once
@@ -51,7 +52,8 @@ class WorkQueue {
     using Clients = std::map<std::string, Client>;
     void run() STORMCELLAR_EXCLUDES(mutex_);
     [[nodiscard]] Clients::iterator next() STORMCELLAR_REQUIRES(mutex_);
-    // Takes the newest work of the client that has most, if that has more than `requests`.
+    // Takes the newest waiting work of the client with most requests, if these are more than
+    // `requests` + 1.
     [[nodiscard]] std::optional<Work> take_place_of_other(std::size_t requests)
         STORMCELLAR_REQUIRES(mutex_);
     void forget_if_idle(Clients::iterator client) STORMCELLAR_REQUIRES(mutex_);
@@ -59,7 +61,7 @@ class WorkQueue {
     const std::size_t most_waiting_;
     mutable Mutex mutex_;
     ConditionVariable more_;
-    Clients clients_ STORMCELLAR_GUARDED_BY(mutex_);  // those that have requests
+    Clients clients_ STORMCELLAR_GUARDED_BY(mutex_);  // only clients with requests
     std::size_t waiting_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
     std::size_t working_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
     std::uint64_t turns_ STORMCELLAR_GUARDED_BY(mutex_) = 0;

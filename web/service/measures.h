@@ -25,8 +25,8 @@ class Measures {
     void watch_grids(const std::shared_ptr<Grids>& grids);
     void watch_events(const std::shared_ptr<EventHub>& hub,
                       const std::shared_ptr<const EventFeed>& feed);
-    // Sets the server that answers. Its doors read the measures, so call this once it is open;
-    // nobody may read them after it has ended.
+    // Sets the server that is measured. Call this once the server is open, because the server needs
+    // doors that hold these measures. Nobody may read them after the server has ended.
     void set_server(const Server* server) { *server_ = server; }
 
   private:

@@ -1,7 +1,7 @@
 // web/service/sources.h -- the sources of the doors' answers: the catalog, the grids, and the
 // configuration.
 //
-// Threads   Plain data; many threads may use the objects that it points to.
+// Threads   Plain data; many threads may use the objects behind the pointers.
 #pragma once
 
 #include <memory>

@@ -19,8 +19,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns whether [::1] can be used. The shipped configuration names it, but a machine may have
-// IPv6 off.
+// Returns true if [::1] can be used. The shipped configuration names it, but IPv6 may be off.
 bool has_ipv6_loopback() {
     const Descriptor socket{::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0)};
     if (!socket.is_open()) return false;
@@ -42,8 +41,8 @@ void note_answer(const Served& served) {
         served.bytes, served.seconds.count() * 1000, served.request->client);
 }
 
-// Logs failures of answers: each one once a minute, and only a few kinds. Clients can repeat a
-// request as often as they like.
+// Logs failures of answers. Because clients can repeat requests, it logs the same text once a
+// minute, and only a few texts.
 class TroubleLog {
   public:
     void note(const Served& served) {

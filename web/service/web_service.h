@@ -22,7 +22,7 @@ class WebService {
     // [::1].
     static Result<std::unique_ptr<WebService>> open(WebSetup setup);
 
-    // "http://127.0.0.1:8090/", one for each address.
+    // Returns a URL such as "http://127.0.0.1:8090/" for each address.
     [[nodiscard]] std::vector<std::string> addresses() const;
     [[nodiscard]] const WebSetup& setup() const { return sources_.setup; }
     // Returns false while there is no catalog; look_again() opens it once it exists.
@@ -30,15 +30,16 @@ class WebService {
     // Returns false if the server could not be opened again after a reload. look_again() tries
     // again.
     [[nodiscard]] bool is_listening() const { return server_ != nullptr; }
-    // Returns true if the server is open and answers with its facts, which a stuck server never
-    // does.
+    // Returns true if the server is open. Asks it for its facts first, so this never returns while
+    // the server is stuck.
     [[nodiscard]] bool is_at_work() const;
     // Call once a second.
     void look_again();
 
     // Applies a configuration, except the parts that needs_restart() names. A new server begins on
     // the same sockets, which stay open; then the old server ends with its connections. If the new
-    // one cannot begin, the old one goes on unchanged. Errors: those of open().
+    // server cannot begin, the old one goes on unchanged, or begins again if its port was in the
+    // way. Errors: those of open().
     Status reload(WebSetup fresh);
     [[nodiscard]] ServerFacts facts() const;
 

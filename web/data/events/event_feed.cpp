@@ -45,7 +45,7 @@ struct WaitingChanges {
         }
         more.notify_one();
     }
-    // Waits for changes until the given time or a stop. Returns those that have come.
+    // Waits for changes until the given time or a stop, and returns them.
     std::vector<CacheChange> take(SteadyTime until) {
         const MutexLock lock(mutex);
         while (!is_stopping && changes.empty() && steady_now() < until)

@@ -2,12 +2,12 @@
 //
 // The daemon sends no messages. The feed sees each grid when the daemon renames it into the cache
 // (web/data/grids/cache_watch.h), and checks every two seconds which stations' databases were
-// written. If a station has grids of its own, they show when a volume begins and ends; otherwise
-// the catalog does.
+// written. The grids of a station show when its volumes begin and end. If a station has had no grid
+// for 30 seconds, the catalog shows it.
 //
 // Threads   Many threads may use it. One thread of its own reads and publishes.
-// Errors    A catalog that does not exist (yet) has no stations. Grids that cannot be read are
-// counted.
+// Errors    A catalog that does not exist (yet) has no stations. unreadable() counts grids that
+//           cannot be read.
 #pragma once
 
 #include <chrono>
@@ -44,9 +44,9 @@ class EventFeed {
 
     // Returns the known facts about the stations, sorted.
     [[nodiscard]] std::vector<StationNews::Page> stations() const;
-    // Counts its looks at the catalog that have ended, with what they found told.
+    // Returns the number of completed looks at the catalog, whose events are published.
     [[nodiscard]] std::uint64_t looks() const;
-    // Counts grids that could not be read.
+    // Returns the number of grids that could not be read.
     [[nodiscard]] std::uint64_t unreadable() const;
 
   private:

@@ -36,7 +36,8 @@ std::vector<std::string> EventHub::keys_of(const EventFilter& filter) {
     return keys;
 }
 
-// Wakes the listeners of a group that have read everything. A pending listener reads on by itself.
+// Marks the listeners of a group that have read everything as pending and adds them to `woken`. A
+// listener that is already pending needs no wake-up.
 void EventHub::mark_group(const std::string& key, const Event& event, std::uint64_t number,
                           std::vector<std::shared_ptr<Listener>>& woken) {
     const auto group = groups_.find(key);

@@ -1,9 +1,9 @@
 // web/data/events/event_hub.h -- numbers events, keeps the newest, and passes them to listeners.
 //
 // Each event is formatted once; all listeners share the text. A listener keeps only the number of
-// the next event that it has not read, so a slow one takes no memory. Once that event has left the
-// ring, the listener gets a reset. The hub finds listeners by the stations or domains that they ask
-// for and touches no others.
+// the next event that it has not read, so a slow listener takes no memory. Once that event has left
+// the ring, the listener gets a reset. The hub finds listeners by the stations or domains that they
+// ask for and touches no others.
 //
 // Threads   Many threads may use hub and listeners; each listener is read by one thread at a time.
 //           The hub calls a listener's `wake` without holding a lock, and not again until the
@@ -29,7 +29,7 @@ namespace stormcellar::web {
 
 struct EventHubOptions {
     std::size_t kept = 4096;         // events in the ring
-    unsigned heartbeat_ticks = 15;   // each listener hears something at least this often
+    unsigned heartbeat_ticks = 15;   // from one heartbeat of an idle listener to the next
     std::optional<std::string> run;  // for tests; none: random
 };
 
@@ -41,7 +41,8 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
 
     // Numbers the event and wakes the listeners whose filter it fits.
     void publish(Event event);
-    // Call once a second. Each call sends a heartbeat to a fifteenth of the listeners.
+    // Call once a second. Each call sends a heartbeat to the idle ones among a fifteenth of the
+    // listeners.
     void tick();
 
     // Starts listening after the event of this id; none: after the newest. If events were lost
@@ -75,11 +76,11 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
     const std::size_t kept_;
     const std::string run_;
     mutable Mutex mutex_;
-    // The numbers first_number() to next_ - 1.
+    // The events with the numbers first_number() to next_ - 1.
     std::deque<Numbered> ring_ STORMCELLAR_GUARDED_BY(mutex_);
     std::uint64_t next_ STORMCELLAR_GUARDED_BY(mutex_) = 1;
     std::unordered_map<std::string, Group> groups_ STORMCELLAR_GUARDED_BY(mutex_);
-    // By the tick in which they get a heartbeat.
+    // Listeners by the tick in which they get a heartbeat.
     std::vector<std::vector<Listener*>> beats_ STORMCELLAR_GUARDED_BY(mutex_);
     std::size_t next_beat_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
     std::size_t next_place_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
@@ -102,10 +103,10 @@ class EventHub::Listener : public std::enable_shared_from_this<EventHub::Listene
   private:
     friend class EventHub;
     Listener(std::shared_ptr<EventHub> hub, EventFilter filter);
-    // Appends frames to `unsent_`, as far as it is short.
+    // Appends frames to `unsent_` until it has `most` bytes.
     void gather(std::size_t most) STORMCELLAR_REQUIRES(hub_->mutex_);
     void wake();
-    // The hub calls it with its mutex held: clang cannot see that it is that of `hub_`.
+    // Tells clang that the hub, which calls this, holds `hub_->mutex_`.
     void assume_locked() const STORMCELLAR_ASSERT_HELD(hub_->mutex_) {}
 
     const std::shared_ptr<EventHub> hub_;

@@ -52,7 +52,7 @@ EventType type_of(bool is_site, bool is_living) {
     return is_living ? EventType::sweep_gridded : EventType::volume_complete;
 }
 
-// Returns the fields that every event of a grid has.
+// Returns the fields that all events of grids have.
 EventJson grid_json(EventType type, const cache::GridName& name, const cache::GridFacts& grid,
                     UtcTime now) {
     const std::string moment(level2::moment_name(name.moment));
@@ -161,7 +161,7 @@ void GridEvents::add_evicted(const Place& place, std::vector<UtcTime> times, Utc
                  {"count", times.size()},
                  {"from", format_utc(times.front())},
                  {"to", format_utc(times.back())}});
-    // If the list is cut, `from` and `to` say where to look.
+    // For more times, `from` and `to` say where to look.
     if (times.size() <= most_times_listed) {
         json["grids"] = EventJson::array();
         for (const UtcTime time : times)

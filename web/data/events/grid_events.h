@@ -1,15 +1,15 @@
 // web/data/events/grid_events.h -- turns changes in the cache into events.
 //
-// A grid itself says what it is: the living grid of a growing volume, the grid of a volume that has
-// ended, or a mosaic. Partials, the single sites' contributions to a mosaic, give no events.
+// The header of a grid tells its kind: the living grid of a growing volume, the grid of an ended
+// volume, or a mosaic. Partials, the single sites' contributions to a mosaic, give no events.
 //
-// After a look at directories whose times are too coarse, the watch may report a change of a grid
-// that did not change. So grids written before the server began give no events, nor do files that
-// were reported already.
+// The times of directories are coarse, so the watch may report an unchanged grid as changed.
+// Therefore grids written before the server began and files that were already reported give no
+// events.
 //
 // Threads   One thread at a time.
-// Errors    None are returned. A grid that cannot be read is counted, and reported once it can be
-// read.
+// Errors    None are returned. A grid that cannot be read is counted, and reported if it is
+//           readable at its next change.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@ namespace stormcellar::web {
 
 class GridEvents {
   public:
-    // `began_ns`: grids written before it give no events; by the clock of files, since the epoch.
+    // Grids written before `began_ns` give no events. It is a time of the files' clock since the
+    // epoch.
     GridEvents(std::shared_ptr<Grids> grids, StationNews& book, std::int64_t began_ns)
         : grids_(std::move(grids)), book_(book), began_ns_(began_ns) {}
 
@@ -59,9 +60,10 @@ class GridEvents {
     StationNews& book_;
     const std::int64_t began_ns_;
     std::uint64_t unreadable_ = 0;
-    // True if old files appeared, as when a disk is mounted: too many to report one by one.
+    // True if old files appeared, as when a disk is mounted. They may be too many to report one by
+    // one, so a reset follows.
     bool came_back_ = false;
-    std::map<Place, std::vector<Told>> told_;  // the last few of each domain and moment
+    std::map<Place, std::vector<Told>> told_;  // the last few reported files
 };
 
 // Returns the time of the clock by which the kernel dates files, since the epoch.

@@ -8,8 +8,8 @@
 namespace stormcellar::web {
 namespace {
 
-// A volume is named by the time of its first radial until its header comes; the start in the header
-// differs from it by up to ten seconds.
+// Until the header of a volume comes, the time of the first radial names the volume. The start in
+// the header differs from that time by up to ten seconds.
 constexpr std::chrono::seconds same_volume_within{15};
 
 Event station_event(EventType type, const std::string& station, UtcTime now,

@@ -42,15 +42,16 @@ class StationNews {
         std::optional<UtcTime> newest_volume;  // its start
         std::optional<UtcTime> heard;          // when something last came
         bool is_silent = false;
-        // Returns when it last spoke. If nothing came yet, that is the start of its newest volume.
+        // Returns when something last came; if nothing came yet, the start of the newest volume.
         [[nodiscard]] std::optional<UtcTime> spoke() const { return heard ? heard : newest_volume; }
     };
 
-    // Notes what exists when the server begins. Gives no events.
+    // Notes the known facts when the server begins, without events.
     void note(const std::string& station, std::optional<UtcTime> newest_volume,
               std::optional<UtcTime> heard, UtcTime now);
-    // Notes that something came, with its volume if known. Returns station_spoke if the station was
-    // silent, and volume_begun if the volume starts later than all known ones.
+    // Notes that something came, with its volume if known. Returns station_spoke if a silent
+    // station was heard recently, and volume_begun if the volume starts over 15 seconds after the
+    // newest.
     [[nodiscard]] std::vector<Event> hear(const std::string& station,
                                           std::optional<SeenVolume> volume, UtcTime heard,
                                           UtcTime now);

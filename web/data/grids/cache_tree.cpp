@@ -36,9 +36,9 @@ struct CloseListing {
     void operator()(DIR* listing) const { ::closedir(listing); }
 };
 
-// Returns the sorted names of the directories, or of the other entries; none if they cannot be
-// read. If the file system does not tell the type of an entry, its name is returned and the caller
-// checks it.
+// Returns the sorted names of a directory's directories, or of its regular files, without names
+// that begin with a dot; none if they cannot be read. Includes entries of unknown type, which the
+// caller checks.
 std::optional<std::vector<std::string>> entry_names(const std::filesystem::path& directory,
                                                     bool directories) {
     const int number = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -85,7 +85,7 @@ void CacheTree::tell_everything() {
 std::optional<bool> CacheTree::look(const Place& place, Seen& seen) {
     const std::filesystem::path path = path_of(place);
     struct stat facts {};
-    // A directory that cannot be read is not gone: keep what was known of it.
+    // A directory that cannot be read is not gone, so keep its known contents.
     enum class Found { directory, nothing, unreadable };
     const auto find = [&] {
         if (::lstat(path.c_str(), &facts) != 0)
@@ -208,8 +208,8 @@ void CacheTree::scan_day(const Place& place) {
     compare_day(place, day, *names, read_before_ns);
 }
 
-// Reports new names as come and missing names as gone. Of the other names, those whose file was
-// renamed to its name since the last read have changed.
+// Reports new names as come and missing names as gone. A file under a known name has changed if its
+// ctime is not clearly older than the last read.
 void CacheTree::compare_day(const Place& place, Day& day, const std::vector<std::string>& names,
                             std::int64_t read_before_ns) {
     std::vector<std::pair<UtcTime, const std::string*>> found;
@@ -308,7 +308,6 @@ bool CacheTree::take(const char* events, std::size_t size) {
     return !lost && !root_gone_;
 }
 
-// Forgets the times of the directories, so that the next scan reads all of them.
 void CacheTree::forget_times() {
     tell_everything();
     for (auto& [name, domain] : domains_) {

@@ -36,7 +36,8 @@ class CacheTree {
     [[nodiscard]] bool is_there() const { return is_there_; }
     // Returns true if some directory could not be watched or read.
     [[nodiscard]] bool is_blind() const { return blind_; }
-    // Call after events were lost. Reports so, and lets the next scan() read every directory.
+    // Call after events were lost. Reports that everything may have changed, and makes the next
+    // scan() read every directory.
     void forget_times();
     // Reports that everything may have changed.
     void tell_everything();
@@ -70,7 +71,7 @@ class CacheTree {
     };
 
     [[nodiscard]] std::filesystem::path path_of(const Place& place) const;
-    // Watches the directory and notes its time. Returns whether its names must be read; none if it
+    // Watches the directory and notes its time. Returns true if its names must be read; none if it
     // does not exist.
     std::optional<bool> look(const Place& place, Seen& seen);
     void scan_domain(const std::string& domain);

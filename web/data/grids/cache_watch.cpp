@@ -26,7 +26,7 @@ using WatchClock = std::chrono::steady_clock;
 constexpr std::chrono::seconds look_for_missing_every{1};
 constexpr std::chrono::seconds look_when_blind_every{2};
 constexpr std::chrono::seconds look_at_times_every{60};
-// If no descriptor is left to wake the thread, it checks this often whether it must end.
+// If no descriptor is left to wake the thread, the thread checks for its end this often.
 constexpr int look_for_the_end_every_ms = 100;
 constexpr int try_again_after_ms = 1000;
 

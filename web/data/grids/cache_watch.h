@@ -49,10 +49,10 @@ class CacheWatch {
     CacheWatch& operator=(const CacheWatch&) = delete;
     ~CacheWatch();
 
-    // Reports everything that happened until now. It costs one system call if nothing did. Each
-    // rename into the cache and each removal before the call is reported before it returns.
+    // Reports all changes that inotify has noticed: each rename into a watched directory and each
+    // removal before the call. Costs one system call if there is none.
     void catch_up();
-    // Reads the directories whose times changed, events or not.
+    // Reads the directories whose times changed, even without events.
     void rescan();
     void rescan(const std::string& domain);
     // Returns a sentence that says why some changes are reported late; none if none are.

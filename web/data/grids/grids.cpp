@@ -20,7 +20,7 @@
 
 namespace stormcellar::web {
 
-// Distinguishes a file from the one that replaces it.
+// Distinguishes a file from a later file of the same name.
 struct GridFileStamp {
     std::uint64_t device = 0, inode = 0, size = 0;
     std::int64_t modified_ns = 0;
@@ -31,7 +31,8 @@ namespace {
 
 constexpr std::size_t most_evicted_remembered = 65536;
 constexpr std::size_t opening_locks = 32;
-// Catches what the watch misses: a change of a directory above the cache.
+// After this time, look at the file itself, because the watch misses changes of the directories
+// above the cache.
 constexpr std::chrono::milliseconds look_again_after{100};
 
 GridFileStamp stamp_of_grid(const struct stat& facts) {
@@ -83,10 +84,11 @@ struct Grids::Impl {
 
     mutable SharedMutex names_mutex;
     std::map<std::string, OfDomain, std::less<>> names STORMCELLAR_GUARDED_BY(names_mutex);
-    // By group.
+    // Counts of changes by group.
     std::map<std::string, std::uint64_t, std::less<>> changes_of
         STORMCELLAR_GUARDED_BY(names_mutex);
-    // The number says which of the entries in the order counts.
+    // Numbers of the last eviction of each name. Entries of `evicted_order` with other numbers are
+    // out of date.
     std::map<cache::GridName, std::uint64_t> evicted STORMCELLAR_GUARDED_BY(names_mutex);
     std::deque<std::pair<std::uint64_t, cache::GridName>> evicted_order
         STORMCELLAR_GUARDED_BY(names_mutex);
@@ -94,13 +96,13 @@ struct Grids::Impl {
 
     Mutex open_mutex;
     RecentlyUsed<cache::GridName, Open> open STORMCELLAR_GUARDED_BY(open_mutex);
-    std::array<Mutex, opening_locks> opening;  // of the grids whose names hash to it
+    std::array<Mutex, opening_locks> opening;  // each for the grids whose paths hash to it
 
     Mutex listeners_mutex;
     std::vector<std::function<void(const CacheChange&)>> listeners
         STORMCELLAR_GUARDED_BY(listeners_mutex);
 
-    std::unique_ptr<CacheWatch> watch;  // the last, so that it ends first
+    std::unique_ptr<CacheWatch> watch;  // declared last, so that it ends first
 };
 
 void Grids::Impl::remember_evicted(const cache::GridName& name) {

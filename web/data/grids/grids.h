@@ -68,7 +68,7 @@ class Grids {
     [[nodiscard]] std::vector<UtcTime> times(std::string_view domain, level2::Moment moment,
                                              std::optional<UtcTime> from = {},
                                              std::optional<UtcTime> to = {}) const;
-    // Returns the newest of these times, by newest_believed(); none if there is no grid.
+    // Returns the newest time by newest_believed(); none if there is no grid.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view domain,
                                                 level2::Moment moment) const;
     // Returns the grid. Errors: not_found; those of GridFile::open().
@@ -81,7 +81,7 @@ class Grids {
     // with 410 instead of 404. The newest 65,536 names are remembered.
     [[nodiscard]] bool was_evicted(std::string_view domain, level2::Moment moment,
                                    UtcTime time) const;
-    // Returns the number of changes: grids that came, changed or went.
+    // Returns the number of changes: grids that came, changed or went, and losses of events.
     [[nodiscard]] std::uint64_t changes() const;
     // Returns the number of changes in a group: a domain and its parts
     // (stormcellar/cache/grid_name.h).

@@ -120,8 +120,8 @@ class GridHalver {
     }
 
   private:
-    // Returns the common state of the source bricks of a halved brick, if they have one. Most
-    // bricks are uniform, and this avoids a look at their cells.
+    // Returns the state that all source bricks of a halved brick have in common; none if they
+    // differ. Most bricks are uniform, so this saves reading their cells.
     [[nodiscard]] std::optional<CellStatus> uniform_above(int bx, int by, int bz) const {
         std::optional<CellStatus> status;
         for (int x = 2 * bx; x < std::min(2 * bx + 2, from_.bricks_x); ++x) {
@@ -159,8 +159,8 @@ class GridHalver {
         writer.put_codes(brick, codes_.data(), extent);
     }
 
-    // Returns the cells of the halved grid over the columns 2 x, 2 x + 1 and 2 y, 2 y + 1 of a
-    // quarter.
+    // Returns the column of the halved grid that covers the columns 2 x, 2 x + 1 and 2 y, 2 y + 1
+    // of a source brick.
     Code* halved_column(int half_x, int half_y, int x, int y) {
         constexpr int half_edge = grid::brick_edge / 2;
         return codes_.data() +
@@ -168,9 +168,8 @@ class GridHalver {
                    grid::brick_edge;
     }
 
-    // Takes the greatest code, because the order of states is the order in which the maximum
-    // prefers them. Beyond the grid's edge, a uniform brick continues and cells of others are not
-    // seen.
+    // Takes the greatest code, because the maximum prefers states in the order of their numbers.
+    // Beyond the grid's edge, a uniform brick continues, and cells of other bricks are not seen.
     void take_greatest(const grid::BrickExtent& extent, int half_x, int half_y) {
         for (int x = 0; 2 * x < extent.x; ++x) {
             for (int y = 0; 2 * y < extent.y; ++y) {
@@ -206,7 +205,7 @@ class GridHalver {
     const grid::BrickView& from_;
     grid::BrickGrid& to_;
     CellHalver cell_;
-    bool by_code_;  // the maximum of codes is that of values
+    bool by_code_;  // the greatest code has the greatest value
     BrickCodes<Code> source_;
     std::array<Code, grid::brick_cells> codes_{};
 };

@@ -75,7 +75,7 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
         ours->result = made;
         if (made) keep(key, *made);
     } catch (const std::bad_alloc&) {
-        // The answer is sent but not kept.
+        // Send the answer without keeping it.
     }
     ours->is_over = true;
     ours->done.notify_all();

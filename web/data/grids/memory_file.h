@@ -21,8 +21,8 @@ inline constexpr std::size_t least_in_memory_file = std::size_t{256} << 10;
 // Writes at the file's position. Returns false if there is no room.
 [[nodiscard]] bool write_all(const Descriptor& file, std::span<const std::byte> bytes);
 
-// Returns the bytes in the form that is sent best: a file if they are many and a file can be made,
-// else the text. Ranges of a file share it; ranges of a text are copies.
+// Returns the bytes in a file if they are many and a file can be made, else the text itself. Ranges
+// of a file share it; ranges of a text are copies.
 [[nodiscard]] Piece in_file(const Text& text);
 
 }  // namespace stormcellar::web

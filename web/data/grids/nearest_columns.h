@@ -18,8 +18,8 @@ class NearestColumns {
     // Finds, for each column of `plane`, the nearest column of grids with the spec `from`.
     NearestColumns(const grid::GridSpec& from, const grid::GridSpec& plane);
 
-    // Returns the grid on the plane. It must have the spec `from`; both specs must have as many
-    // levels.
+    // Returns the grid on the plane. The grid must have the spec that the constructor got as
+    // `from`; that spec and the plane must have equally many levels.
     [[nodiscard]] grid::BrickGrid lay(const grid::BrickView& from) const;
 
   private:

@@ -138,7 +138,7 @@ static_assert(offsetof(PackedBrick, at) == 8);
 
 // The grid to pack, and facts about it for the header.
 struct PackedSource {
-    const cache::GridDescription* description = nullptr;  // its spec may be that of a halved grid
+    const cache::GridDescription* description = nullptr;  // has the spec of `view`
     grid::BrickView view;
     std::uint64_t id = 0;
     std::uint32_t halved = 0, halved_by = 0;

@@ -50,7 +50,7 @@ struct RegionPlan {
     grid::GridSpec spec;
     grid::Quantization quantization;
     std::vector<std::string> sites;     // sites that reach the box, by name
-    std::vector<LeftOutSite> left_out;  // sites that are in the box or reach it
+    std::vector<LeftOutSite> left_out;  // sites in the box or in reach, without fitting grids
     int halvings = 0;                   // of each site's grid
 };
 
@@ -63,8 +63,8 @@ struct RegionPlan {
 [[nodiscard]] Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box,
                                              level2::Moment moment);
 
-// Returns, in ascending order, the instants at which a site has a volume or can be moved to from
-// its volumes.
+// Returns, in ascending order, the instants nearest to the start of a site's volume, and the
+// instants between two volumes that are close enough to move the site.
 [[nodiscard]] std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan);
 
 // The volumes of a site before and after an instant. If one of them is null, the other is used
@@ -72,7 +72,7 @@ struct RegionPlan {
 struct RegionSite {
     std::string site;
     std::shared_ptr<const OpenGrid> before, after;
-    std::string left_out_because;  // set if there is neither
+    std::string left_out_because;  // set if both are null
     // Returns the seconds from the instant to the middle of a volume; negative if it was before.
     [[nodiscard]] static double seconds_to(const OpenGrid& volume, UtcTime instant);
 };

@@ -37,7 +37,7 @@ Mixing mixing_of(const render::Scene& scene) {
     return render::look_of(scene.moment).shows_largest ? Mixing::largest : Mixing::mean;
 }
 
-// Up to four cells that are merged into one.
+// Collects up to four cells that become one.
 struct CellsTogether {
     std::array<float, 4> values{};
     std::size_t count = 0;  // of the values

@@ -1,7 +1,7 @@
 // web/data/pictures/frame_pictures.h -- draws grids of the cache as `stormcellar frame` does.
 //
-// A picture depends only on the grids' bytes and the options: its times are in UTC unless a time
-// zone is asked for, and it does not show the age of the data. `stormcellar frame` with the same
+// A picture depends only on the grids' bytes and the options: its times are in UTC unless the query
+// names a time zone, and it does not show the age of the data. `stormcellar frame` with the same
 // options gives the same bytes.
 //
 // Threads   Many threads may use it. If several want the same picture at once, one draws it. The

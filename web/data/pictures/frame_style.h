@@ -29,10 +29,10 @@ inline constexpr std::int64_t most_frame_samples = most_frame_pixels * 256;  // 
 struct FrameStyle {
     render::SceneOptions options;
     std::vector<render::PanelScene> panels;  // one, or several in one picture
-    bool has_panels = false;                 // the query has "panels", even if only one
+    bool has_panels = false;                 // the query has "panels", even with one name
     const render::StillFormat* format = nullptr;
     render::TiffContent tiff = render::TiffContent::values;
-    std::string key;  // all of it in one text
+    std::string key;  // the whole style as one text
 };
 
 // Reads the query of a picture. The ending of the file's name gives the format. The parameters are

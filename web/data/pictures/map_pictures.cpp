@@ -22,7 +22,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Raise this when the same grid gives another picture than before.
+// Raise this number when the same grid gives another picture than before.
 constexpr int version_of_pictures = 1;
 constexpr double tolerated_octaves = 0.2;
 constexpr std::size_t most_boxes_known = 512;

@@ -48,7 +48,7 @@ struct MapPicture {
     render::PlaneWindow window;
     // The color under the layers; none: transparent.
     std::optional<render::Rgba8> ground;
-    bool is_jpeg = false;  // needs a ground; else PNG
+    bool is_jpeg = false;  // JPEG, which needs a ground; else PNG
 
     [[nodiscard]] std::string key() const;
     [[nodiscard]] std::string etag() const;  // with its quotes
@@ -100,8 +100,8 @@ class MapPictures {
 [[nodiscard]] int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,
                                std::size_t levels);
 
-// Reads "latest" or an instant as the time of a grid of this layer. Errors: not_found if there is
-// none; bad_argument for a text that is not a time.
+// Reads "latest" or an instant as a time. Errors: not_found for "latest" if there is no grid;
+// bad_argument for a text that is not a time.
 [[nodiscard]] Result<UtcTime> time_of_grid(const Grids& grids, std::string_view domain,
                                            level2::Moment moment, std::string_view text);
 

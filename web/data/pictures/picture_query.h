@@ -5,8 +5,8 @@
 // (threads) are not parameters, and colors are given by name only, so a query never names a file.
 //
 // Threads   Pure functions.
-// Errors    bad_argument, naming the parameter, for one that is unknown, is given twice, has more
-//           than 256 bytes or has a value that makes no sense.
+// Errors    bad_argument, naming the parameter, if it is unknown, is given twice, has more than 256
+//           bytes or has a value that makes no sense.
 #pragma once
 
 #include <span>
@@ -27,7 +27,7 @@ struct PictureQuery {
 using TakesOption = bool (*)(const render::PictureOption&);
 // Returns true for every option of a picture.
 [[nodiscard]] bool is_of_frames(const render::PictureOption& option);
-// Returns true for options that apply to a bare map: not its product, size, theme and labels.
+// Returns true for options that apply to a bare map: all but product, size, theme and labels.
 [[nodiscard]] bool is_of_bare_maps(const render::PictureOption& option);
 
 // Reads the options that `takes` allows. The door itself reads `others`.

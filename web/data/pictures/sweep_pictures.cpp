@@ -48,7 +48,7 @@ Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::st
 
 }  // namespace
 
-// The state of a growing file on this machine is part of the key.
+// For a growing file, the key has the file's state on this machine.
 std::string SweepPicture::key() const {
     const std::string state = catalog::has_final_hash(volume)
                                   ? std::string{}

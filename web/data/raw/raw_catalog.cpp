@@ -26,14 +26,14 @@ using catalog::FileState;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kept_open_for{2}, floor_holds_for{30};
-// The times in a dropped file's name and of its volume's start differ by seconds; some names have
-// no seconds.
+// The time in a dropped file's name differs from the volume's start by seconds; some names have no
+// seconds.
 constexpr std::chrono::minutes own_name_differs{2};
 // Rows read in addition to those wanted, because a file may have come several times.
 constexpr std::size_t more_rows = 200;
 constexpr std::size_t most_rows_of_a_name = 500;
 
-// Members of archives are not served, and thousands may be between two files that are.
+// Skip members of archives: they are not served, and thousands may be between two served files.
 const catalog::Stretch of_served{.with_members = false};
 
 // Returns true if `a` is the better file of the same name.
@@ -154,8 +154,8 @@ Result<std::vector<CatalogEntry>> CatalogRawFiles::rows_of(const CatalogReader& 
     }
     auto rows = catalog.list_stretch(station, stretch);
     if (rows && rows->size() == stretch.most) {
-        // The limit may have cut off further files of the last name; the next list returns that
-        // name.
+        // The limit may have cut off further files of the last name, so leave the name to the next
+        // list.
         const std::string last = format_compact(*rows->back().volume.start_time);
         const auto first_of_last = std::ranges::find_if(*rows, [&](const CatalogEntry& row) {
             return format_compact(*row.volume.start_time) == last;
@@ -204,7 +204,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find_by_own_name(const Cata
             if (!row) return row;
             if (!*row || (*row)->state == FileState::rejected) continue;
             if ((*row)->state != FileState::gone) return row;
-            gone = std::move(*row);  // the file may be elsewhere now
+            gone = std::move(*row);  // a file of this name may exist elsewhere
         }
     }
     const auto time = time_in_file_name(name);
@@ -245,8 +245,8 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
     if (found) return found;
     auto own = find_by_own_name(catalog, station, name);
     if (!own || !*own || (*own)->volume.start_time) return own;
-    // The row found by path has no volume: its file was not cataloged as a volume. Members of
-    // archives are not served.
+    // The file was found by its path and not cataloged as a volume. Members of archives are not
+    // served.
     if (!member_names_in((*own)->path).empty()) return std::optional<CatalogEntry>{};
     return own;
 }

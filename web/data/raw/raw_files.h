@@ -1,18 +1,19 @@
 // web/data/raw/raw_files.h -- lists and opens the raw volumes that can be served, by station and
 // time.
 //
-// Names are those of the public bucket, STATION, start and version, as in KTLX20220317_000842_V06,
-// whatever the name of the dropped file (web/data/raw/raw_name.h). open() also finds a volume by
-// the name of its file. A volume that came as chunks is served as one file: all chunks, in the
-// order of their numbers. If several files have one name, the order of preference is: one that
-// exists, that was decoded, that is complete, that was sent last.
+// Volumes have the names of the public bucket, STATION, start and version, as in
+// KTLX20220317_000842_V06, whatever the name of the dropped file (web/data/raw/raw_name.h). open()
+// also finds a volume by the name of its file. A volume that came as chunks is served as one file:
+// all chunks, in the order of their numbers. Of several files with one name, open() prefers a file
+// that exists, then one that was decoded, then a complete one, then the one that was sent last.
 //
 // Volumes inside tar and zip archives are left out, because reading one means unpacking everything
 // before it.
 //
 // A file is served only if it is still the cataloged one: it is opened beneath the drop directory
-// without following a link, and its size and hash must be those of its row. The hash is computed
-// once for each state of a file; the kernel's ctime shows when the file changes.
+// without following a link, and its size and hash must be those of its row. A growing file has no
+// hash yet; it must not be shorter than its row says. The hash is computed once for each state of a
+// file; the kernel's ctime shows when the file changes.
 //
 // Threads   Many threads may use one object.
 // Errors    Those of CatalogReader; open() reports missing volumes as RawFailure.
@@ -53,19 +54,21 @@ struct RawVolume {
     std::string station;
     std::string name;
     UtcTime start{};
-    bool grows = false;        // more will come; size and tag are the present ones
+    bool grows = false;        // more will come; size and tag are as of now
     bool is_complete = false;  // decoded, and nothing is missing
     // The following are set by open(), and by list() if RawRange::with_sizes is set.
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
+    // list() leaves the tag of a growing file empty.
     std::string
         tag;  // an ETag with its quotes; it has a '-', so that no client takes it for an MD5
 };
 
 // Returns the name of a volume, whose start must be known.
 [[nodiscard]] std::string name_of_entry(const catalog::CatalogEntry& entry);
-// Returns the name under which a volume is served, which is the name of its file if the volume is
-// found by it. None if its file is gone or is a member of an archive.
+// Returns a name under which the volume is served: its file's name if open() finds the volume by
+// that name, else name_of_entry(). None if the start is unknown, or if the file is gone or a member
+// of an archive.
 [[nodiscard]] std::optional<std::string> given_name(const catalog::CatalogEntry& entry);
 
 struct RawRange {
@@ -121,16 +124,16 @@ class RawFiles {
                                                               const RawRange& range) = 0;
     // Opens a volume. It may compute the hash of a file.
     [[nodiscard]] virtual OpenedOrMissing open(std::string_view station, std::string_view name) = 0;
-    // Returns a volume that was opened in the last two seconds and has not changed since. Takes
-    // microseconds.
+    // Returns a volume that was opened in the last two seconds and has not changed since; never a
+    // growing volume or joined chunks. Takes microseconds.
     [[nodiscard]] virtual std::optional<OpenedVolume> open_kept(std::string_view station,
                                                                 std::string_view name) = 0;
 
-    // Returns the volume whose start is nearest to `time`; none if it is farther away than the
-    // limit.
+    // Returns the volume whose start is nearest to `time`; none if it is farther away than
+    // `within`.
     [[nodiscard]] Result<std::optional<RawVolume>> nearest(std::string_view station, UtcTime time,
                                                            std::chrono::milliseconds within);
-    // Returns the newest volume, but no volume from the future.
+    // Returns the newest volume that is not from the future.
     [[nodiscard]] Result<std::optional<RawVolume>> latest(std::string_view station);
 };
 

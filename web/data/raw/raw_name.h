@@ -22,8 +22,8 @@ namespace stormcellar::web {
 // the name does not begin so.
 [[nodiscard]] std::optional<UtcTime> time_of_raw_name(std::string_view station,
                                                       std::string_view name);
-// Returns true for the name of a volume without an ending, as grids have it. Such a name identifies
-// the volume whatever the name of its file (level2::volume_name()).
+// Returns true for a name of STATION and start without an ending, as grids name volumes. Such a
+// name identifies the volume whatever the name of its file (level2::volume_name()).
 [[nodiscard]] bool is_volume_name(std::string_view station, std::string_view name);
 // Returns the first date and time in any name, as in Level2_KTLX_20220317_0008.ar2v.
 [[nodiscard]] std::optional<UtcTime> time_in_file_name(std::string_view name);

@@ -206,7 +206,7 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
         const auto read = catalog::read_cataloged(catalog, chunk);
         if (!read && grows && size_bytes > 0) break;  // serve what came before this chunk
         if (!read) return missing(read.error());
-        // The row does not cover what was written to the chunk since.
+        // Stop at a chunk that has grown since its row was written.
         if (grows && read->bytes.size() != chunk.size_bytes && size_bytes > 0) break;
         const auto once = level2::chunk_once(read->bytes);
         size_bytes += once.size();
@@ -242,8 +242,8 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
     auto joined = join(catalog, *chunks, grows);
     const bool is_as_listed = joined && joined->size_bytes == facts.size_bytes;
     if (joined && (is_as_listed || !grows)) keep_joined(key, *joined);
-    // The file held a chunk twice, but the joined volume has it once. Remember the smaller size for
-    // lists.
+    // A file held a chunk twice, but the joined volume has the chunk once. Remember the smaller
+    // size for lists.
     if (joined && !is_as_listed && !grows) {
         remember_facts(entry, {joined->size_bytes, joined->modified, joined->tag});
     }

@@ -32,7 +32,8 @@ struct OpenedRaw {
 };
 using OpenedRawOrMissing = tl::expected<OpenedRaw, RawFailure>;
 
-// A volume's size, age and tag from its rows, without opening a file.
+// A volume's size, time and tag from its rows, without opening a file. A growing file has no tag;
+// the chunks of a growing volume have one.
 struct RawFacts {
     std::uint64_t size_bytes = 0;
     UtcTime modified{};

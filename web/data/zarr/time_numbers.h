@@ -8,8 +8,8 @@
 //
 // With a directory, DIRECTORY/DOMAIN/MOMENT.times holds the numbers: the 16 bytes "stormcellar
 // time", then the times in the order of their numbers (int64, little-endian, milliseconds since
-// 1970 UTC), then XXH3-64 of all before it. It appears whole or not at all. Each grid adds 8 bytes.
-// Without a directory the numbers live as long as this object.
+// 1970 UTC), then the XXH3-64 of all bytes before it. The file appears by rename. Each grid adds 8
+// bytes. Without a directory the numbers live as long as this object.
 //
 // Threads   Many threads may use it.
 // Errors    io and permission if the numbers cannot be read; busy if they cannot be kept and none
@@ -49,8 +49,8 @@ class TimeNumbers {
     // times that have numbers. `domain` must be the name of a domain of the cache.
     [[nodiscard]] Result<std::shared_ptr<const std::vector<UtcTime>>> update(
         std::string_view domain, level2::Moment moment, std::span<const UtcTime> present);
-    // Returns the time of a number; none if the number was not given, or before the first update().
-    // Takes microseconds.
+    // Returns the time of a number; none if the number was not given, or before the first update()
+    // of this domain and moment. Takes microseconds.
     [[nodiscard]] std::optional<UtcTime> time_of(std::string_view domain, level2::Moment moment,
                                                  std::size_t number) const;
     // Returns why the last numbers could not be kept; none if they were kept.

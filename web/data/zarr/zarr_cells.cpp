@@ -45,7 +45,7 @@ Stretch within_brick(int brick, const Stretch& cells) {
             std::min((brick + 1) * brick_edge, cells.end)};
 }
 
-// Calls `brick(entry, x, y, z)` with the cells of each brick that are in the chunk.
+// Calls `brick(entry, x, y, z)` for each brick with the ranges of its cells that are in the chunk.
 template <class Brick>
 void for_each_brick(const grid::BrickView& view, const ChunkCells& cells, const Brick& brick) {
     for (int bx = cells.x.first / brick_edge; bx * brick_edge < cells.x.end; ++bx) {

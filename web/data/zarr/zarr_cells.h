@@ -7,7 +7,7 @@
 // Units     Those of the moment.
 // Threads   Pure functions.
 // Errors    None. The chunk must be one of the grid's.
-// Accuracy  The values are those of grid::to_dense(), to the bit.
+// Accuracy  The values equal those of grid::to_dense() bit by bit.
 #pragma once
 
 #include <cstdint>
@@ -36,9 +36,9 @@ struct ChunkPlace {
 // Returns int8 numbers of the cells' states.
 [[nodiscard]] std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place);
 
-// The coordinate that position_chunk() returns, as `chunk_side` rows and columns of float64:
-// degrees of the middle of each column of cells, as in grid files (export/grid_coordinates.h). NaN
-// beyond the grid.
+// Selects what position_chunk() returns: the latitude or the longitude of the middle of each column
+// of cells, in degrees, as in grid files (export/grid_coordinates.h). A chunk has `chunk_side` rows
+// and columns of float64; NaN beyond the grid.
 enum class Position { latitude, longitude };
 [[nodiscard]] std::string position_chunk(const grid::GridSpec& spec, Position which,
                                          const ChunkPlace& place);

@@ -36,7 +36,7 @@ struct ZarrArray {
     std::vector<std::size_t> shape, chunk;  // as many as dimensions
     ZarrJson fill;
     ZarrJson attributes = ZarrJson::object();
-    // Further attributes in version 2; xarray cannot write netCDF files with such an attribute.
+    // Further attributes in version 2; xarray could not write them to netCDF files.
     ZarrJson version2_attributes = ZarrJson::object();
 
     // Returns the number of chunks along a dimension.

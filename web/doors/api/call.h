@@ -1,6 +1,6 @@
 // web/doors/api/call.h -- one request to the JSON API, and the code that its operations share.
 //
-// Threads   Many threads may use one ApiState; a call belongs to one.
+// Threads   Many threads may use one ApiState; each call belongs to one thread.
 // Errors    The functions that read a parameter return bad_argument with its name.
 #pragma once
 
@@ -41,8 +41,8 @@ struct ApiSources {
     // The same catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
-    std::shared_ptr<const EventFeed> feed = nullptr;  // null: nobody watches for silent stations
-    bool gives_volumes = true;                        // whether raw files are served, too
+    std::shared_ptr<const EventFeed> feed = nullptr;  // null: no station counts as silent
+    bool gives_volumes = true;                        // raw files are served, too
 };
 
 class ApiState {
@@ -54,12 +54,13 @@ class ApiState {
     // not_found if none is served; those of CatalogReader::open().
     [[nodiscard]] Result<ServedCatalog::Reader> catalog() { return catalog_.get(); }
 
-    // A few halved grids are kept, the most recently used ones.
+    // The state keeps the most recently used halved grids.
     using Halved = std::shared_ptr<const grid::BrickGrid>;
     [[nodiscard]] Halved find_halved(const std::string& key);
     void keep_halved(const std::string& key, const Halved& halved);
 
-    // The last decoded volume is kept, since its sweeps are requested one after another.
+    // The state keeps the last decoded volume, because clients request its sweeps one after
+    // another.
     using DecodedVolume = std::shared_ptr<const level2::Volume>;
     [[nodiscard]] DecodedVolume find_volume(const std::string& key);
     void keep_volume(const std::string& key, DecodedVolume volume);
@@ -85,9 +86,10 @@ struct ApiCall {
     [[nodiscard]] std::string path_value(std::string_view name) const;
 };
 
-// Compresses an answer to be kept. Its ETag is that of the bytes before compression.
+// Compresses an answer to be kept. Its ETag is made of a hash of the uncompressed bytes and the
+// coding.
 [[nodiscard]] Result<Kept> kept_compressed(std::string_view bytes, Coding coding);
-// The answer with kept bytes in the coding that its notes name.
+// Returns the entity of kept bytes, whose notes name their coding.
 [[nodiscard]] Entity entity_of(const Kept& kept, std::string content_type);
 
 // A value, or the answer that says what went wrong.
@@ -100,7 +102,8 @@ using Answered = tl::expected<T, Answer>;
     return tl::unexpected<Answer>(json_error(error));
 }
 
-// These read parameters. A number must be finite and within its limits.
+// Each reads a parameter. If it is absent, the result is none or `usual`. A number must be finite
+// and within its limits.
 [[nodiscard]] Result<std::optional<double>> number_parameter(const ApiCall& call,
                                                              std::string_view name, double least,
                                                              double most);
@@ -113,7 +116,8 @@ using Answered = tl::expected<T, Answer>;
 // Reads west, south, east and north, which are all required. If the box crosses the antimeridian,
 // west is greater than east, or one of them is beyond 180 degrees.
 [[nodiscard]] Result<RegionBox> box_parameters(const ApiCall& call);
-// Reads from, to and limit, which is 1 to 10,000, by default 100: the newest so many.
+// Reads `from`, `to` and `limit`, the largest number of newest entries: 1 to 10,000, by default
+// 100.
 struct ListedRange {
     std::optional<UtcTime> from, to;
     std::size_t limit = 0;
@@ -121,12 +125,13 @@ struct ListedRange {
 [[nodiscard]] Result<ListedRange> range_parameters(const ApiCall& call);
 // Reads "35.3,-97.3": latitude and longitude in degrees. The parameter is required.
 [[nodiscard]] Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view name);
-// Reads "3-17"; both ends are inclusive.
+// Reads "3-17" or "3"; both ends are inclusive.
 [[nodiscard]] Result<std::pair<std::size_t, std::size_t>> range_of_text(std::string_view name,
                                                                         std::string_view text);
 
 // Finds the grid that {domain}, {moment} and {time} of the path name; {time} may be "latest". The
-// error answer is 404, 410 if the grid was evicted, or says why it cannot be read.
+// error answer is 400 for another time, 404, 410 if the grid was evicted, or says why it cannot be
+// read.
 struct NamedGrid {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
@@ -134,20 +139,21 @@ struct NamedGrid {
 };
 [[nodiscard]] Answered<NamedGrid> named_grid(const ApiCall& call);
 [[nodiscard]] Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call);
-// Finds the region that {region} and {moment} of the path name. The error answer is 400 or 404.
+// Finds the region that {region} and {moment} of the path name. The error answer is 400, 404, or
+// says why a grid cannot be read.
 struct AskedRegion {
-    std::string name;  // the text of its box in the request
+    std::string name;  // the box as text, as in the request
     RegionPlan plan;
 };
 [[nodiscard]] Answered<AskedRegion> asked_region(const ApiCall& call);
 // Answers a request for a grid that is not there.
 [[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
 
-// Answers with JSON. Clients ask again each time and get 304 if it has not changed.
+// Answers with JSON. Clients must ask again each time and get 304 if the JSON has not changed.
 [[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
-// Returned by an operation that must be quick and cannot be; it is never sent.
+// Returns the answer of an operation that must be quick and cannot be. It is never sent.
 [[nodiscard]] Answer takes_long();
-// Returns a path below the API's own, for links.
+// Returns the path of a grid in the API, for links.
 [[nodiscard]] std::string grid_path(const NamedGrid& grid);
 
 }  // namespace stormcellar::web

@@ -48,7 +48,7 @@ ApiJson head_of(const OpenGrid& grid) {
             {"step", grid.file.view().quantization.step}};
 }
 
-// Returns points of the shortest way, with its first and its last point.
+// Returns points of the shortest way, including both ends, and its length.
 std::vector<grid::GeoPoint> points_along(grid::GeoPoint from, grid::GeoPoint to, std::size_t count,
                                          double& length_m) {
     const grid::SiteFrame frame(from.latitude_deg, from.longitude_deg);

@@ -6,7 +6,7 @@
 namespace stormcellar::web {
 namespace {
 
-// A grid takes 5 bytes a cell in memory while its netCDF is made, and the netCDF as much again.
+// While a netCDF file is made, the grid takes 5 bytes a cell in memory, and the file takes as much.
 constexpr std::size_t most_netcdf_cells = std::size_t{1} << 24;
 
 std::string file_name_of(const OpenGrid& grid, std::string_view extension) {

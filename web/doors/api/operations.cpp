@@ -300,8 +300,8 @@ Answer api_index(const ApiCall& call) {
     return json_answer(call.request, {{"operations", list}});
 }
 
-// Answers where no events are served; otherwise their own door answers this path
-// (web/doors/events/events.h).
+// Answers if no events are served. Otherwise the door of web/doors/events/events.h answers this
+// path.
 Answer api_no_events(const ApiCall& /*call*/) {
     return json_error(404, "this server serves no events");
 }

@@ -30,12 +30,13 @@ struct ApiOperation {
     std::string_view content_type;
     std::span<const unsigned> errors;
     Answer (*answer)(const ApiCall& call);
-    // Returns the answer if it is in memory, in microseconds; null for operations that keep none.
+    // Returns the answer within microseconds if it is in memory. Null for operations that keep no
+    // answers.
     std::optional<Answer> (*answer_at_once)(const ApiCall& call) = nullptr;
 };
 
 [[nodiscard]] std::span<const ApiOperation> api_operations();
-// Describes the segment for a name in braces; empty if the name is unknown.
+// Describes the path segment of a name in braces; empty if the name is unknown.
 [[nodiscard]] std::string_view api_path_parameter(std::string_view name);
 // Returns the OpenAPI 3.1 document.
 [[nodiscard]] ApiJson openapi_document(std::string_view base);

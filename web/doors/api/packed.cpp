@@ -34,7 +34,7 @@ struct PackedRequest {
     std::optional<std::string> id;
     Coding coding = Coding::identity;
 
-    // Returns a key for this answer among all answers of the same grid.
+    // Returns a key that distinguishes this answer from all others of the same grid.
     [[nodiscard]] std::string text() const {
         const std::string cut = window
                                     ? fmt::format("-w{}-{}-{}-{}", window->first_x, window->last_x,
@@ -222,7 +222,7 @@ Answer packed_answer(const Request& request, const Kept& kept,
     return answer_with(request, std::move(entity));
 }
 
-// Bytes named by an id never change; bytes named by a time have the age of a picture.
+// Bytes requested by id never change; bytes requested by time may be used as long as a picture.
 std::optional<std::chrono::seconds> max_age_of_packed(const ApiCall& call,
                                                       const PackedRequest& wanted,
                                                       const OpenGrid& grid) {

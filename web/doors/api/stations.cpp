@@ -60,7 +60,7 @@ std::set<std::string> station_names(const ApiCall& call, const Catalog& catalog,
     return names;
 }
 
-// Returns, for each silent station, for how many seconds nothing has come.
+// Returns for each silent station the seconds since something came.
 std::map<std::string, double> silences_s(const ApiCall& call, UtcTime now) {
     std::map<std::string, double> silences;
     const auto& feed = call.state.sources().feed;

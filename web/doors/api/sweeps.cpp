@@ -23,11 +23,11 @@ constexpr std::uint64_t most_volume_bytes = std::uint64_t{256} << 20;
 struct FoundVolume {
     std::shared_ptr<const catalog::CatalogReader> catalog;
     catalog::CatalogEntry entry;
-    std::string key;  // key of this volume; changes when its file does
+    std::string key;  // changes when the volume's file changes
 };
 
-// Finds the last volume that starts at the time: a volume that was sent again replaces the others.
-// A volume whose file is gone is used only if all are gone.
+// Finds the last volume in the catalog that starts at the time, because a volume that was sent
+// again replaces the others. A volume whose file is gone is used only if all files are gone.
 Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     const auto icao = icao_of(call.path_value("station"));
     if (!icao) return refuse(json_error(404, "there is no such station"));
@@ -67,7 +67,7 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     return FoundVolume{std::move(*catalog), std::move(*found), std::move(key)};
 }
 
-// Decodes the volume that starts when the row says; a file may hold several volumes.
+// Decodes the volume with the row's start, because a file may hold several volumes.
 Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
     auto raw = pipeline::read_cataloged_volume(*found.catalog, found.entry);
     if (!raw) return pass_on(raw);

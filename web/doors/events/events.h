@@ -4,9 +4,9 @@
 //   /api/v1/events?station=&domain=&moment=&kind=&last_event_id=
 //
 // A client hears of the stations and domains that it names, or of all if it names none, limited to
-// the moments and kinds that it names. A slow client holds at most one block of the server's and
-// the kernel's buffer of its socket. If an event leaves the ring of the newest events before the
-// client has read it, the event is lost and the client gets a reset.
+// the moments and kinds that it names. A slow client takes at most one block of the server's memory
+// and the kernel's buffer of its socket. If an event leaves the ring of the newest events before
+// the client has read it, the event is lost and the client gets a reset.
 //
 // Threads   As Door.
 // Errors    400 for a parameter that makes no sense, 404 below the path, 503 if too many streams

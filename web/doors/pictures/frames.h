@@ -4,7 +4,8 @@
 //   /frames/DOMAIN.png?time=...    a picture; the ending gives its format
 //
 // "time" is the instant of a grid or a later one; the newest grid at or before it is drawn. Without
-// "time", or with "latest", the newest grid is drawn. A ppi is drawn from the raw volume of the
+// "time", or with "latest", the newest grid is drawn. If panels show several moments, all are drawn
+// at the newest instant at which every moment has a grid. A ppi is drawn from the raw volume of the
 // newest grid of any moment.
 //
 // Threads   Many threads may use it.
@@ -27,13 +28,14 @@ class FramesDoor final : public Door {
     FramesDoor(std::shared_ptr<Grids> grids, std::shared_ptr<FramePictures> pictures,
                std::shared_ptr<SweepPictures> sweeps)
         : grids_(std::move(grids)), pictures_(std::move(pictures)), sweeps_(std::move(sweeps)) {}
-    // Answers with a kept picture, if its grids are open.
+    // Answers with a kept picture if its grids are open, or with a refusal. Leaves sweeps to
+    // answer().
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
   private:
-    // The picture that a request asks for, and its grids: one of each of these moments at this
-    // instant. A picture of a sweep has one grid, whose raw volume is drawn.
+    // A requested picture. It shows a grid of each moment at `time`. A picture of a sweep has one
+    // moment, and shows the raw volume of that grid.
     struct Asked {
         std::string domain;
         FrameStyle style;
@@ -44,7 +46,8 @@ class FramesDoor final : public Door {
         [[nodiscard]] bool is_of_sweep() const;
     };
     [[nodiscard]] Found<Asked> asked(const Request& request) const;
-    // Finds the moments and the newest instant until this one. Returns false if there is no grid.
+    // Finds the newest instant, `until` at the latest, at which every moment has a grid; for a
+    // sweep, any moment, which is then the only one. Returns false if there is none.
     [[nodiscard]] bool find_grids(Asked& asked, UtcTime until) const;
     [[nodiscard]] Answer of_sweep(const Request& request, Asked asked);
     [[nodiscard]] Answer index(const Request& request) const;

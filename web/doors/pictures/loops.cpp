@@ -85,7 +85,7 @@ Answer LoopsDoor::index(const Request& request) const {
         ordered_json files = ordered_json::array();
         for (const fs::path& file : loop.files) {
             const auto facts = look_beneath({}, file);
-            // If a loop has two files of one format, only the first one is served.
+            // If several files have the same name and format, only the first one is served.
             if (!facts || file_named(name_of_loop(loop, file)) != file) continue;
             const std::string name = name_of_loop(loop, file);
             const std::string url = fmt::format("{}/loops/{}", request.base, encoded(name));

@@ -1,7 +1,7 @@
 // web/doors/pictures/loops.h -- the animations that stormcellard keeps up to date
 // (docs/web/pictures.md).
 //
-//   /loops               the loops, as JSON
+//   /loops               the loops, as JSON or a page of links
 //   /loops/NAME.webp     the newest animation of the loop NAME, in each format that it has
 //
 // stormcellard replaces each file as a whole, so an answer never mixes two animations.

@@ -24,7 +24,7 @@ template <class Value>
 using Found = tl::expected<Value, Answer>;
 
 // Finds the grid for "latest" or for an instant. Refusals: 404, 410 for an evicted grid, 400 for a
-// text that is not a time.
+// text that is not a time, and the answer to an error of reading the grid.
 [[nodiscard]] Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids,
                                                                 std::string_view domain,
                                                                 level2::Moment moment,
@@ -41,7 +41,8 @@ using Found = tl::expected<Value, Answer>;
 
 // Time for which clients may use an answer that depends only on a grid without asking again.
 inline constexpr std::chrono::seconds answer_holds_for{300};
-// Returns none (ask each time) for a grid that was requested as "latest" or that may change.
+// Returns `answer_holds_for`, or none (ask each time) for a grid that was requested as "latest" or
+// that may change.
 [[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time,
                                                              const OpenGrid& grid);
 

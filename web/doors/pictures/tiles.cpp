@@ -44,7 +44,7 @@ std::string query_text(const Fields& query) {
     return text;
 }
 
-// Returns the deepest zoom that shows more detail; there a cell has about eight pixels.
+// Returns the deepest zoom to offer, at which a cell is about eight pixels wide.
 int useful_zoom(const grid::GridSpec& spec) {
     const double cell_m = spec.cell_height_m() / 8;
     const double at_equator_m = 2 * render::mercator_edge_m / 256;

@@ -5,8 +5,8 @@ namespace {
 
 constexpr std::chrono::seconds settled_holds_for{60}, cataloged_again_in{5};
 
-// Makes the entity. If the volume was requested by its own name, it is saved under a name that says
-// how it is packed.
+// Makes the entity. If the requested name is only the beginning of the file's name, clients save
+// the volume under the whole name, whose ending tells how it is packed.
 Entity entity_of(const OpenedVolume& volume, std::string_view asked_for) {
     Entity entity = entity_of(volume);
     const std::string& name = volume.volume.name;

@@ -24,7 +24,8 @@ std::string day_text(sys_days day) {
                        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
-// Returns the first day whose text is not less; none if all are less. Texts ascend with days.
+// Returns the first day whose text is not less than `text`; none if there is none. Texts ascend
+// with days.
 std::optional<sys_days> day_not_less(std::string_view text) {
     sys_days low = earliest_day, high = latest_day + days{1};
     while (low < high) {

@@ -40,8 +40,8 @@ class S3Keys {
     explicit S3Keys(std::shared_ptr<RawFiles> files) : files_(std::move(files)) {}
 
     // Returns objects from the first key that is not less than `from`, with keys less than `end`
-    // (empty: no bound), at most `most` of them. With `most` > 1 they may be fewer although there
-    // are more; only an empty result means that the end is reached.
+    // (empty: no bound), at most `most` of them. With `most` > 1 the result may be shorter although
+    // more objects follow; only an empty result means that the end is reached.
     [[nodiscard]] Result<std::vector<S3Object>> between(std::string_view from, std::string_view end,
                                                         std::size_t most);
 

@@ -29,7 +29,7 @@ struct S3ListOptions {
 struct S3Listing {
     std::vector<S3Object> objects;
     std::vector<std::string> common_prefixes;
-    std::string next;  // the last entry, if there are more
+    std::string next;  // the last entry, if more follow; else empty
 };
 [[nodiscard]] Result<S3Listing> list_s3_objects(S3Keys& keys, const S3ListOptions& options);
 

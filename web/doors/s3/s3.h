@@ -6,7 +6,8 @@
 //                                      ListObjectsV2 (?list-type=2)
 //   /s3/BUCKET/YYYY/MM/DD/STATION/NAME GetObject, HeadObject
 //
-// Keys are those of the public bucket. Signatures are ignored: whoever reaches the server may ask.
+// Objects have the keys of the public bucket. The server ignores signatures, because everybody who
+// reaches it may read.
 // Errors are XML, with the codes of S3. An ETag contains '-', so no client takes it for the MD5 of
 // the object.
 //

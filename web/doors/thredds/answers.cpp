@@ -40,8 +40,8 @@ void write_extent(XmlWriter& xml, std::string_view name, Extent extent, std::str
         .close();
 }
 
-// Returns the longitudes that hold all stations but not the widest gap between them. Across the
-// antimeridian they continue beyond 180.
+// Returns the range of longitudes that holds all stations and leaves out the widest gap between
+// them. Across the antimeridian it continues beyond 180.
 Extent longitudes_of(std::vector<double> stations_deg, double margin_deg) {
     std::ranges::sort(stations_deg);
     double west = stations_deg.front(), east = stations_deg.back();
@@ -59,8 +59,8 @@ Extent longitudes_of(std::vector<double> stations_deg, double margin_deg) {
     return {start < -180 ? start + 360 : start, size};
 }
 
-// Writes the area that the radars see. They reach 460 km; the box has a margin of 5 degrees around
-// their places, in whole degrees.
+// Writes the area that the radars see, in whole degrees. They reach 460 km, so the box has a margin
+// of 5 degrees around their places.
 void write_coverage(XmlWriter& xml, const std::vector<ThreddsStation>& stations) {
     constexpr double margin_deg = 5, top_km = 20;
     double north = -90, south = 90;

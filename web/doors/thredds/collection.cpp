@@ -18,7 +18,7 @@ std::optional<Station> station_of_id(std::string_view id) {
     return std::nullopt;
 }
 
-// The table has two letters for a state of the US, and the name of any other country.
+// The table has two letters for a state of the United States, and the country's name elsewhere.
 void set_state(ThreddsStation& station, std::string_view state) {
     constexpr std::size_t letters_of_state = 2;
     const bool is_state = state.size() == letters_of_state;

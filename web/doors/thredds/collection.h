@@ -62,13 +62,13 @@ class ThreddsCollection {
     // Returns the start of the oldest file; none if there is none. The result may be a minute old.
     [[nodiscard]] virtual Result<std::optional<UtcTime>> oldest() = 0;
 
-    // Returns the nearest file, if it is close enough in time.
+    // Returns the file nearest in time; none if it is farther away than `within`.
     [[nodiscard]] virtual Result<std::optional<ThreddsFile>> nearest(
         ThreddsSeries series, UtcTime time, std::chrono::milliseconds within) = 0;
     // Returns files in ascending order of time.
     [[nodiscard]] virtual Result<std::vector<ThreddsFile>> list(ThreddsSeries series,
                                                                 const RawRange& range) = 0;
-    // Answers with the file that these segments of a path name.
+    // Answers with the file at this path, given as segments.
     [[nodiscard]] virtual Answer file(const Request& request,
                                       std::span<const std::string_view> path) = 0;
     [[nodiscard]] virtual std::optional<Answer> file_at_once(
@@ -94,7 +94,7 @@ class ThreddsCollection {
     const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
     std::shared_ptr<RawFiles> files);
 
-// Make the two kinds; make_collection() chooses.
+// Each makes one kind; make_collection() chooses.
 [[nodiscard]] std::shared_ptr<ThreddsCollection> make_level2_collection(
     const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
     std::shared_ptr<RawFiles> files);

@@ -1,4 +1,4 @@
-// A data set of Level II, made of the raw files.
+// The data set of Level II, whose files are the raw files.
 #include <algorithm>
 
 #include "base/steady_time.h"

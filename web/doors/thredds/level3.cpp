@@ -1,6 +1,5 @@
-// A data set of Level III: files of products in a directory, with names as Unidata's LDM
-// configurations give them, Level3_FTG_N0Q_20150615_1201.nids. The server does not read their
-// contents.
+// A data set of Level III: files of products in a directory. Unidata's LDM configurations name
+// them, as in Level3_FTG_N0Q_20150615_1201.nids. The server does not read their contents.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -76,8 +75,7 @@ class Level3Collection final : public ThreddsCollection {
     Result<std::vector<std::string>> station_ids() override;
 
   private:
-    // Names of files by their times. A query may ask for 10,000 times, so a look must not copy
-    // them.
+    // Names of files by their times. A query may look up 10,000 times, so the map cannot be copied.
     struct Times : std::map<UtcTime, std::string> {
         Times() = default;
         Times(const Times&) = delete;
@@ -191,7 +189,7 @@ Result<std::vector<ThreddsFile>> Level3Collection::list(ThreddsSeries series,
     return files;
 }
 
-// The name must be one that the directory has, so it cannot lead elsewhere.
+// Serves only names that the index of the directory has, so no name can lead elsewhere.
 Answer Level3Collection::file(const Request& request, std::span<const std::string_view> path) {
     const auto product = path.size() == 4 ? product_of(path[3]) : std::nullopt;
     if (!product || product->variable != path[0] || product->station != path[1]) {
@@ -206,7 +204,7 @@ Answer Level3Collection::file(const Request& request, std::span<const std::strin
     const fs::path directory = configured().files;
     const auto opened = open_beneath(directory, directory / known->second);
     if (!opened && opened.error().code == ErrorCode::not_found)
-        return sentence(410, "This file was here, and is deleted.");
+        return sentence(410, "This file has been deleted.");
     if (!opened)
         return with_trouble(come_back(std::chrono::seconds{5}, "This file cannot be read now."),
                             opened.error());

@@ -9,9 +9,9 @@
 
 namespace stormcellar::web {
 
-// Returns the entry of a map by time that is the nearest, the earlier one of two that are as near;
-// the end of an empty map. It takes one search and one step, because one query may look 10,000
-// times.
+// Returns the entry of a map by time that is nearest to `time`. Of two equally near entries,
+// returns the earlier one; of an empty map, the end. Takes one search and one step, because one
+// query may call this 10,000 times.
 template <class Times>
 [[nodiscard]] auto nearest_time(const Times& times, UtcTime time) {
     const auto behind = times.lower_bound(time);

@@ -11,8 +11,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns the values of a parameter, each once. The parameter may be repeated and may hold lists;
-// of a value with a slash only the part before it counts.
+// Returns the values of a parameter, each once. The parameter may be repeated and may hold lists.
+// If a value has a slash, only the part before the slash counts.
 std::vector<std::string> values_of(const Request& request, std::string_view name) {
     std::vector<std::string> values;
     std::unordered_set<std::string> seen;

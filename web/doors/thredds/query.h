@@ -45,7 +45,7 @@ inline constexpr std::size_t most_query_stations = 400, most_query_times = 100;
 
 [[nodiscard]] Result<ThreddsQuery> read_thredds_query(const Request& request, UtcTime now);
 
-// Returns whether the place is in the box.
+// Returns true if the place is in the box.
 [[nodiscard]] bool is_inside(const ThreddsQuery::Box& box, double latitude_deg,
                              double longitude_deg);
 

@@ -16,7 +16,8 @@ Answer xml_answer(const Request& request, std::string text) {
     return text_answer_to(request, "application/xml", std::move(text));
 }
 
-// Answers a query that failed. If the catalog cannot be read, the client made no mistake.
+// Answers a query that failed. If the catalog cannot be read, the status is an error's, because the
+// client made no mistake.
 Answer query_error(const Error& error) {
     if (error.code == ErrorCode::bad_argument)
         return sentence(200, error.message).with("Cache-Control", "no-cache");

@@ -25,7 +25,7 @@ namespace stormcellar::web {
 
 struct ThreddsOptions {
     ThreddsConfig config = WebConfig::usual_thredds();
-    std::size_t most_results = 10'000;  // for one query; beyond: a sentence
+    std::size_t most_results = 10'000;  // for one query; for more, the answer is a sentence
 };
 
 class ThreddsDoor final : public Door {

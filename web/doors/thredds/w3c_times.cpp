@@ -142,7 +142,7 @@ std::optional<UtcTime> time_of_w3c(TimeText text) {
     return std::chrono::sys_days{date} + clock - offset;
 }
 
-// A unit of "14 days", with its length. Months and years are counted as months.
+// A unit as in "14 days". It has a length, except that months and years count as months.
 struct TimeUnit {
     std::string_view name;
     milliseconds length;
@@ -192,8 +192,8 @@ std::optional<W3cDuration> duration_in_words(TimeText text) {
     return std::nullopt;
 }
 
-// Returns the unit of a letter of "P1Y2M3DT4H5M6S", which depends on whether it is before or behind
-// the T.
+// Returns the unit of a letter in "P1Y2M3DT4H5M6S". M is a month before the T and a minute behind
+// it.
 std::optional<TimeUnit> unit_of_letter(char letter, bool behind_t) {
     if (behind_t) {
         if (letter == 'H') return TimeUnit{"H", hours{1}, 0};

@@ -21,7 +21,7 @@ constexpr std::string_view policy =
     "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "
     "frame-ancestors 'none'; form-action 'none'";
 
-// Each file is compressed once for each coding.
+// Returns the file in the coding. Each file is compressed once for each coding.
 std::optional<Text> file_in_coding(const ViewerFile& file, Coding coding) {
     static Mutex mutex;
     static std::map<std::pair<std::string_view, Coding>, Text> kept STORMCELLAR_GUARDED_BY(mutex);

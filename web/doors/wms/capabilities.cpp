@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_mercator_latitude_deg = 85.0511;
 
-// One moment of a domain: where its newest grid is, and the times of its grids.
+// A moment of a domain, with the place of its newest grid and the times of all its grids.
 struct MomentOfDomain {
     level2::Moment moment;
     render::EarthBox box;

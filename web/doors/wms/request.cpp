@@ -124,7 +124,7 @@ WmsRead<render::PlaneWindow> window_of_map(const WmsParameters& parameters, WmsV
     return render::PlaneWindow{system->plane, box[0], box[1], box[2], box[3], *width, *height};
 }
 
-// The options of layers that this one uses, and its style.
+// Returns the options that this layer uses, and its style as the option `colors`.
 Fields options_of_layer(const WmsParameters& parameters, const MapProduct& layer,
                         std::string_view style) {
     Fields options;

@@ -45,7 +45,7 @@ using WmsRead = tl::expected<Value, WmsFault>;
 class WmsParameters {
   public:
     explicit WmsParameters(const Fields& query) : query_(query) {}
-    // Returns the first one of this name; none if there is none or it is empty.
+    // Returns the first parameter of this name; none if it is absent or empty.
     [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const;
     [[nodiscard]] const Fields& all() const { return query_; }
 
@@ -85,7 +85,8 @@ struct WmsMap {
 };
 [[nodiscard]] WmsRead<WmsMap> wms_map(const WmsParameters& parameters, UtcTime now);
 
-// The place of a pixel's center, and the pixel that GetFeatureInfo asks about.
+// A pixel of a picture. wms_pixel() reads the one that GetFeatureInfo asks about; place_of()
+// returns the place of its center.
 struct WmsPixel {
     int column = 0, row = 0;
 };

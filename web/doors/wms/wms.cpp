@@ -43,8 +43,8 @@ WmsFault fault_of(const Error& error) {
     return {"", without_paths(error.message) + ".", status_of(error)};
 }
 
-// The instant of a layer's grid, and the text of the header Warning, which is empty if it is the
-// requested instant.
+// The instant of a layer's grid, and the text of the header Warning. The text is empty if the
+// request named exactly this instant.
 struct ShownTime {
     UtcTime time;
     std::string warning;
@@ -79,7 +79,7 @@ void add_fields(Answer& answer, const Fields& fields) {
         answer.with(name, value);
 }
 
-// Returns "range folded" of range_folded.
+// Returns the name of the status with blanks, such as "range folded".
 std::string word_of(grid::CellStatus status) {
     std::string word(grid::cell_status_name(status));
     std::ranges::replace(word, '_', ' ');

@@ -9,8 +9,8 @@
 //
 // /wms/DOMAIN does the same; its capabilities have only that domain.
 //
-// TIME selects the nearest grid within an hour; the header Warning says which one was used, as the
-// standard requires. Without TIME, the newest grid is used.
+// TIME selects the nearest grid within an hour; without TIME, the newest grid is used. The header
+// Warning names the grid's instant unless TIME is exactly that, as the standard requires.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -36,7 +36,7 @@ class WmsDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    // A picture, and the headers that say which instants it shows.
+    // A picture, and the headers Warning for instants that were not exactly requested.
     struct TimedPicture {
         MapPicture picture;
         Fields warnings;

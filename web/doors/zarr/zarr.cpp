@@ -117,8 +117,8 @@ std::optional<ZarrDoor::Named> ZarrDoor::named(const std::vector<std::string_vie
     return Named{std::string(path[1]), *moment};
 }
 
-// Describes the group anew for each request, from the newest grid. This takes microseconds, and no
-// notification of new grids is needed.
+// Describes the group from the newest grid. This takes microseconds, so each request does it, and
+// new grids need no notification.
 Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
     const auto present = sources_.grids->times(named.domain, named.moment);
     if (present.empty())
@@ -166,8 +166,8 @@ std::optional<std::vector<std::size_t>> ZarrDoor::place_in(
     return place;
 }
 
-// Returns true if the grid has the cells of the newest one. Returns false also if finding out takes
-// longer than microseconds.
+// Returns true if the grid has the same cells as the newest grid. Returns false also if the newest
+// grid is not open, because opening it would take long.
 bool ZarrDoor::has_cells_of_newest(const Named& named, const OpenGrid& grid) const {
     const auto time = sources_.grids->newest(named.domain, named.moment);
     if (!time) return false;
