@@ -35,15 +35,15 @@ TEST(AnswerBudget, OneClientHoldsHalfAtMost) {
     EXPECT_TRUE(budget.take("third", d));
     EXPECT_FALSE(budget.take("fourth", e)) << "all of it is taken";
     EXPECT_TRUE(budget.take("fourth", text_of_kib(10))) << "small answers always pass";
-    // 2026-11-28: 200 slow answers shared six objects; who was ended asked again, and nothing ever
-    // became free.
+    // 2026-11-28: 200 slow answers shared six objects. Clients that were cut off asked again, so no
+    // object was ever released.
     EXPECT_FALSE(budget.take("greedy", b)) << "it holds it already, but others wait for room";
     budget.give_back("greedy", a);
     EXPECT_FALSE(budget.take("greedy", a)) << "the room is for others";
     EXPECT_TRUE(budget.take("fourth", e));
 }
 
-// 2026-11-28: sixteen ranges of 63 KiB were a copy of a megabyte, and counted as nothing.
+// 2026-11-28: sixteen ranges of 63 KiB were a copy of a megabyte, but did not count.
 TEST(AnswerBudget, ManySmallPiecesCountAsOne) {
     AnswerBudget budget(100 << 10);
     Pieces parts;

@@ -1,4 +1,4 @@
-// The list of a volume's sweeps, and which of them pictures show.
+// Tests the lists of volumes and sweeps, and which sweeps are marked for pictures.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -17,7 +17,7 @@
 namespace stormcellar::web {
 namespace {
 
-// The doors of the data server to a catalog.
+// Doors of the data server over a catalog.
 class OpenDoors {
   public:
     explicit OpenDoors(const ServedVolumes& volumes,
@@ -36,7 +36,7 @@ class OpenDoors {
     std::shared_ptr<const Doors> doors_;
 };
 
-// 2026-11-29: the page offered raw files that nobody gave.
+// 2026-11-29: the page offered raw files although the server did not serve them.
 TEST(ApiVolumes, NameNoFileWhereNoneAreGiven) {
     STORMCELLAR_NEED_DATA();
     const ServedVolumes volumes;
@@ -50,8 +50,8 @@ TEST(ApiVolumes, NameNoFileWhereNoneAreGiven) {
     EXPECT_EQ(without.at("name"), "KTLX20170101_030027_V06");
 }
 
-// 2026-11-28: of the split cuts of a volume the page showed the Doppler halves of reflectivity,
-// with range-folded echo and half of the range.
+// 2026-11-28: for split cuts the page showed the reflectivity of the Doppler sweeps, with
+// range-folded echo and half of the range.
 TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     STORMCELLAR_NEED_DATA();
     const ServedVolumes volumes;
@@ -59,8 +59,8 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     const std::string path = "/api/v1/stations/KTLX/volumes/2017-01-01T03:00:27Z/sweeps";
     const Answer answer = doors.get(path);
     ASSERT_EQ(answer.status, 200U) << body_of(answer);
-    // The table of `stormcellar info`: sweeps 0 and 2 are surveillance, 1 and 3 their Doppler
-    // halves.
+    // In the table of `stormcellar info`, sweeps 0 and 2 are surveillance, and 1 and 3 the Doppler
+    // sweeps of the same cuts.
     std::map<std::string, std::vector<int>> chosen;
     const auto list = nlohmann::json::parse(body_of(answer)).at("sweeps");
     for (const auto& sweep : list) {
@@ -74,7 +74,7 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     EXPECT_EQ(chosen["ZDR"], (std::vector<int>{0, 2, 4, 5, 6}));
 }
 
-// 2026-11-28: a volume that comes as chunks was decoded once, and no sweep came to it afterwards.
+// 2026-11-28: a volume that came as chunks was decoded once, so its list never got later sweeps.
 TEST(ApiSweeps, OfAVolumeThatGrowsAreThoseThatHaveCome) {
     STORMCELLAR_NEED_DATA();
     ServedVolumes volumes(false);
@@ -91,8 +91,8 @@ TEST(ApiSweeps, OfAVolumeThatGrowsAreThoseThatHaveCome) {
     EXPECT_EQ(counts.size(), 3U);
 }
 
-// 2026-11-28: a row told of the whole volume before all of its chunks had rows, and what was read
-// then stayed.
+// 2026-11-28: the row of a volume counted all chunks before the last chunk had a row. The sweeps
+// that were read at that moment were kept.
 TEST(ApiSweeps, OfAVolumeWhoseRowIsAheadAreReadAgain) {
     STORMCELLAR_NEED_DATA();
     ServedVolumes whole(false);
@@ -121,7 +121,7 @@ TEST(ApiSweeps, OfAVolumeWhoseRowIsAheadAreReadAgain) {
     EXPECT_EQ(last_sweep().at("radials"), 360);
 }
 
-// 2026-11-28: a station whose database could not be read had no newest volume, and was silent.
+// 2026-11-28: a station whose database could not be read was listed as silent and without a volume.
 TEST(ApiStations, ADatabaseThatCannotBeReadSaysNothing) {
     STORMCELLAR_NEED_DATA();
     const ServedVolumes volumes;
@@ -141,7 +141,7 @@ TEST(ApiStations, ADatabaseThatCannotBeReadSaysNothing) {
     EXPECT_EQ(is_known, (std::map<std::string, bool>{{"KABR", true}, {"KTLX", false}}));
 }
 
-// 2026-11-28: of a volume in two files one was deleted, and the volume was said to be gone.
+// 2026-11-28: if one of two files of a volume was deleted, the volume was reported as gone.
 TEST(ApiSweeps, AFileThatIsLeftIsTaken) {
     STORMCELLAR_NEED_DATA();
     ServedVolumes volumes(false);
@@ -157,8 +157,7 @@ TEST(ApiSweeps, AFileThatIsLeftIsTaken) {
     }
 }
 
-// 2026-11-28: of a file with two volumes, the second one had the gates, and the pictures, of the
-// first.
+// 2026-11-28: if a file had two volumes, the second volume got the gates and pictures of the first.
 TEST(ApiSweeps, EachOfTwoVolumesInAFileHasItsOwnGates) {
     STORMCELLAR_NEED_DATA();
     ServedVolumes volumes(false);

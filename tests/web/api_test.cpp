@@ -1,4 +1,4 @@
-// The API over grids, asked without a server.
+// Tests the API over grids, without a server.
 #include <cstring>
 #include <set>
 #include <string>
@@ -44,7 +44,7 @@ TEST_F(Api, ListsDomainsAndGrids) {
     EXPECT_EQ(of("?domain=KOKX"), Times{});
 }
 
-// 2026-11-28: while a grid was computed for one client, all others were told to come back.
+// 2026-11-28: while a grid was computed for one client, all other clients got 503.
 TEST_F(Api, WhatIsComputedWaitsForItsTurnAndWhatIsKeptDoesNot) {
     const Request netcdf = request_for(std::string(ServedGrids::noon_path) + "/netcdf", {});
     EXPECT_FALSE(served_.door().answer_soon(netcdf));
@@ -177,7 +177,7 @@ TEST_F(Api, DescribesItself) {
     EXPECT_FALSE(index.empty());
 }
 
-// Reads the packed form as docs/web/packed-grid.md says, apart from what wrote it.
+// Reads the packed form by docs/web/packed-grid.md, with no code of the writer.
 class Unpacked {
   public:
     explicit Unpacked(std::string bytes) : bytes_(std::move(bytes)) {
@@ -193,7 +193,7 @@ class Unpacked {
     [[nodiscard]] std::uint32_t u32(std::uint64_t offset) const {
         return number<std::uint32_t>(offset);
     }
-    // The code of a cell with a value; none for other states, which `state` tells.
+    // Returns the code of a cell with a value, else none. Sets `state` to the cell's state.
     [[nodiscard]] std::optional<std::uint16_t> code(int x, int y, int z, int& state) const {
         const std::uint32_t bricks_y = u32(128), bricks_z = u32(132);
         const auto brick = static_cast<std::uint32_t>(x / 16) * bricks_y * bricks_z +
@@ -234,7 +234,7 @@ TEST_F(Api, AGridThatIsLargerThanAskedForComesAsItsTable) {
               body_of(served_.get(path + "?part=table")));
 }
 
-// Puts the codes of values alone back into the cells that have them.
+// Puts the codes of values back into their cells, and compares these with the usual form.
 TEST_F(Api, CodesOfValuesAloneAreThoseOfAllCells) {
     const std::string path = std::string(ServedGrids::small_path) + "/packed";
     const Unpacked whole(body_of(served_.get(path)));
@@ -294,12 +294,12 @@ TEST_F(Api, ThePackedFormHoldsEachCell) {
     EXPECT_GT(values, 100u);
 }
 
-// Compares a window, from a cell of the grid on, with the grid. Returns
-// how many values it has.
+// Compares a window that begins at the given cell with the whole grid. Returns the number of its
+// values.
 int compare_window(const Unpacked& whole, const Unpacked& cut, int first_x, int first_y) {
     EXPECT_EQ(cut.u32(160), 0u) << "it is whole by itself";
     EXPECT_EQ(cut.u32(164), whole.u32(164));
-    // The center is so many columns from the first one.
+    // Returns the center's distance from the first column, in columns.
     const auto center = [](const Unpacked& grid, std::uint64_t offset, unsigned cells) {
         return 0.5 * (cells - 1) - grid.number<double>(offset);
     };
@@ -363,8 +363,8 @@ TEST_F(Api, JsonIsCompressedAsTheClientTakesIt) {
     EXPECT_EQ(served_.get(path, {{"If-None-Match", header_of(plain, "ETag")}}).status, 304u);
 }
 
-// 2026-11-28: a reverse proxy could keep nothing of a grid, though tiles of the same time were
-// kept.
+// 2026-11-28: a reverse proxy could not keep any data of a grid, though it kept tiles of the same
+// time.
 TEST_F(Api, AGridOfANamedTimeMayBeKept) {
     for (const char* what : {"/packed", "/netcdf", "/file"}) {
         const Answer named = served_.get(std::string(ServedGrids::noon_path) + what);
@@ -391,7 +391,7 @@ TEST_F(Api, AGridThatMayChangeMustBeAskedForEachTime) {
     }
 }
 
-// 2026-11-28: a box across the antimeridian was refused, so that maps ended there.
+// 2026-11-28: a box across the antimeridian was refused, so maps ended there.
 TEST_F(Api, AMapGoesOnAcrossTheAntimeridian) {
     const std::string rest = "&south=50&north=70&detail=2";
     const auto map = [&](const std::string& sides) {
@@ -423,7 +423,7 @@ TEST_F(Api, AMapGoesOnAcrossTheAntimeridian) {
     EXPECT_EQ(served_.get("/api/v1/map?west=-180&east=181" + rest).status, 400u);
 }
 
-// 2026-11-28: linters of OpenAPI missed these in each operation.
+// 2026-11-28: linters of OpenAPI complained that each operation lacked these fields.
 TEST_F(Api, TheDocumentHasWhatLintersAskFor) {
     const auto document = json_of(served_.get("/api/v1/openapi.json"));
     EXPECT_EQ(document.at("security"), nlohmann::json::array());

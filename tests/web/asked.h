@@ -8,12 +8,12 @@
 
 namespace stormcellar::web {
 
-// A request for a path with a query, as the server would pass it on.
+// Returns a request for a path with a query, as the server would pass it on.
 [[nodiscard]] Request request_for(std::string_view target, Fields headers = {});
 // Asks as the server does: answer_at_once(), and answer() if that gives none.
 [[nodiscard]] Answer asked(Door& door, std::string_view target, Fields headers = {});
 [[nodiscard]] std::string body_of(const Answer& answer);
-// The first header of this name; empty if there is none.
+// Returns the first header of this name; empty if there is none.
 [[nodiscard]] std::string header_of(const Answer& answer, std::string_view name);
 
 }  // namespace stormcellar::web

@@ -1,4 +1,4 @@
-// The watch of the cache when it cannot tell what it saw.
+// Tests the watch of the cache when its listener throws or a directory cannot be read.
 #include "web/data/grids/cache_watch.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
         try {
             watch->catch_up();
         } catch (const std::bad_alloc&) {
-            // It was this thread that met it.
+            // This thread called the listener that threw.
         }
         return has_told(CacheEvent::everything);
     }));
@@ -59,8 +59,8 @@ TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
     EXPECT_TRUE(has_told(CacheEvent::went)) << "it goes on";
 }
 
-// 2026-11-29: nothing was told of a grid that was there when a client listed it and gone before its
-// first event was read. Changes are read by catch_up() here, as a busy thread of the watch would.
+// 2026-11-29: a grid that was removed before the watch read its first event was never reported as
+// gone. The test reads both events at once, as a busy watch does.
 TEST(CacheWatch, AGridThatCameAndWentUnreadIsToldAsGone) {
     const testing::TemporaryDirectory directory;
     auto store = *cache::StoreWriter::open(real_file_system(), directory / "cache", false);
@@ -81,8 +81,8 @@ TEST(CacheWatch, AGridThatCameAndWentUnreadIsToldAsGone) {
     EXPECT_EQ(told, (std::vector{CacheEvent::came, CacheEvent::went}));
 }
 
-// 2026-11-28: grids that could not be looked at for a while were said to be evicted. A link that
-// leads to itself stands for whatever refuses a look.
+// 2026-11-28: grids that could not be read for a while were reported as evicted. Here a link that
+// leads to itself makes a directory unreadable.
 TEST(CacheWatch, WhatCannotBeLookedAtIsNotGone) {
     const testing::TemporaryDirectory directory;
     std::filesystem::create_directory(directory / "a");

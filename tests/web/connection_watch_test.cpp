@@ -10,12 +10,12 @@
 namespace stormcellar::web {
 namespace {
 
-// The watch takes the address of a connection for its name and does not look into it.
+// Returns a pointer that names a connection. The watch never dereferences it.
 MHD_Connection* made_connection(std::uintptr_t number) {
     return reinterpret_cast<MHD_Connection*>(number);
 }
 
-// 2026-11-28: one machine has 2^64 addresses of IPv6, and so had as many shares of the connections.
+// 2026-11-28: a machine has 2^64 IPv6 addresses, and each of them got a share of the connections.
 TEST(ConnectionWatch, AnIpv6NetworkOf64BitsIsOneClient) {
     ServerLimits limits;
     limits.most_connections_of_address = 2;
@@ -40,8 +40,8 @@ int most_unsent(int socket) {
     return bytes;
 }
 
-// 2026-11-28: the kernel held megabytes for each of a thousand slow readers; with little for each
-// client a volume took twice the processor time.
+// 2026-11-28: the kernel held megabytes for each of a thousand slow readers. With a small limit for
+// every connection, a volume takes twice the processor time.
 TEST(ConnectionWatch, TheKernelHoldsLittleOfManyBodies) {
     const Descriptor first{::socket(AF_INET, SOCK_STREAM, 0)};
     const Descriptor last{::socket(AF_INET, SOCK_STREAM, 0)};

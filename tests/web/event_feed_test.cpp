@@ -1,4 +1,4 @@
-// The feed over real volumes that come chunk by chunk: what a client of the hub hears.
+// Tests what a client of the hub hears while real volumes come chunk by chunk.
 #include "web/data/events/event_feed.h"
 
 #include <gtest/gtest.h>
@@ -16,11 +16,11 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Listens, and keeps what came after the event that a test waited for.
+// Reads a listener event by event, and keeps later events for the next call.
 class Ear {
   public:
     explicit Ear(std::shared_ptr<EventHub::Listener> listener) : listener_(std::move(listener)) {}
-    // Reads until an event of this type has come; gives the data of all up to it.
+    // Reads until an event of this type has come. Returns the data of all events up to it.
     std::vector<json> hear_until(std::string_view type) {
         std::vector<json> all;
         const bool has_come = testing::eventually([&] {
@@ -42,7 +42,7 @@ class Ear {
     std::string text_;
 };
 
-// Gives LDM's chunks of a volume of KLOT (2026-03-28), of which living grids are made.
+// Ingests LDM's chunks of a volume of KLOT (2026-03-28) and makes living grids of them.
 class GrowingKlot {
   public:
     GrowingKlot() {
@@ -57,7 +57,7 @@ class GrowingKlot {
         options.living.chunk_grace = 0s;
         ingestor_.emplace(catalog_, store_, options);
     }
-    // The chunks from `first` to before `last`.
+    // Takes the chunks [first, last).
     void take(std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < std::min(last, chunks_.size()); ++i) {
             const fs::path path = directory_ / "drop/KLOT" / chunks_[i].filename();
@@ -117,7 +117,7 @@ TEST(EventFeed, FollowsAVolumeFromItsFirstSweepToItsEnd) {
     EXPECT_EQ(json(format_utc(*feed->stations()[0].newest_volume)), begun[0]["volume"]);
 }
 
-// A server without a cache: the catalog tells.
+// If a server has no cache, events come from the catalog.
 TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
     STORMCELLAR_NEED_DATA();
     ServedVolumes served(false);
@@ -151,7 +151,7 @@ TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
     EXPECT_EQ((*silent)["station"], "KTLX");
 }
 
-// 2026-11-28: a page that was opened after a radar fell silent did not learn that it was.
+// 2026-11-28: a page that was opened after a radar fell silent did not learn of the silence.
 TEST(EventFeed, TheListOfStationsSaysWhoIsSilent) {
     STORMCELLAR_NEED_DATA();
     for (const bool is_silent : {false, true}) {

@@ -1,4 +1,4 @@
-// The hub: order, resumption, what slow clients lose, and who is woken.
+// Tests the hub's order and resumption of events, the losses of slow clients, and wake-ups.
 #include "web/data/events/event_hub.h"
 
 #include <thread>
@@ -26,7 +26,7 @@ std::string read_all(EventHub::Listener& listener, std::size_t most = 4096) {
     return all;
 }
 
-// The numbers in the id lines, "reset" for a reset.
+// Returns the number of each id line, or "reset" for a reset.
 std::vector<std::string> ids_in(const std::string& text) {
     std::vector<std::string> ids;
     std::string id;

@@ -1,4 +1,4 @@
-// Events as text, and which a client hears.
+// Tests events as text, and filters.
 #include "web/data/events/event.h"
 
 #include <gtest/gtest.h>

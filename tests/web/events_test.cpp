@@ -1,4 +1,4 @@
-// The events door, asked over sockets.
+// Tests the door of events over sockets.
 #include "web/doors/events/events.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class EventsOverHttp : public ::testing::Test {
         const std::string url = running_->addresses().at(0);
         port_ = std::stoi(url.substr(url.rfind(':') + 1));
     }
-    // Sends the request and reads to the end of the opening.
+    // Connects and sends the request.
     std::unique_ptr<RawClient> listener(const std::string& query = "",
                                         const std::string& headers = "",
                                         const std::string& from = {}) {
@@ -150,8 +150,8 @@ TEST_F(EventsOverHttp, AClientThatReadsNothingHoldsNoEvents) {
         hub_->publish(event);
         (void)quick->read_until("id: abc-" + std::to_string(i) + "\n");
     }
-    // 12 MB went by, 16 events are kept; the kernel holds some for the slow one, who then hears
-    // that others were lost.
+    // 12 MB of events were published, and the hub keeps 16. The slow client reads the events that
+    // the kernel holds, and then that others were lost.
     const std::string heard = slow->read_until("event: reset");
     EXPECT_NE(heard.find("event: reset"), std::string::npos);
     EXPECT_GE(hub_->resets(), 1u);

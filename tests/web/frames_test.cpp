@@ -1,4 +1,5 @@
-// Frames of a real volume: the same bytes as the library draws, formats, panels, and refusals.
+// Tests frames of a real volume: they have the bytes that the library draws, in each format and
+// with panels. Tests refusals, too.
 #include "web/doors/pictures/frames.h"
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// Halved grids against the rule, cell by cell.
+// Compares halved grids with the rule, cell by cell.
 #include "web/data/grids/halved_grid.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using grid::CellStatus;
 
-// Cells of every state in patches, so that there are bricks of each kind; odd sizes.
+// Returns a grid of odd sizes with patches of every state, so that it has bricks of each kind.
 grid::Grid patched_grid() {
     grid::Grid made;
     made.spec.nx = 53;
@@ -44,7 +44,7 @@ struct Cell {
     float value = 0;
 };
 
-// The maximum as the header says it.
+// Returns the maximum of the four cells that a halved cell covers, by the rule in the header.
 Cell greatest_of(const grid::BrickView& view, int x, int y, int z, bool by_magnitude) {
     Cell made;
     bool has_no_echo = false, has_folded = false;

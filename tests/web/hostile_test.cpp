@@ -1,6 +1,6 @@
-// The whole data server, with every part on, asked by clients that mean harm or are broken
-// (docs/web.md). STORMCELLAR_WEB_CLIENTS and STORMCELLAR_WEB_REQUESTS make it longer (scripts/test
-// --web).
+// Tests the whole data server, with every part on, against hostile and broken clients
+// (docs/web.md). STORMCELLAR_WEB_CLIENTS and STORMCELLAR_WEB_REQUESTS set the numbers of clients
+// and requests (scripts/test --web).
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
@@ -29,8 +29,8 @@ std::size_t count_from_environment(const char* name, std::size_t usual) {
     return text ? static_cast<std::size_t>(std::strtoull(text, nullptr, 10)) : usual;
 }
 
-// An address of the loopback's for each client. One has 28,000 ports, each of which rests for a
-// minute after a connection.
+// Returns a loopback address for each client, because an address has 28,000 ports, and a port
+// cannot be used again within a minute.
 std::string address_of(std::size_t client) {
     return "127.0." + std::to_string(1 + client / 200) + "." + std::to_string(1 + client % 200);
 }
@@ -75,7 +75,7 @@ class HostileClients : public ::testing::Test {
     int port_ = 0;
 };
 
-// All from one address would be refused by its own limit: they come from many.
+// Clients come from many addresses, because an address has a limit of its own.
 TEST_F(HostileClients, IdleConnectionsBeyondTheLimitAreRefused) {
     const std::size_t clients = count_from_environment("STORMCELLAR_WEB_CLIENTS", 300);
     rlimit files{};
@@ -94,7 +94,7 @@ TEST_F(HostileClients, IdleConnectionsBeyondTheLimitAreRefused) {
     }
     EXPECT_LE(service_->facts().connections, clients / 8);
     EXPECT_LE(resident_mib() - before_mib, 64 + 0.06 * static_cast<double>(clients));
-    // The server ends idle connections, so that an honest client finds a place in time.
+    // The server ends idle connections, so an honest client gets a connection in time.
     EXPECT_TRUE(testing::eventually([&] { return status_at(grid_path) == 200; }));
     for (const auto& client : idle)
         ASSERT_TRUE(!client->is_connected() || client->is_closed(10s));
@@ -162,7 +162,7 @@ TEST_F(HostileClients, NoIdThatDoesNotExistIsAnswered) {
     EXPECT_EQ(status_at(grid_path), 200);
 }
 
-// Sends what a fuzzer of the sockets would: requests that are cut, changed and joined.
+// Sends requests that are cut, changed and joined at random, as a fuzzer would.
 TEST_F(HostileClients, ChangedRequestsDoNotHurt) {
     start();
     const std::size_t requests = count_from_environment("STORMCELLAR_WEB_REQUESTS", 300);

@@ -1,5 +1,4 @@
-// The index page as the server sends it. tests/viewer/index_page.spec.mjs checks what its script
-// makes of it.
+// Tests the index page as the server sends it. tests/viewer/index_page.spec.mjs checks its script.
 #include "web/doors/index/index.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +14,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Every tag that is opened is closed in its order, and attributes have quotes; gives what is wrong.
+// Checks that tags are closed in order and that attributes have quotes. Returns the first error, or
+// an empty text.
 std::string trouble_in_html(const std::string& html) {
     std::vector<std::string> open;
     for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
@@ -70,7 +70,7 @@ TEST(IndexPage, OffersOnlyWhatIsServed) {
         const auto address = door == "/view" ? HasSubstr("/storms/view/\"")
                                              : HasSubstr("://radar.example.org/storms" + door);
         EXPECT_THAT(page_of({door}), address);
-        if (door == "/api/v1") continue;  // its address begins that of the events
+        if (door == "/api/v1") continue;  // the address of the events begins with it
         EXPECT_THAT(page_of(others), Not(address));
     }
     EXPECT_THAT(page_of({"/zarr"}), Not(HasSubstr("NAME"))) << "lists are made from the API";

@@ -82,7 +82,7 @@ TEST(MemoryFile, HoldsManyBytesAndNoFewOnes) {
     EXPECT_EQ(*std::get<Text>(small), bytes.substr(0, 1000));
 }
 
-// 2026-11-28: ranges of a kept netCDF file were copies of it, one for each client.
+// 2026-11-28: each client that took a range of a kept netCDF file held a copy of the range.
 TEST(KeptAnswers, KeepWhatIsLargeInAFileThatRangesShare) {
     KeptAnswers kept(8'000'000);
     const auto large = kept.find_or_make("a", [] { return Result<Kept>(kept_bytes(1'000'000)); });
@@ -97,7 +97,7 @@ TEST(KeptAnswers, KeepWhatIsLargeInAFileThatRangesShare) {
     EXPECT_EQ(slice->memory_bytes, 1'000'000u);
 }
 
-// 2026-11-28: who waited for a value whose making threw waited for good.
+// 2026-11-28: if making a value threw, the threads that waited for the value waited forever.
 TEST(KeptAnswers, AnExceptionIsAnErrorAndTheNextOneMakesIt) {
     KeptAnswers kept(1'000'000);
     const auto thrown = kept.find_or_make("a", []() -> Result<Kept> { throw std::bad_alloc(); });

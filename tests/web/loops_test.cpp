@@ -1,4 +1,4 @@
-// The animations of a configuration: which files they are, and how they are given out.
+// Tests which animations a configuration has, and how the server sends them.
 #include "web/doors/pictures/loops.h"
 
 #include <filesystem>
@@ -65,7 +65,7 @@ TEST_F(Loops, AreGivenOutWithTagsAndRanges) {
     EXPECT_EQ(body_of(part), "and");
     const std::string etag = header_of(whole, "ETag");
     EXPECT_EQ(asked(loops, "/loops/oklahoma.webp", {{"If-None-Match", etag}}).status, 304u);
-    // stormcellar replaces a loop by renaming the next one.
+    // stormcellar replaces an animation by renaming a new file.
     write("next", "RIFF and else");
     fs::rename(directory_ / "next", directory_ / "made/ok.webp");
     const Answer next = asked(loops, "/loops/oklahoma.webp", {{"If-None-Match", etag}});

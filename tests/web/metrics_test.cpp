@@ -1,4 +1,4 @@
-// Tests what is counted, and /metrics of a whole server, read as strictly as Prometheus may.
+// Tests the counters, and /metrics of a whole server with a reader as strict as Prometheus.
 #include <limits>
 #include <regex>
 
@@ -155,7 +155,7 @@ TEST_F(Metrics, GoOnAfterAReload) {
     EXPECT_EQ(status_in(RawClient::get(port_, "/metrics")), 404);
 }
 
-// docs/web/metrics.md names each of them, and no others.
+// docs/web/metrics.md must name each metric of the server, and no others.
 TEST_F(Metrics, StandInTheManual) {
     const auto bytes = read_file(testing::source_directory() / "docs/web/metrics.md");
     ASSERT_TRUE(bytes);

@@ -1,5 +1,5 @@
 // tests/web/pictured_storm.h -- a real volume in a catalog and a cache (Oklahoma, 3 May 1999), and
-// what pictures of it should be, worked out apart from what draws them.
+// the colors that its pictures should have, computed without the code that draws.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace stormcellar::web {
 
-// The pixels of a PNG, read by libpng's own reader; an empty image if it is none.
+// Returns the pixels of a PNG, read by libpng's own reader; an empty image if the bytes are no PNG.
 [[nodiscard]] render::Image decoded_png(const std::string& bytes);
 
 // The domain KTLX with grids of REF and VEL, 2 km apart; the catalog names the file.
@@ -41,15 +41,15 @@ class PicturedStorm {
     std::shared_ptr<Grids> grids_;
 };
 
-// Tests on it are skipped where there are no real volumes. All of them share one storm, because to
-// make it takes longer than most of them: no test may change its files.
+// A test on the storm; skipped if there are no real volumes. All tests share one storm, because
+// making it takes longer than most tests. No test may change its files.
 class PictureTest : public ::testing::Test {
   protected:
     void SetUp() override;
     std::shared_ptr<const PicturedStorm> storm_;
 };
 
-// A test that asks a door to maps of the storm.
+// A test of a door that serves maps of the storm.
 template <class AnyDoor>
 class MapDoorTest : public DoorTest<AnyDoor, PictureTest> {
   protected:
@@ -62,7 +62,7 @@ class MapDoorTest : public DoorTest<AnyDoor, PictureTest> {
     using PictureTest::storm_;
 };
 
-// The color that the column maximum of the grid has at a place, by the grid's own cells one by one.
+// Returns the color of the column maximum at a place, from the cells of the column one by one.
 [[nodiscard]] render::Rgba8 composite_color_at(const OpenGrid& grid, const render::Scene& scene,
                                                grid::GeoPoint place);
 

@@ -1,4 +1,5 @@
-// Asks for what GR2Analyst, GRLevel2 and others poll (docs/web/raw.md), in the way that they do.
+// Requests the files that GR2Analyst, GRLevel2 and others poll (docs/web/raw.md), as these programs
+// do.
 #include "web/doors/raw/polling.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ TEST_F(Polling, AListHasSizesAndNamesTheNewestLastAndEachIsThere) {
         EXPECT_EQ(answer.status, 200U) << name;
         EXPECT_EQ(body_of(answer).size(), std::stoul(list.substr(list.find(name) - 7)));
     }
-    // A program that has the beginning asks for the rest.
+    // A program that has the beginning of a volume requests the rest.
     const Answer rest = get("/nexrd2/KTLX/KTLX20170101_030027_V06", {{"Range", "bytes=488000-"}});
     EXPECT_EQ(rest.status, 206U);
     EXPECT_EQ(body_of(rest).size(), 81U);
@@ -42,7 +43,7 @@ TEST_F(Polling, AListIsBoundedAndKeepsTheNewest) {
     EXPECT_EQ(body_of(asked(door, "/nexrd2/KTLX/dir.list")), "488081 KTLX20170101_030027_V06\n");
 }
 
-// The size in the list is the one that is served: a program that polls fetches what was added.
+// The list and the volume have the same size, because a program that polls fetches the added bytes.
 TEST_F(Polling, AVolumeThatGrowsIsListedAtItsSizeOfNow) {
     ServedVolumes served(false);
     served.take_chunks(3);

@@ -1,4 +1,4 @@
-// A box over several sites: its plan, its cells, and what the API answers.
+// Tests a box over several sites: its plan, its cells, and the answers of the API.
 #include "web/data/grids/region.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ using Json = nlohmann::json;
 constexpr int side = 160;  // columns of 2 km
 constexpr float value_of_kbgm = 20, value_of_kccx = 40;
 
-// One value everywhere within 150 km of the site, no echo beyond.
+// Returns a grid with one value within 150 km of the site, and no echo beyond.
 grid::Grid grid_at(const char* icao, const grid::GeoPoint& place, float value, UtcTime time) {
     grid::Grid made;
     made.spec.center_latitude_deg = place.latitude_deg;
@@ -107,7 +107,7 @@ TEST_F(Region, HasTheSitesThatReachIt) {
     EXPECT_EQ(made.halvings, 0);
     EXPECT_EQ(made.spec.spacing_m, 2000);
     EXPECT_EQ(made.spec.levels_m, (std::vector<double>{1000, 2000, 3000}));
-    // The corners of the box lie in the grid, and hardly more does.
+    // The grid covers the corners of the box, and little more.
     const grid::GridProjection plane(made.spec);
     for (const double latitude : {both.south_deg, both.north_deg}) {
         for (const double longitude : {both.west_deg, both.east_deg}) {
@@ -125,7 +125,7 @@ TEST_F(Region, CellsAreThoseOfTheSitesAndMixBetweenThem) {
     const grid::BrickView view = frame->mosaic.cells.view();
     EXPECT_EQ(value_at(view, 42.2, -75.9), value_of_kbgm);
     EXPECT_EQ(value_at(view, 40.9, -78.1), value_of_kccx);
-    // Where both see echo, by the weights of their distances.
+    // If both sites see echo, the cell is a mean with weights by distance.
     const float between = value_at(view, 41.56, -77.0);
     EXPECT_GT(between, value_of_kbgm + 5);
     EXPECT_LT(between, value_of_kccx - 5);
@@ -145,8 +145,8 @@ TEST_F(Region, TakesVolumesNearTheInstantAlone) {
     EXPECT_EQ(late.error().code, ErrorCode::not_found);
 }
 
-// Echo that drifts by 20 m/s, in two volumes with middles at 12:02 and 12:08: at 12:05 it is
-// halfway, and the nearer volume alone would show it 3.6 km aside.
+// An echo drifts by 20 m/s in two volumes with middles at 12:02 and 12:08. At 12:05 it is halfway;
+// one volume alone would show it 3.6 km aside.
 TEST_F(Region, EchoIsMovedToTheInstant) {
     const std::vector<grid::Blob> blobs = {
         {-60, -40, 25, 55, 20, 5}, {30, 50, 20, 50, 20, 5}, {60, -50, 30, 45, 20, 5}};
@@ -193,7 +193,7 @@ TEST_F(Region, EchoIsMovedToTheInstant) {
     EXPECT_EQ(RegionSite::seconds_to(*sites->front().after, instant), 180);
 }
 
-// The plan goes by the newest grids; an older one had fewer levels.
+// The plan has the levels of the newest grids; an older grid has fewer levels.
 TEST_F(Region, LeavesOutAnOlderGridOfOtherLevels) {
     const UtcTime earlier = testing::noon - std::chrono::hours{3};
     grid::Grid low = grid_of("KBGM", value_of_kbgm, earlier);
@@ -219,7 +219,7 @@ TEST_F(Region, LargeOnesAreCoarserAndLargerOnesRefused) {
     EXPECT_EQ(far_too_large.error().code, ErrorCode::bad_argument);
 }
 
-// 2026-11-28: a comma behind the last number was taken, so that links could hide more behind it.
+// 2026-11-28: a comma behind the last number was accepted, so links could have more text behind it.
 TEST_F(Region, ItsNameIsFourNumbersAndNothingElse) {
     EXPECT_TRUE(region_box_of("-80,40,-75,43"));
     for (const char* name : {"-80,40,-75,43,", "-80,40,-75,43,1", "-80,40,-75", "-80,40,-75,", ""})
@@ -244,14 +244,14 @@ TEST_F(Region, TheApiNamesSitesTimesAndPathsAndPacksThem) {
     EXPECT_EQ(header.size, bytes.size());
     EXPECT_EQ(header.nx, ref["nx"]);
     EXPECT_EQ(header.site_count, 2u);
-    // The second answer is the kept one, until a grid of a site changes.
+    // The second answer is the kept first one, until a grid of a site changes.
     EXPECT_EQ(body_of(asked(*door_, path)), bytes);
     commit(grid_of("KBGM", 30, testing::noon));
     grids_->refresh();
     EXPECT_NE(body_of(asked(*door_, path)), bytes);
 }
 
-// 2026-11-28: a volume whose date is wrong was the newest, with an age of minus half a year.
+// 2026-11-28: a volume with a date in the future was the newest, with an age of minus half a year.
 TEST_F(Region, ATimeOfTheFutureIsNotTheNewest) {
     commit(grid_of("KBGM", 30, now_utc() + std::chrono::days{180}));
     grids_->refresh();
@@ -273,7 +273,7 @@ TEST_F(Region, TheApiSaysOfWhichVolumesEachSiteIsMade) {
     json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/soon/sites", 404);
 }
 
-// 2026-11-28: sites that were not in the picture had one reason, whatever the true one was.
+// 2026-11-28: the API gave the same reason for every site that was not in the picture.
 TEST_F(Region, TheApiSaysWhyASiteIsNotInThePicture) {
     grid::Grid low = grid_of("KBGM", value_of_kbgm, testing::noon - std::chrono::hours{3});
     low.spec.levels_m = {1000};
@@ -288,8 +288,7 @@ TEST_F(Region, TheApiSaysWhyASiteIsNotInThePicture) {
                     {"KCCX", "it has no volume within 15 minutes"}}));
 }
 
-// 2026-11-28: a radar that its file places, but no table, was in no region and in no list of
-// places.
+// 2026-11-28: a radar whose place only its file tells was in no region and in no list of places.
 TEST_F(Region, ARadarThatItsFilePlacesIsThere) {
     commit(grid_at("ROP4", {35.24, -97.46}, 40, testing::noon));
     grids_->refresh();
@@ -328,7 +327,7 @@ TEST_F(Region, EachSiteThatIsLeftOutHasAReason) {
     }
 }
 
-// 2026-11-28: a box across the antimeridian was refused unless its east was beyond 180.
+// 2026-11-28: a box across the antimeridian was refused unless its east side was beyond 180.
 TEST_F(Region, MayLieAcrossTheAntimeridian) {
     commit(grid_at("ROP4", {52, 179.9}, 40, testing::noon));
     grids_->refresh();

@@ -1,4 +1,4 @@
-// The whole data server while it takes over another configuration.
+// Tests the whole data server while it reloads its configuration.
 #include <atomic>
 #include <fstream>
 #include <future>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Another program that wants the port; the result is closed again.
+// Tries to take the port as another program would, and closes it again.
 bool takes_port(int port) {
     const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
     const int on = 1;
@@ -48,7 +48,7 @@ class Reload : public ::testing::Test {
         const std::string url = service_->addresses().at(0);
         port_ = std::stoi(url.substr(url.rfind(':', url.size() - 2) + 1));
     }
-    // Has an answer under way that is larger than the client's buffer.
+    // Begins an answer that is larger than the client's buffer.
     static void begin_long_answer(RawClient& client) {
         client.send(
             "GET /api/v1/map?west=-170&south=-60&east=170&north=75&detail=0 HTTP/1.1\r\nHost: "
@@ -63,11 +63,11 @@ class Reload : public ::testing::Test {
     int port_ = 0;
 };
 
-// 2026-11-28: while an answer was under way the port was free for two seconds of a reload, and
+// 2026-11-28: if an answer was under way at a reload, the port was free for two seconds, and
 // another program took it at the first try.
 TEST_F(Reload, NoOtherProgramCanTakeThePort) {
     start();
-    // An answer that is under way holds the old server up.
+    // An answer under way delays the end of the old server.
     RawClient half(port_, 2048);
     begin_long_answer(half);
     std::atomic<bool> is_over = false;
@@ -85,7 +85,8 @@ TEST_F(Reload, NoOtherProgramCanTakeThePort) {
     EXPECT_EQ(status(), 200);
 }
 
-// 2026-11-28: while an answer was computed or taken slowly, a reload held up every other client.
+// 2026-11-28: while an answer was computed or sent slowly, a reload kept every other client
+// waiting.
 TEST_F(Reload, NobodyWaitsForTheOldServersEnd) {
     start();
     RawClient half(port_, 2048);
@@ -108,7 +109,7 @@ TEST_F(Reload, AClientThatHasJustConnectedIsAnswered) {
     start();
     for (int i = 0; i < 10; ++i) {
         RawClient client(port_);
-        // The server knows the connection, and not yet what it wants.
+        // The server has the connection, but no request yet.
         ASSERT_TRUE(testing::eventually([&] { return service_->facts().connections > 0; }));
         auto reloaded = std::async(std::launch::async, [&] { return service_->reload(setup_); });
         client.send("GET /api/v1 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
@@ -133,7 +134,7 @@ TEST_F(Reload, AnAddressThatIsTakenLeavesTheServerAsItWas) {
     EXPECT_EQ(status(), 200);
 }
 
-// 2026-11-28: the old server ended although no end of its own could have helped.
+// 2026-11-28: the old server ended although its end could not help the new one.
 TEST_F(Reload, AnAddressOfAnotherMachineLeavesTheServerAsItWas) {
     start();
     RawClient kept(port_);
@@ -154,8 +155,8 @@ TEST_F(Reload, AServerMayBeOpenedToAllOnTheSamePort) {
     EXPECT_EQ(status(), 200);
 }
 
-// 2026-11-28: a server that could not listen again after a reload stayed deaf for good, with its
-// watchdog fed.
+// 2026-11-28: a server that could not listen again after a reload never tried again, and its
+// watchdog was told that all is well.
 TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
     start();
     setup_.web.listen = {{"127.0.0.1", port_}};
@@ -164,7 +165,7 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
     ::getrlimit(RLIMIT_NOFILE, &before);
     bool was_deaf = false;
     for (int i = 0; i < 200 && !was_deaf; ++i) {
-        // Somebody else takes each descriptor that becomes free.
+        // Take all descriptors, as another thread might.
         const rlimit few{512, before.rlim_max};
         ::setrlimit(RLIMIT_NOFILE, &few);
         std::atomic<bool> is_over = false, has_all = false;
@@ -180,7 +181,7 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
             }
         });
         EXPECT_TRUE(testing::eventually([&] { return has_all.load(); }));
-        // The one address is in the way of the other, so the old server must end first.
+        // The new address conflicts with the old one, so the old server must end first.
         setup_.web.listen = {{i % 2 == 0 ? "0.0.0.0" : "127.0.0.1", port_}};
         const Status done = service_->reload(setup_);
         const std::string why = done ? std::string{} : done.error().message;

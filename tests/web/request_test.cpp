@@ -160,7 +160,8 @@ Reading read_through_proxy(Fields headers) {
     return read_request(raw_get("/", headers), identity_of(options));
 }
 
-// 2026-11-28: a proxy whose address of IPv6 was written with zeros or capitals was trusted in vain.
+// 2026-11-28: a trusted proxy was not recognized if the configuration wrote its IPv6 address with
+// zeros or capitals.
 TEST(ReadRequest, TrustsAProxyHoweverItsAddressIsWritten) {
     ServerOptions options;
     options.trusted_proxies = {"2001:DB8:0:0:0:0:0:1"};
@@ -169,8 +170,9 @@ TEST(ReadRequest, TrustsAProxyHoweverItsAddressIsWritten) {
     EXPECT_EQ(read_request(raw, identity_of(options)).request.client, "192.0.2.7");
 }
 
-// 2026-11-28: behind nginx, which adds X-Forwarded-For and passes Forwarded on, a client took all
-// streams of events as as many clients, and gave the links of answers another host.
+// 2026-11-28: nginx adds X-Forwarded-For and passes Forwarded on. A client that sent Forwarded
+// could pretend to be many clients and take all streams of events, and could change the host in the
+// links of answers.
 TEST(ReadRequest, DoesNotBelieveAClientThatAddsTheOtherKindOfForwardedField) {
     Reading reading = read_through_proxy(
         {{"X-Forwarded-For", "192.0.2.7"}, {"Forwarded", "for=198.51.100.77;host=127.0.0.1"}});

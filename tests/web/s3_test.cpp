@@ -1,5 +1,5 @@
-// The bucket of raw volumes, asked as rclone, awscli and other clients of S3 ask (docs/web/raw.md).
-// scripts/check-s3 has two of these programs ask.
+// Tests the bucket of raw volumes with the requests of rclone, awscli and other clients of S3
+// (docs/web/raw.md). scripts/check-s3 runs two of these programs.
 #include "web/doors/s3/s3.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class S3 : public DoorTest<S3Door> {
         STORMCELLAR_NEED_DATA();
         door_ = std::make_unique<S3Door>(served_volumes().files(), "unidata-nexrad-level2");
     }
-    // Asks for a list with this query, and returns the texts in its elements of this path.
+    // Requests a list with this query, and returns the texts of its elements at this path.
     std::vector<std::string> texts(const std::string& query, const char* path) {
         const Answer answer = get(bucket + query);
         EXPECT_EQ(answer.status, 200U) << query;
@@ -79,7 +79,7 @@ TEST_F(S3, DirectoriesAreCommonPrefixes) {
     EXPECT_EQ(prefixes("?list-type=2&delimiter=/&prefix=20"), (Texts{"2005/", "2017/"}));
 }
 
-// 2026-11-28: an archive of a day hid the files of its station, and the bucket was empty.
+// 2026-11-28: an archive of a day hid the other files of its station, so the bucket was empty.
 TEST_F(S3, MembersOfAnArchiveHideNoFiles) {
     ServedVolumes served;
     for (const std::string station : {"KTLX", "KABC"}) {
@@ -138,7 +138,7 @@ TEST(S3Unreadable, AnErrorOfTheCatalogIsAnAnswer) {
     }
 }
 
-// Page after page, until there is no token: everything comes once.
+// The pages of a list, read until there is no token, have each entry once.
 TEST_F(S3, PagesHaveEverythingOnce) {
     for (const std::string most : {"1", "2"}) {
         for (const auto& [more, entries] :
@@ -180,7 +180,7 @@ TEST_F(S3, AnObjectHasTheBytesOfTheFile) {
     EXPECT_EQ(body_of(part), whole.substr(24, 4));
     EXPECT_EQ(get(object, {{"If-None-Match", tag}}).status, 304U);
     EXPECT_EQ(get(object, {{"If-Match", "\"another\""}}).status, 412U);
-    // Signatures are not looked at.
+    // The server ignores signatures.
     EXPECT_EQ(get(object, {{"Authorization", "AWS4-HMAC-SHA256 Credential=a, Signature=b"}}).status,
               200U);
     EXPECT_EQ(get(object + "?X-Amz-Signature=abc&x-id=GetObject").status, 200U);
@@ -215,8 +215,8 @@ TEST_F(S3, RefusesInTheWordsOfS3) {
         EXPECT_EQ(answer.status, status) << target;
         EXPECT_NE(body_of(answer).find("<Code>" + code + "</Code>"), std::string::npos) << target;
     }
-    // 2026-11-27: while the file was still open from the request before, the body was another
-    // door's.
+    // 2026-11-27: while the file was still open from the previous request, the body of a refusal
+    // did not have the form of S3.
     EXPECT_EQ(get(object).status, 200U);
     const Answer beyond = get(object, {{"Range", "bytes=488081-"}});
     EXPECT_EQ(beyond.status, 416U);

@@ -1,4 +1,4 @@
-// Tests lists of a bucket against a sorted list of all keys, and what they ask the catalog for.
+// Compares lists of a bucket with a sorted list of all keys, and counts the queries to the catalog.
 #include <algorithm>
 #include <set>
 
@@ -9,7 +9,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Volumes without files, which count the lists that were asked for.
+// Volumes without files. Records which lists are requested.
 class CountedVolumes final : public RawFiles {
   public:
     CountedVolumes(std::vector<std::string> stations, const std::vector<UtcTime>& starts)
@@ -74,7 +74,7 @@ std::vector<UtcTime> some_starts() {
             start_at("2024-11-30T12:00:00Z")};
 }
 
-// Looks at every key for what a list must give: keys, and prefixes that end in a delimiter.
+// Returns the keys and common prefixes that a list must have, from a look at every key.
 std::vector<std::string> expected_list(const std::vector<std::string>& keys,
                                        const S3ListOptions& options) {
     std::vector<std::string> entries;
@@ -90,7 +90,7 @@ std::vector<std::string> expected_list(const std::vector<std::string>& keys,
     return entries;
 }
 
-// All pages of a list, one behind the other.
+// Returns the entries of all pages of a list.
 std::vector<std::string> all_pages(S3Keys& keys, S3ListOptions options) {
     std::vector<std::string> entries;
     for (int page = 0; page < 1000; ++page) {
@@ -147,7 +147,7 @@ TEST(S3Walk, EveryPrefixDelimiterAndPageGivesWhatASortGives) {
     }
 }
 
-// 2026-11-27: the list of one station's day went on to the days of other stations.
+// 2026-11-27: the list of one station's day also read the days of other stations.
 TEST(S3Walk, AListOfAStationsDayAsksForNothingElse) {
     std::vector<UtcTime> starts;
     for (int i = 0; i < 3 * 288; ++i)

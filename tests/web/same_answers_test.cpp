@@ -1,5 +1,5 @@
-// Two machines that have the same volume answer with the same entity tags and the same bytes, so
-// that a viewer sees no difference when a proxy sends it from one to the other.
+// Tests that two machines with the same volume answer with the same entity tags and bytes, so a
+// viewer sees no difference when a proxy switches between them.
 #include <gtest/gtest.h>
 
 #include "tests/web/asked.h"

@@ -12,7 +12,8 @@
 
 namespace stormcellar::web {
 
-// The domain KBGM with a grid of REF for 02:44:14.123, and grids of REF for noon and 12:05.
+// Holds the domain KBGM with grids of REF: small() at 02:44:14.123, and two others at noon and
+// 12:05.
 class ServedGrids {
   public:
     ServedGrids() {

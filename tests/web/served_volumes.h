@@ -1,9 +1,8 @@
-// tests/web/served_volumes.h -- a drop directory with real volumes, and a catalog that stormcellard
-// would make of it.
+// tests/web/served_volumes.h -- a drop directory with real volumes, and their catalog, as
+// stormcellard would make it.
 //
-//   KTLX  2017-01-01 03:00:27, 488,081 bytes, and 1991-07-20 16:05:18, gzip
-//   KABR  2005-01-01 00:07:45, gzip
-//   KLOT  2026-03-28 20:14:57, in 55 chunks, as many as the test has given
+// KTLX 2017-01-01 03:00:27, 488,081 bytes, and 1991-07-20 16:05:18, gzip KABR 2005-01-01 00:07:45,
+// gzip KLOT 2026-03-28 20:14:57, the first of 55 chunks; take_chunks() adds them
 #pragma once
 
 #include <algorithm>
@@ -56,7 +55,7 @@ class ServedVolumes {
         EXPECT_TRUE(outcome) << outcome.error().message;
         return outcome ? outcome->result() : pipeline::IngestResult::rejected;
     }
-    // Takes the chunks of KLOT up to this one; returns the bytes of all up to now.
+    // Ingests the chunks of KLOT up to this number. Returns the bytes of all chunks so far.
     std::string take_chunks(std::size_t count) {
         if (chunks_.empty()) {
             for (const auto& entry : std::filesystem::directory_iterator(
@@ -82,13 +81,13 @@ class ServedVolumes {
     std::string joined_;
 };
 
-// One for all tests of a program that change nothing in it.
+// Returns volumes that all tests of a program share. No test may change them.
 inline ServedVolumes& served_volumes() {
     static ServedVolumes served;
     return served;
 }
 
-// A test that asks a door to them.
+// A test of a door to these shared volumes.
 template <class AnyDoor>
 class VolumesDoorTest : public DoorTest<AnyDoor> {
   protected:

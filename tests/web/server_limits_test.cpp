@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// More than the buffers of the two sockets hold.
+// Larger than the buffers of both sockets.
 constexpr std::size_t large_bytes = 64 << 20;
 Text large_text() {
     return text_of(std::string(large_bytes, 'x'));
@@ -30,7 +30,7 @@ TEST_F(WebServer, ConnectionsBeyondTheLimitAreClosedAndTheServerGoesOn) {
     for (int i = 0; i < 200; ++i)
         idle.push_back(std::make_unique<RawClient>(port_));
     EXPECT_TRUE(testing::eventually([&] { return server_->facts().connections <= 16; }));
-    // The idle ones are ended in time, so that others find a place.
+    // The server ends idle connections, so other clients can connect.
     EXPECT_TRUE(testing::eventually([&] { return status_in(get("/")) == 200; }));
     for (const auto& client : idle)
         EXPECT_TRUE(client->is_closed(5s));
@@ -55,7 +55,7 @@ TEST_F(WebServer, HalfARequestIsCutOffInTime) {
     RawClient client(port_);
     client.send("GET / HTTP/1.1\r\nHo");
     const auto began = std::chrono::steady_clock::now();
-    // One byte now and then does not prolong it.
+    // Sending one byte now and then does not extend the time.
     bool is_open = true;
     while (is_open && std::chrono::steady_clock::now() - began < 10s) {
         is_open = client.send("s") && !client.is_closed(200ms);
@@ -74,8 +74,8 @@ TEST_F(WebServer, AClientThatTakesNothingIsCutOff) {
     EXPECT_TRUE(testing::eventually([&] { return server_->facts().connections == 0; }));
 }
 
-// 2026-11-28: 120 clients that took ranges of a kept answer slowly held 120 copies of it, and the
-// server was killed for its memory.
+// 2026-11-28: 120 clients that slowly took ranges of a kept answer held 120 copies, and the system
+// killed the server for its memory.
 TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     constexpr std::size_t large = 8 << 20;
     options_.limits.answer_bytes = 20 << 20;
@@ -101,7 +101,8 @@ TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 200);
     EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 503) << "more than half of it for one client";
     EXPECT_EQ(take_slowly("/own", "127.0.0.3"), 503) << "no room";
-    // 2026-11-28: twelve clients that read nothing of their HEADs held 447 MB that did not count.
+    // 2026-11-28: twelve clients that sent HEAD requests and read nothing held 447 MB that did not
+    // count.
     EXPECT_EQ(take_slowly("/own", "127.0.0.4", "HEAD "), 503) << "the answer to HEAD is held, too";
     EXPECT_EQ(status_in(get("/")), 200) << "small answers pass";
     slow.clear();
@@ -109,8 +110,8 @@ TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     EXPECT_EQ(body_in(get("/own")).size(), large);
 }
 
-// 2026-11-28: slow readers of two addresses held the whole budget for half an hour, and everybody
-// else was told to come back.
+// 2026-11-28: slow readers of two addresses held the whole budget for half an hour, and all other
+// clients got 503.
 TEST_F(WebServer, ASlowBodyGivesWayWhenMemoryIsShort) {
     constexpr std::size_t large = 8 << 20;
     options_.limits.answer_bytes = 10 << 20;

@@ -1,4 +1,4 @@
-// The server, asked over sockets by clients that behave and by clients that do not.
+// Tests the server over sockets, with clients that behave and clients that do not.
 #include <chrono>
 #include <fstream>
 #include <functional>
@@ -88,7 +88,7 @@ TEST_F(WebServer, StopsWhileClientsComeAndGo) {
     }
 }
 
-// The page takes a refusal without this header for that of a proxy whose server is gone.
+// The page assumes that a refusal without this header comes from a proxy whose server is gone.
 TEST_F(WebServer, ARefusalOfItsOwnSaysSo) {
     add("/gone", [](const Request&) { return json_error(404, "no such grid"); });
     add("/there", [](const Request&) { return text_answer(200, "image/png", "a tile"); });

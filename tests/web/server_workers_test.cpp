@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 class WebServerWorkers : public WebServer {
   protected:
-    // Three clients ask, and one of them is served. Returns what they get.
+    // Sends requests of three clients, of which one is being answered. Returns their answers.
     [[nodiscard]] std::vector<std::future<std::string>> asked_three_times(const char* target) {
         std::vector<std::future<std::string>> answers;
         for (int i = 0; i < 3; ++i)
@@ -66,7 +66,8 @@ TEST_F(WebServerWorkers, ADoorWithWorkersOfItsOwnHoldsUpNoOther) {
     EXPECT_EQ(drawn, 2);
 }
 
-// A request that waits is answered if its turn comes soon, and told to come back otherwise.
+// A request that waits while the server stops is answered if its turn comes soon, and gets 503
+// otherwise.
 TEST_F(WebServerWorkers, RequestsThatWaitForADoorsWorkersAreAnsweredWhenItStops) {
     for (const auto busy_for : {20ms, 2500ms}) {
         std::promise<void> released;
@@ -155,7 +156,7 @@ TEST_F(WebServerWorkers, AnAnswerThatThrowsIsA503AndTheServerGoesOn) {
     EXPECT_EQ(trouble, "/var/lib/secret: trouble") << "for the log";
 }
 
-// 2026-11-28: who asked while a grid was computed for another client was told to come back.
+// 2026-11-28: a client got 503 if a grid was being computed for another client.
 TEST_F(WebServerWorkers, WhatTakesLongWaitsForWorkersOfItsOwn) {
     class LongDoor : public Door {
       public:

@@ -1,4 +1,4 @@
-// Tests what the parts of the data server share.
+// Tests that the parts of the data server share one reader of the catalog.
 #include "web/service/sources.h"
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A catalog with one volume of each of so many stations.
+// Makes a catalog with one volume of each of `stations` stations.
 void make_catalog(const fs::path& directory, std::size_t stations) {
     auto writer = catalog::CatalogWriter::open(directory);
     ASSERT_TRUE(writer);
@@ -42,8 +42,8 @@ std::size_t count_open_databases(const fs::path& catalog) {
     return count;
 }
 
-// 2026-11-27: each part had a reader of its own, and that of the API had fewer databases open than
-// there are radars, so that it closed and opened all of them for each list of stations.
+// 2026-11-27: each part had its own reader. The API's reader kept fewer databases open than there
+// are radars, so it closed and opened all of them for each list of stations.
 TEST(WebSources, AllPartsShareOneReaderWithEveryStationsDatabase) {
     constexpr std::size_t stations = 40;
     const testing::TemporaryDirectory directory;

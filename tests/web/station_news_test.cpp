@@ -1,4 +1,4 @@
-// When stations speak, are silent, and begin volumes.
+// Tests when stations count as silent, speak again, and begin volumes.
 #include "web/data/events/station_news.h"
 
 #include <fstream>
@@ -66,7 +66,8 @@ TEST(StationNews, TellsOnceThatAStationIsSilentAndThatItSpeaks) {
     EXPECT_FALSE(book.pages().at(0).is_silent);
 }
 
-// 2026-11-28: for as long as the clock had been ahead, a station was never silent.
+// 2026-11-28: after a clock that was ahead had been set back, no station counted as silent for as
+// long as it had been ahead.
 TEST(StationNews, AClockThatIsSetBackHidesNoSilence) {
     StationNews book(20min);
     book.note("KTLX", std::nullopt, start + 2h, start + 2h);
@@ -84,8 +85,8 @@ TEST(StationNews, WhatWasSilentBeforeTheServerBeganIsNoNews) {
         << "what is an hour old is not speaking";
 }
 
-// 2026-11-28: a station that has grids alone was silent until the first came after a start, and
-// never told as silent if none came.
+// 2026-11-28: a station with grids alone counted as silent from the server's start to its first new
+// grid, and no event reported it if no grid came.
 TEST(StationNews, ANewVolumeSpeaksForAStationOfWhichNothingCameYet) {
     StationNews book(20min);
     book.note("KTLX", start, std::nullopt, start + 5min);

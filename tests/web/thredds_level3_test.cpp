@@ -1,4 +1,4 @@
-// Files of Level III: which one is the nearest, and how long that takes.
+// Tests files of Level III: which file is the nearest, and how many steps the search takes.
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 class ThreddsLevel3 : public ::testing::Test {
   protected:
-    // A file every five minutes but for one hour of each day.
+    // Makes files every five minutes, except for one hour of each day.
     void make_files(int count) {
         for (UtcTime time = first_; static_cast<int>(starts_.size()) < count; time += 5min) {
             if (time.time_since_epoch() % 24h < 1h) continue;
@@ -34,7 +34,7 @@ class ThreddsLevel3 : public ::testing::Test {
         configured.files = directory_.path();
         collection_ = make_level3_collection(configured, {});
     }
-    // The nearest start, found by looking at each.
+    // Returns the nearest start by comparing all.
     [[nodiscard]] std::optional<UtcTime> nearest_of_all(UtcTime time,
                                                         std::chrono::milliseconds within) const {
         std::optional<UtcTime> best;
@@ -97,8 +97,8 @@ TEST_F(ThreddsLevel3, TheNearestFileIsThatOfASearchOfAll) {
     }
 }
 
-// 2026-11-28: each look copied the times of all files and walked to their end. One query makes
-// 10,000 looks, and four queries stopped the server for minutes.
+// 2026-11-28: each search copied the times of all files and walked to their end. One query makes
+// 10,000 searches, and four queries stopped the server for minutes.
 TEST(NearestTime, DoesNotWalkThroughAllTimes) {
     StepCounter::Times times;
     for (int i = 0; i < 5000; ++i)
@@ -110,7 +110,7 @@ TEST(NearestTime, DoesNotWalkThroughAllTimes) {
     }
 }
 
-// 2026-11-28: a file that was there and could not be read was said to be deleted.
+// 2026-11-28: a file that existed but could not be read was reported as deleted.
 TEST_F(ThreddsLevel3, AFileThatCannotBeReadIsNotDeleted) {
     make_files(3);
     const auto status_of_file = [&](UtcTime start) {
@@ -124,7 +124,7 @@ TEST_F(ThreddsLevel3, AFileThatCannotBeReadIsNotDeleted) {
     };
     std::filesystem::remove(path_of(starts_[1]));
     EXPECT_EQ(status_of_file(starts_[1]), 410U);
-    // Root may read everything, so something that is no file stands for one without rights.
+    // Root may read every file, so a directory takes the place of an unreadable file.
     std::filesystem::remove(path_of(starts_[2]));
     std::filesystem::create_directory(path_of(starts_[2]));
     EXPECT_EQ(status_of_file(starts_[2]), 503U);

@@ -30,7 +30,7 @@ TEST(ThreddsQuery, StationsMayBeRepeatedOrListed) {
     EXPECT_FALSE(query->from || query->to || query->near || query->box || query->all_stations);
 }
 
-// 2026-11-28: var=N0Q/0,N0Q/1,... was a hundred variables, each of which was looked for.
+// 2026-11-28: var=N0Q/0,N0Q/1,... counted as a hundred variables, and each of them was searched.
 TEST(ThreddsQuery, AVariableCountsOnceWhateverIsBehindItsSlash) {
     const auto query = query_of("stn=FTG&temporal=all&var=N0Q/0,N0Q/1,N0C&var=N0Q");
     ASSERT_TRUE(query) << query.error().message;

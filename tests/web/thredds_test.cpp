@@ -1,4 +1,4 @@
-// Every request and answer of THREDDS that Siphon and the IDV depend on, over real volumes.
+// Tests every request and answer of THREDDS that Siphon and the IDV depend on, with real volumes.
 #include "web/doors/thredds/thredds.h"
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* level2 = "/thredds/radarServer/nexrad/level2/IDD";
 
-// The text between the first `before` and the next `behind`.
+// Returns the text between the first `before` and the next `behind`.
 std::string text_between(const std::string& text, std::string_view before,
                          std::string_view behind) {
     const std::size_t from = text.find(before);
@@ -105,7 +105,7 @@ TEST_F(Thredds, StationsHaveNoNamespace) {
     }
 }
 
-// 2026-11-28: a radar that its file places, but no table, was in no list of places and in no box.
+// 2026-11-28: a radar whose place only its file tells was in no list of places and in no box.
 TEST_F(Thredds, AStationThatItsFilesPlaceHasAPlace) {
     const auto file = *testing::data_directory() /
                       "cases/files/6-station-not-in-the-table/ROP420240601_220000_V06";
@@ -132,7 +132,7 @@ TEST_F(Thredds, AStationThatItsFilesPlaceHasAPlace) {
     EXPECT_EQ(count_in(query(box), "urlPath"), 0U) << "without a grid nobody knows";
 }
 
-// 2026-11-28: for each station that no table places, all stations were looked for again.
+// 2026-11-28: for each station without a place in the table, all stations were listed again.
 TEST(ThreddsStations, AllPlacesAreAskedForAtOnce) {
     class CountedFiles final : public RawFiles {
       public:
@@ -221,7 +221,7 @@ TEST_F(Thredds, RangesAndPlacesAreHeard) {
             << across;
 }
 
-// The IDV sends "?&stn=" and an end that is "present", and names that are not there are no error.
+// The IDV sends "?&stn=" and the end "present". Unknown names are no error.
 TEST_F(Thredds, TheIdvsQueriesAreAnswered) {
     const std::string all = query("?&stn=KTLX&time_start=1990-01-01T00:00:00&time_end=present");
     EXPECT_NE(all.find("2 datasets found for query"), all.npos);
@@ -329,7 +329,7 @@ TEST_F(Thredds, ADataSetOfLevelIIINeedsAVariableAndHasTheFilesOfItsDirectory) {
     EXPECT_EQ(count_in(body_of(get(level3 + "?stn=FTG&var=N0Q&temporal=all")), "urlPath"), 2U);
 }
 
-// 2026-11-28: stations on both sides of 180 degrees gave a coverage of all longitudes.
+// 2026-11-28: if stations were on both sides of 180 degrees, the coverage had all longitudes.
 TEST_F(Thredds, TheCoverageGoesOnAcrossTheAntimeridian) {
     const auto east_west_of = [&](std::vector<std::string> stations) {
         ThreddsConfig config = WebConfig::usual_thredds();
@@ -373,7 +373,7 @@ TEST_F(Thredds, TheIdvOpensAFileByRanges) {
     EXPECT_TRUE(closed.ends_with("</catalog>\n"));
 }
 
-// Behind a proxy, paths have the prefix under which clients come.
+// Behind a proxy, paths have the prefix under which clients reach the server.
 TEST_F(Thredds, BasesHaveThePrefixOfAProxy) {
     Request request = request_for(level2 + std::string{"?stn=KTLX&temporal=all"});
     request.base = "https://radar.example.org/storms";

@@ -1,4 +1,4 @@
-// Tiles of a real volume: pixel by pixel against the grid's cells, and what is refused.
+// Compares tiles of a real volume with the grid's cells, pixel by pixel. Tests refusals, too.
 #include "web/doors/pictures/tiles.h"
 
 #include <cmath>
@@ -23,15 +23,15 @@ class Tiles : public MapDoorTest<TilesDoor> {
     }
 };
 
-// Where the center of a pixel of the world's picture is, by the textbook.
+// Returns the place of a pixel's center in the picture of the world, by the textbook formula.
 grid::GeoPoint place_of_pixel(double x, double y, int zoom, int side) {
     const double world = side * std::exp2(zoom);
     const double north = std::numbers::pi * (1 - 2 * (y + 0.5) / world);
     return {std::atan(std::sinh(north)) * 180 / std::numbers::pi, (x + 0.5) / world * 360 - 180};
 }
 
-// Places are computed on a mesh, so that a pixel whose center is within a tenth of a pixel of a
-// cell's edge may show the neighbor.
+// Compares pixels with the cells at their places. The server interpolates places on a mesh, so a
+// pixel may show the neighboring cell if its center is within a tenth of a pixel of a cell's edge.
 void expect_pixels(const render::Image& image, const OpenGrid& grid, int zoom, int column,
                    int row) {
     const auto style = map_style({render::Product::composite, grid.moment}, {}, {});

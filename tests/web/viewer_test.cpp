@@ -1,4 +1,4 @@
-// The files of the viewer: what a browser gets, and what it may do with it.
+// Tests the files of the viewer that a browser gets, and the policy for them.
 #include "web/doors/viewer/viewer.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST_F(Viewer, ThePageNamesOnlyFilesThatThereAre) {
         for (auto at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
             const auto from = at + before.size();
             const std::string name = text.substr(from, text.find('"', from) - from);
-            // The page asks early for these, which other doors answer.
+            // The page requests these early; other doors answer them.
             if (name.starts_with("data:") || name.starts_with("../api/")) continue;
             EXPECT_EQ(get("/view/" + name).status, 200u) << name;
             ++count;
@@ -76,8 +76,8 @@ TEST_F(Viewer, FilesAreCompressedAndHaveTags) {
               304u);
 }
 
-// The first picture of scripts/bench-viewer takes at most 350,000 bytes, of which this is what the
-// page itself adds most.
+// The first picture of scripts/bench-viewer takes at most 350,000 bytes, and this file is the
+// largest part that the page itself adds.
 TEST_F(Viewer, TheProgramOfTheFirstPictureIsSmall) {
     const std::string bytes = body_of(get("/view/viewer.js", {{"Accept-Encoding", "gzip, zstd"}}));
     EXPECT_LE(bytes.size(), 84'500u);

@@ -1,4 +1,4 @@
-// Raw volumes by station and name (docs/web/raw.md).
+// Tests raw volumes by station and name (docs/web/raw.md).
 #include "web/doors/raw/volumes.h"
 
 #include <cstdlib>
@@ -55,7 +55,7 @@ TEST_F(Volumes, AStationsVolumesAreListedNewestFirst) {
     EXPECT_EQ(list("/volumes/KTLX/?from=2018-01-01").at("volumes").size(), 0U);
 }
 
-// 2026-11-28: wget -r and rclone found no link in the lists, which were JSON whoever asked.
+// 2026-11-28: wget -r and rclone found no links in the lists, which were always JSON.
 TEST_F(Volumes, ListsArePagesOfLinksWhereAcceptPrefersHtml) {
     const Fields browser{{"Accept", "text/html,*/*;q=0.8"}};
     const Answer stations = get("/volumes/", browser);
@@ -90,7 +90,7 @@ TEST_F(Volumes, BytesAreThoseOfTheFileInRangesToo) {
         EXPECT_NE(body_of(several).find("\r\n\r\n" + piece + "\r\n"), std::string::npos);
 }
 
-// Grids name their volumes so, and a viewer asks for them.
+// Grids name their volumes without an ending, and a viewer requests volumes by these names.
 TEST_F(Volumes, AreFoundByTheNameOfTheVolumeAndSavedUnderOneWithAnEnding) {
     const Answer answer = get("/volumes/KTLX/KTLX20170101_030027");
     EXPECT_EQ(answer.status, 200U);
@@ -123,7 +123,7 @@ TEST_F(Volumes, ADroppedFileIsFoundByItsOwnNameAndGoneWhenItIsDeleted) {
     EXPECT_TRUE(body_of(get("/volumes/KTLX/Level2_KTLX_20170101_0300.ar2v")) ==
                 bytes_of_file(new_name));
     std::filesystem::remove(served.drop() / "Level2_KTLX_20170101_0300.ar2v");
-    // An open file is kept for two seconds; a door of its own has none.
+    // The server keeps an open file for two seconds; a new door has no open file.
     EXPECT_EQ(
         VolumesDoor(RawFiles::open_catalog({.catalog = served.state() / "catalog", .scratch = {}}))
             .answer(request_for("/volumes/KTLX/" + name))
@@ -131,7 +131,7 @@ TEST_F(Volumes, ADroppedFileIsFoundByItsOwnNameAndGoneWhenItIsDeleted) {
         410U);
 }
 
-// 2026-11-29: the page guessed the names, and named files that no request gives.
+// 2026-11-29: the page guessed the names of files, and some of them were not served.
 TEST_F(Volumes, OfEachRowIsSaidUnderWhichNameItIsGiven) {
     ServedVolumes served(false);
     const std::filesystem::path data = *testing::data_directory();
@@ -152,7 +152,7 @@ TEST_F(Volumes, OfEachRowIsSaidUnderWhichNameItIsGiven) {
     EXPECT_EQ(given("KTLX"), "KTLX20170101_030027_V06");
     EXPECT_EQ(given("KLOT"), "KLOT20260328_201457_V06");
     EXPECT_EQ(given("KABR"), "none");
-    // Both volumes of a file are given by that file.
+    // A file with two volumes is served for both.
     const testing::TemporaryDirectory made;
     for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"})
         std::ofstream(made / "two", std::ios::binary | std::ios::app)
@@ -212,8 +212,8 @@ TEST_F(Volumes, JoinedChunksAreKeptWithinBounds) {
     EXPECT_FALSE(is_kept());
 }
 
-// 2026-11-28: without a directory for temporary files, the first client who asked for a volume of
-// chunks ended the server.
+// 2026-11-28: without a directory for temporary files, the first request for a volume of chunks
+// ended the server.
 TEST_F(Volumes, WithoutADirectoryForJoinedChunksTheClientComesBack) {
     ServedVolumes served(false);
     (void)served.take_chunks(1000);
@@ -227,7 +227,7 @@ TEST_F(Volumes, WithoutADirectoryForJoinedChunksTheClientComesBack) {
     EXPECT_EQ(body_of(answer).find("/no/such"), std::string::npos);
 }
 
-// 2026-11-28: the raw file of a volume whose chunks pqact had appended again had twice the size.
+// 2026-11-28: if pqact had appended the chunks of a volume twice, the raw file had twice the size.
 TEST_F(Volumes, AChunkThatItsFileHoldsTwiceIsGivenOnce) {
     ServedVolumes served(false);
     const std::string bytes = served.take_chunks(1000);

@@ -31,7 +31,7 @@ TEST(W3cTimes, TakesEveryPrecisionAndOffset) {
                             {"2015-06-15T24:00", "2015-06-16T00:00:00Z"},
                             {"present", "2026-03-28T20:15:00Z"},
                             {"2015-06-15T12:00+01:00", "2015-06-15T11:00:00Z"},
-                            // A plus of a query that was not encoded is a space.
+                            // An unencoded plus in a query becomes a space.
                             {"2015-06-15T12:00 01:00", "2015-06-15T11:00:00Z"},
                             {"2015-06-15T12:00:00-0530", "2015-06-15T17:30:00Z"}})
         EXPECT_EQ(w3c_text(one.text), one.time) << one.text;

@@ -1,5 +1,5 @@
-// The Web Map Service of a real volume: pictures pixel by pixel against the grid's cells in each
-// coordinate system, what GDAL's driver makes of it, and what is refused.
+// Tests the Web Map Service with a real volume: compares pictures with the grid's cells pixel by
+// pixel in each coordinate system, reads them with GDAL's driver, and tests refusals.
 #include "web/doors/wms/wms.h"
 
 #include <cmath>
@@ -43,8 +43,8 @@ class Wms : public MapDoorTest<WmsDoor> {
 constexpr const char* some_map =
     "LAYERS=KTLX:composite.REF&CRS=CRS:84&BBOX=-99,34,-96,37&WIDTH=150&HEIGHT=150";
 
-// Compares pixels with the cells at their places. Places are computed on a mesh, so that a pixel
-// close to a cell's edge may show the neighbor.
+// Compares pixels with the cells at their places. The server interpolates places on a mesh, so a
+// pixel close to a cell's edge may show the neighboring cell.
 template <class PlaceOf>
 void expect_cells(const render::Image& image, const OpenGrid& grid, const PlaceOf& place_of) {
     const auto style = map_style({render::Product::composite, grid.moment}, {}, {});
@@ -222,7 +222,7 @@ TEST_F(Wms, LegendShowsTheColors) {
               body_of(get(query + "KTLX:composite.REF")));
 }
 
-// JPEG has no transparency: the ground is there whatever TRANSPARENT says.
+// JPEG has no transparency, so pictures have a ground even with TRANSPARENT=TRUE.
 TEST_F(Wms, JpegIsGivenWhereItIsAskedFor) {
     const std::string query =
         "VERSION=1.3.0&REQUEST=GetMap&LAYERS=KTLX:composite.REF&CRS=CRS:84&BBOX=-99,34,-96,37"
@@ -254,7 +254,7 @@ TEST_F(Wms, CapabilitiesNameLayersTimesAndBoxes) {
     EXPECT_THAT(text, HasSubstr("<Name>nws</Name>"));
 }
 
-// 2026-11-28: a volume whose date is wrong was the default, which GetMap did not draw.
+// 2026-11-28: a volume with a date in the future was the default time, but GetMap did not draw it.
 TEST(WmsTimes, ATimeOfTheFutureIsNotTheDefault) {
     ServedGrids served;
     const UtcTime future = now_utc() + std::chrono::days{180};
@@ -269,7 +269,7 @@ TEST(WmsTimes, ATimeOfTheFutureIsNotTheDefault) {
     }
 }
 
-// 2026-11-28: QGIS saw no times, because it does not take them from the layer above a named one.
+// 2026-11-28: QGIS saw no times, because it does not inherit them from the layer above.
 TEST_F(Wms, EachNamedLayerHasItsTimes) {
     const std::string text = body_of(get("SERVICE=WMS&REQUEST=GetCapabilities"));
     std::size_t layers = 0;
@@ -312,7 +312,7 @@ TEST_F(Wms, TheOlderNameOfWebMercatorIsKnown) {
     EXPECT_EQ(body_of(older), body_of(get(rest + "EPSG:3857")));
 }
 
-// 2026-11-28: capabilities of 150 kB were sent as they are, which gzip makes 5 kB.
+// 2026-11-28: capabilities of 150 kB were sent uncompressed; gzip makes 5 kB of them.
 TEST_F(Wms, CapabilitiesAreCompressedForWhoTakesThat) {
     const Answer plain = get("REQUEST=GetCapabilities");
     const Answer gzip = get("REQUEST=GetCapabilities", {{"Accept-Encoding", "gzip"}});
@@ -377,7 +377,7 @@ TEST_F(Wms, RefusesWhatMakesNoSense) {
     }
 }
 
-// GDAL's own driver, against the whole server.
+// Tests the whole server with GDAL's own driver.
 class WmsOfGdal : public PictureTest {
   protected:
     void SetUp() override {

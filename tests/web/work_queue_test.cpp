@@ -12,7 +12,7 @@
 namespace stormcellar::web {
 namespace {
 
-// A queue with one thread, which a client holds until go_on() is called.
+// A queue with one thread, which a client occupies until go_on() is called.
 class SharedQueue : public ::testing::Test {
   protected:
     using Turn = WorkQueue::Turn;
@@ -42,8 +42,8 @@ class SharedQueue : public ::testing::Test {
     WorkQueue queue_{1, 4};
 };
 
-// 2026-11-28: 40 connections of one client that asked for large pictures got all places; a client
-// that asked for a small one was told twelve times of twelve to come back.
+// 2026-11-28: one client requested large pictures on 40 connections and got all places. Another
+// client requested a small picture twelve times and always got 503.
 TEST_F(SharedQueue, AClientThatAsksForLessGetsAPlaceAndTheNextTurn) {
     for (const char* name : {"1", "2", "3", "4"})
         ASSERT_TRUE(ask("greedy", name));
@@ -64,8 +64,8 @@ TEST_F(SharedQueue, ClientsTakeTurns) {
     EXPECT_TRUE(refused_.empty());
 }
 
-// 2026-11-28: among clients of one request at a time the one that sorts first by name always went
-// first, and others waited for as long as these asked.
+// 2026-11-28: among clients with one request at a time, the one whose name sorts first always went
+// first, and others waited for as long as it sent requests.
 TEST_F(SharedQueue, WhoCameFirstGoesFirstWhateverItsName) {
     for (const char* name : {"z", "m", "a"})
         ASSERT_TRUE(ask(name, name));

@@ -1,5 +1,5 @@
-// Grids over time as Zarr arrays: what the documents say, what the chunks hold, and which number a
-// time keeps. scripts/check-zarr reads them with xarray and zarr.
+// Tests grids over time as Zarr arrays: their documents, their chunks, and the numbers of times.
+// scripts/check-zarr reads them with xarray and zarr.
 #include "web/doors/zarr/zarr.h"
 
 #include <cmath>
@@ -39,7 +39,7 @@ class ZarrTest : public ::testing::Test {
   protected:
     Answer get(std::string_view target) { return asked(door_, target); }
     Answer get3(std::string_view target) { return asked(door3_, target); }
-    // The index of the chunk's cell in a chunk of the grid's.
+    // Returns the index of a cell in its chunk, from the cell's position there.
     [[nodiscard]] std::size_t at(int ix, int iy, int iz) const {
         return (static_cast<std::size_t>(iz) * chunk_side + static_cast<std::size_t>(iy)) *
                    chunk_side +
@@ -118,7 +118,7 @@ TEST_F(ZarrTest, VersionThreeSaysTheSame) {
               body_of(get3("/zarr3/KBGM/REF/REF/c/0/0/0/0")));
 }
 
-// A group is one grid's cells over time: here those of the newest. The oldest grid has others.
+// A group has the cells of the newest grid. The oldest grid of this cache has other cells.
 TEST_F(ZarrTest, ChunksHoldTheCellsOfTheGrid) {
     const auto newest = *sources_.grids->newest("KBGM", level2::Moment::ref);
     const auto grid = *sources_.grids->find("KBGM", level2::Moment::ref, newest);
@@ -147,7 +147,7 @@ TEST_F(ZarrTest, ChunksHoldTheCellsOfTheGrid) {
     EXPECT_GT(with_value, 0u);
 }
 
-// Every chunk of a grid with cells of all states, and what lies beyond its edges.
+// Compares every chunk of a grid with cells of all states, including the cells beyond its edges.
 TEST_F(ZarrTest, ChunksOfEveryPlaceHoldTheirCells) {
     const grid::Grid& small = served_.small();
     const auto bricks = grid::BrickGrid::from(small, ServedGrids::quantization());
@@ -217,8 +217,8 @@ TEST_F(ZarrTest, ATimeKeepsItsNumberWhenItsGridIsEvictedAndAfterARestart) {
     EXPECT_EQ(asked(again, "/zarr/KBGM/REF/status/3.0.0.0").status, 200u);
 }
 
-// 2026-11-28: after a change of the configuration, chunks that were kept stood in the array of the
-// new cells, at twice their distance.
+// 2026-11-28: after a change of the configuration, kept chunks of the old cells appeared in the
+// array of the new cells, at twice their distance.
 TEST_F(ZarrTest, KeptChunksOfOtherCellsThanTheNewestAreUnavailable) {
     const char* const chunk = "/zarr/KBGM/REF/status/1.0.0.0";
     ASSERT_EQ(get(chunk).status, 200u);
@@ -250,7 +250,7 @@ TEST_F(ZarrTest, DamagedNumbersAreAnErrorAndNotNewNumbers) {
     EXPECT_NE(answer.trouble.find(path.native()), std::string::npos) << "but the log's";
 }
 
-// Numbers that the next start would not know must not be given.
+// The server must not give numbers that it would not know after the next start.
 TEST_F(ZarrTest, NumbersThatCannotBeKeptAreNotGiven) {
     std::ofstream(state_ / "file") << "not a directory";
     sources_.numbers = std::make_shared<TimeNumbers>(state_ / "file");
@@ -262,8 +262,8 @@ TEST_F(ZarrTest, NumbersThatCannotBeKeptAreNotGiven) {
     EXPECT_FALSE(sources_.numbers->time_of("KBGM", level2::Moment::ref, 0));
 }
 
-// 2026-11-28: on a disk that is full or cannot be written, times that had their numbers were not
-// answered either.
+// 2026-11-28: if the disk was full or read-only, requests for times that already had numbers
+// failed, too.
 TEST_F(ZarrTest, NumbersThatWereGivenAreAnsweredWhileNewOnesCannotBeKept) {
     TimeNumbers numbers(state_.path());
     const std::vector<UtcTime> two = {UtcTime{std::chrono::seconds{1}},
