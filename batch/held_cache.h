@@ -2,7 +2,8 @@
 //
 // A cache is often a mount. If it is mounted or unmounted while a task runs, some of the task's
 // grids are in the directory beneath it. The object holds the directory open, so that an
-// automounter keeps it. It does not notice a mount that goes and comes back within one task.
+// automounter keeps it. The object does not notice if the cache is unmounted and mounted again
+// within one task.
 //
 // Threads   One thread at a time.
 // Errors    io.

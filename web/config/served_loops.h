@@ -1,5 +1,5 @@
-// web/config/served_loops.h -- the animations that stormcellard keeps up to date, as the data
-// server gives them out.
+// web/config/served_loops.h -- the animations that stormcellard keeps up to date and the data
+// server sends.
 //
 // The tables [[loop]] define the loops. stormcellard checks these tables; this reader skips entries
 // that make no sense.

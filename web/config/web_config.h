@@ -1,7 +1,7 @@
 // web/config/web_config.h -- the tables [web] of stormcellard.toml: what the data server serves, to
 // whom, and how much at most. daemon/stormcellard.toml explains every key and holds every default.
 //
-// This is a library of its own (stormcellar::web_config), so that stormcellard can check the tables
+// This is a separate library (stormcellar::web_config), so that stormcellard can check the tables
 // without linking the server.
 //
 // Units     Bytes, seconds.
@@ -59,7 +59,7 @@ struct PublicAddress {
     [[nodiscard]] std::string host() const;  // without the port, and without brackets
     bool operator==(const PublicAddress&) const = default;
 };
-// Reads such an address. Errors: bad_argument.
+// Reads a public address. Errors: bad_argument.
 [[nodiscard]] Result<PublicAddress> parse_public_address(std::string_view text);
 
 // Returns true if the text may be the name of a host: letters, digits, "-" and "." as in DNS, or a

@@ -27,7 +27,7 @@ class Door {
     }
     // Makes the answer, however long that takes. If it throws, the client gets 503.
     virtual Answer answer(const Request& request) = 0;
-    // Returns the answer unless computing it takes long. None: the workers for long answers call
+    // Returns the answer unless computing it takes long. None: a worker for long answers then calls
     // answer(). Only a door with such workers needs this.
     virtual std::optional<Answer> answer_soon(const Request& request) { return answer(request); }
 

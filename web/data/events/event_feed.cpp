@@ -26,7 +26,7 @@ constexpr std::chrono::seconds ask_every{5};
 // A file shows a commit before readers see it, because SQLite writes the log, waits for the disk,
 // and then publishes the commit. So each change is queried twice.
 constexpr int asks_for_a_change = 2;
-// If more changes than these wait, drop them and have clients ask for everything anew.
+// If more changes than these wait, drop them and have clients request everything again.
 constexpr std::size_t most_changes_waiting = 20'000;
 
 }  // namespace
@@ -213,8 +213,8 @@ void EventFeed::Impl::run() {
         try {
             take_turn(next_tick, next_look);
         } catch (const std::exception&) {
-            // Memory is short. Changes taken so far may be lost, so clients ask for everything
-            // anew.
+            // Memory is short. Changes taken so far may be lost, so have clients request everything
+            // again.
             waiting->lose();
         }
     }

@@ -46,8 +46,8 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
     void tick();
 
     // Starts listening after the event of this id; none: after the newest. If events were lost
-    // since then, or the id is of another run, the first event heard is a reset. An `id` that is
-    // not empty and not one of ours counts as an id of another run.
+    // since then, or the id is of another run, the first event heard is a reset. An empty `id`
+    // counts as none, and a text that is no id as an id of another run.
     [[nodiscard]] std::shared_ptr<Listener> listen(EventFilter filter,
                                                    std::optional<std::string> id = {});
 

@@ -3,10 +3,10 @@
 // The watch reads the directories of the cache once and then follows them by inotify. It reports
 // each grid that exists at the start as having come. Changes are reported in their order, by the
 // thread that notices them: the watch's own, or a caller of catch_up(). If the cache does not exist
-// (yet) or vanishes, the watch looks for it once a second. Where the kernel reports nothing (no
-// inotify watch is left, or another machine writes), the watch compares the directories' times once
-// a minute, and every 2 seconds if it could not watch all of them; it may then report an unchanged
-// grid as changed.
+// (yet) or vanishes, the watch looks for it once a second. The kernel does not report all changes
+// (no inotify watch is left, or another machine writes). So the watch also compares the times of
+// directories, once a minute, or every 2 seconds if it could not watch all of them. Then it may
+// report an unchanged grid as changed.
 //
 // Threads   Many threads may use it. One thread at a time calls the listener, under a lock: it must
 //           be quick and must not call the watch.

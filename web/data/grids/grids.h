@@ -6,7 +6,7 @@
 // stays readable to its holder.
 //
 // Threads   Many threads may use it.
-// Errors    not_found if there is no such grid and there was none; see each function.
+// Errors    See each function.
 #pragma once
 
 #include <cstddef>

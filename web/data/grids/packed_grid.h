@@ -147,7 +147,7 @@ struct PackedSource {
     bool values_alone = false;
 };
 
-// Limits of one answer, before it is compressed.
+// Limits of one answer before compression.
 inline constexpr std::uint64_t most_packed_bytes = std::uint64_t{64} << 20;
 inline constexpr std::size_t most_bricks_of_a_range = 16384;
 

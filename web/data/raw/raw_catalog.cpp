@@ -77,7 +77,7 @@ class CatalogRawFiles final : public RawFiles {
         std::optional<UtcTime> start;
         steady_clock::time_point found{};
     };
-    // Null as long as there is no catalog.
+    // Returns null while there is no catalog.
     std::shared_ptr<const CatalogReader> reader();
     Result<std::vector<CatalogEntry>> rows_of(const CatalogReader& catalog,
                                               std::string_view station, const RawRange& range);

@@ -42,7 +42,7 @@ namespace stormcellar::web {
 struct RawStation {
     std::string icao;
     std::string name, state;  // empty: unknown
-    bool has_place = false;   // the rest is known
+    bool has_place = false;   // the following are known
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
 };
 

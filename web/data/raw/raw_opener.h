@@ -54,7 +54,8 @@ class RawOpener {
                                             const catalog::CatalogEntry& entry);
 
   private:
-    // Identifies a state of a file's contents: the kernel changes ctime with every change of them.
+    // Identifies a state of a file's contents: the kernel sets ctime at every change of the
+    // contents.
     using State = std::tuple<dev_t, ino_t, off_t, std::int64_t, std::int64_t>;
     static State state_of(const struct stat& facts);
     [[nodiscard]] Status check_hash(const catalog::CatalogEntry& entry, const Descriptor& file,

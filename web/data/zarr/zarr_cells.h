@@ -1,12 +1,12 @@
 // web/data/zarr/zarr_cells.h -- the cells of a grid as chunks of Zarr arrays.
 //
-// A chunk has `chunk_side` columns and rows and all levels, but at most `chunk_side` of them. Its
-// dimensions are time (one), z, y and x, of which x varies fastest. Cells of a chunk beyond the
-// grid have the fill value. The bytes are uncompressed and little-endian.
+// A chunk has `chunk_side` columns, `chunk_side` rows and all levels, but at most `chunk_side`
+// levels. Its dimensions are time (one), z, y and x, of which x varies fastest. Cells of a chunk
+// beyond the grid have the fill value. The bytes are uncompressed and little-endian.
 //
 // Units     Those of the moment.
 // Threads   Pure functions.
-// Errors    None. The chunk must be one of the grid's.
+// Errors    None. The chunk must be within the grid.
 // Accuracy  The values equal those of grid::to_dense() bit by bit.
 #pragma once
 

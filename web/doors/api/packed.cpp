@@ -334,8 +334,8 @@ Answer api_region_packed(const ApiCall& call) {
     std::string key =
         fmt::format("region/{}/{}/{}/{}", asked->name, level2::moment_name(asked->plan.moment),
                     format_utc(*time), coding_name(coding));
-    // The answer may change as soon as one of its sites changes, so the key has their counts of
-    // changes.
+    // The answer may change as soon as a site's grids change, so the key has the count of changes
+    // of each site.
     for (const std::string& site : asked->plan.sites)
         key += fmt::format("/{}", call.grids().changes_of(site));
     KeptAnswers& answers = *call.state.sources().kept;

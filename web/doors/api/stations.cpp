@@ -137,7 +137,7 @@ Answer api_volumes(const ApiCall& call) {
     const auto catalog = call.state.catalog();
     if (!catalog) return json_error(catalog.error());
     const std::size_t count = range->limit;
-    // Ask for one more than wanted, to see whether there are more.
+    // Request one entry more than wanted, to see whether the list goes on.
     const auto entries = (*catalog)->list(*icao, {range->from, range->to, false, count + 1});
     if (!entries) return json_error(entries.error());
     const std::size_t skipped = entries->size() > count ? entries->size() - count : 0;

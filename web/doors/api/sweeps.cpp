@@ -84,7 +84,8 @@ Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
     return fail(ErrorCode::not_found, "the file no longer holds the volume");
 }
 
-// Returns the last decoded volume if it is this one; else decodes it, which takes long.
+// Returns the kept volume if it is the requested one. Otherwise decodes the requested one, which
+// takes long.
 Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolume& found) {
     if (auto kept = call.state.find_volume(found.key)) return kept;
     if (call.must_be_quick) return refuse(takes_long());

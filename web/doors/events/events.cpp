@@ -163,7 +163,7 @@ Answer EventsDoor::answer(const Request& request) {
                          "There are as many streams of events as this server has; ask again.");
     }
     // Programs that cannot set headers give the id as a parameter. A browser that reconnects sends
-    // the header; it is newer, so it wins.
+    // the header. The header is newer, so it wins.
     std::optional<std::string> id = request.header("Last-Event-ID");
     if (!id) {
         if (const auto given = request.parameter("last_event_id")) id = std::string(*given);

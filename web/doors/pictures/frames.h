@@ -3,10 +3,10 @@
 //   /frames                        the formats and parameters, as JSON
 //   /frames/DOMAIN.png?time=...    a picture; the ending gives its format
 //
-// "time" is the instant of a grid or a later one; the newest grid at or before it is drawn. Without
-// "time", or with "latest", the newest grid is drawn. If panels show several moments, all are drawn
-// at the newest instant at which every moment has a grid. A ppi is drawn from the raw volume of the
-// newest grid of any moment.
+// The door draws the newest grid at or before the instant "time". Without "time", or with "latest",
+// the newest grid is drawn. If panels show several moments, all are drawn at the newest instant at
+// which every moment has a grid. A ppi is drawn from the raw volume of the newest grid of any
+// moment.
 //
 // Threads   Many threads may use it.
 #pragma once

@@ -51,7 +51,7 @@ class S3Keys {
     [[nodiscard]] Result<std::vector<S3Object>> of_day(std::chrono::sys_days day,
                                                        std::string_view from, std::string_view end,
                                                        std::size_t most) const;
-    // Returns the first day from this one on that has a volume.
+    // Returns the first day, `day` or later, that has a volume.
     [[nodiscard]] Result<std::optional<std::chrono::sys_days>> next_day(
         std::chrono::sys_days day) const;
     const std::shared_ptr<RawFiles> files_;

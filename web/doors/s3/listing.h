@@ -16,8 +16,8 @@ struct S3ListOptions {
     bool is_version_2 = false;
     std::string prefix, delimiter;
     std::size_t most = 1000;
-    // Keys up to this one are left out. If this is a common prefix, all keys below it are left out,
-    // too.
+    // The list begins after this key. If it is a common prefix, the list also leaves out all keys
+    // below it.
     std::string after;
     std::string token;  // of version 2, unchanged from the request
     std::string start_after;
