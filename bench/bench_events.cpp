@@ -1,29 +1,30 @@
-// bench_events: how soon stormcellard's grids, and events of them from stormcellar-web, follow
-// data.
+// bench_events: measures how soon data become grids of stormcellard and events of stormcellar-web.
 //
 // usage: bench_events [--data DIR] [--work DIR] [--sweeps | --hour] [--streams N]
 //        [--seconds N] [--sites N] [--json] [FILE ...]      (bench/request.h)
-// --sweeps: three real volumes, unless files are named, are sent record by record, on a machine
-// that does nothing else; a client hears of the station. A row for each volume and way:
+// --sweeps: Sends three real volumes, or the named files, record by record, on a machine that
+// should do nothing else. A client reads the events of the station. There is a row for each volume
+// and way of sending:
 //   as              appended to one file that is closed each time, or one file for each chunk
-//   sweeps          those that an event told of
+//   sweeps          sweeps that had an event
 //   grid_*_ms       from the close of a sweep's last chunk to the rename of its grid
-//   event_*_ms      from there to its event at the client
-//   bzip2_p50_ms    bunzip alone for those chunks
-//   *_beyond_*      the difference, chunk by chunk
-//   end_ms          from the last chunk of the volume to its grid, which is made of everything and
-//                   synced; end_event_ms: to its event
-// --hour: the heaviest national hour (bench/national_feed.h) is played at its own speed, as chunks,
-// before as many streams of one station each as --streams says (1,000). A row:
-//   grids_per_s     renames of grids; events_per_s: grids told of; heard_per_s: events read
-//   lost            events of a station that one of its clients heard and another did not
+//   event_*_ms      from that rename to its event at the client
+//   bzip2_p50_ms    bunzip alone for the same chunks
+//   *_beyond_*      the time less that of bunzip, chunk by chunk
+//   end_ms          from the last chunk of the volume to the grid of the whole volume, synced;
+//                   end_event_ms: to the event of that grid
+// --hour: Plays the heaviest national hour (bench/national_feed.h) as chunks at its own speed,
+// while --streams N (1,000) clients each read the events of one station. There is one row:
+//   grids_per_s     renames of grids; events_per_s: grids with an event; heard_per_s: events read
+//                   by all clients
+//   lost            events that one client of a station read and another client of it did not
 //   closed          streams that ended
 //   event_*         from the rename of a grid to its event, at each client
 //   web_cores       CPU time of stormcellar-web divided by wall time
 //   web_peak_mib    its peak resident memory (VmHWM)
 //   grid_*          from the last chunk of a volume to its grid (bench/feed_run.h)
-// --sites N: the first N of the 160 sites, each sending as much, for a trial. Without either of
-// both, both.
+// --sites N: uses only the first N of the 160 sites, for a trial. Without --sweeps and --hour, both
+// are run.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -84,7 +85,7 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-// The value of a key in a line of JSON that our server wrote: "" if there is none.
+// Returns the value of a key in a line of our server's JSON; empty if the key is absent.
 std::string value_of(std::string_view json, std::string_view key) {
     const std::string sought = '"' + std::string(key) + "\":\"";
     const std::size_t at = json.find(sought);
@@ -98,7 +99,7 @@ struct Stream {
     std::string unread;
 };
 
-// Sends the request and reads the head of the answer; what follows it stays in `unread`.
+// Sends the request and reads the head of the answer. Bytes after the head stay in `unread`.
 Result<Stream> open_stream(int port, const std::string& query) {
     Stream client{testing::connection_to(port), {}};
     const std::string request =
@@ -121,10 +122,10 @@ Result<Stream> open_stream(int port, const std::string& query) {
 struct HeardEvent {
     std::size_t client = 0;
     Clock::time_point at;             // when its last byte was read
-    std::string type, station, grid;  // grid: its time, as the event says it
+    std::string type, station, grid;  // grid: its time, from the event
 };
 
-// Many clients of /api/v1/events, read by one thread of its own.
+// Many clients of /api/v1/events. One thread of this object reads them all.
 class EventClients {
   public:
     // Opens a stream for each query ("station=KTLX"), one after another.
@@ -145,7 +146,7 @@ class EventClients {
             [reading = clients.get()](const std::stop_token& stop) { reading->read_on(stop); });
         return clients;
     }
-    // Returns what was heard since the last call, in the order in which it was read.
+    // Returns the events read since the last call, in the order in which they were read.
     [[nodiscard]] std::vector<HeardEvent> take() {
         const std::scoped_lock lock(mutex_);
         return std::exchange(heard_, {});
@@ -161,7 +162,7 @@ class EventClients {
                 read_stream(ready[static_cast<std::size_t>(i)].data.u64);
         }
     }
-    // Sizes of chunks stand between the frames, on lines of their own, and are skipped with them.
+    // Skips the sizes of chunks, which are on lines of their own between the events.
     void read_stream(std::size_t index) {
         Stream& stream = streams_[index];
         std::array<char, 16384> buffer{};
@@ -193,10 +194,10 @@ class EventClients {
     std::atomic<std::size_t> closed_ = 0;
     std::mutex mutex_;
     std::vector<HeardEvent> heard_;  // guarded by mutex_
-    std::jthread thread_;            // the last: it uses the members above
+    std::jthread thread_;            // declared last, because it uses the members above
 };
 
-// A daemon and a data server over the same directories.
+// A daemon and a data server that use the same directories.
 struct Pair {
     explicit Pair(const fs::path& where) : root(where), daemon(where) {}
     [[nodiscard]] Result<WebServer> serve() const {
@@ -214,7 +215,7 @@ struct SentVolume {
     std::string station;
     UtcTime time;
 
-    // The file of a piece, counted from 1.
+    // Returns the file for a piece, counted from 1.
     [[nodiscard]] fs::path file_of(std::size_t number, bool is_last, bool as_chunks) const {
         if (!as_chunks) return path.filename();
         level2::ChunkName name;
@@ -238,7 +239,7 @@ Result<SentVolume> read_volume(const fs::path& path) {
                       decoded->volume.header->time()};
 }
 
-// Appends and returns the time just before the close.
+// Appends the bytes. Returns the time just before the close.
 Clock::time_point append(const fs::path& path, std::span<const std::byte> bytes) {
     std::ofstream file(path, std::ios::binary | std::ios::app);
     file.write(reinterpret_cast<const char*>(bytes.data()),
@@ -359,11 +360,12 @@ struct Heard {
     std::size_t heard = 0, told = 0, lost = 0;
 };
 
-// Every client of a station hears the same grids; what one of them lacks is lost.
+// Compares the clients. All clients of a station should read the same events; if one reads fewer
+// than another, its missing events are lost.
 Heard compare(const std::vector<HeardEvent>& events, const Renames& renames,
               const std::vector<std::string>& stations, std::size_t clients) {
     Heard result;
-    std::map<std::string, std::vector<std::size_t>> counts;  // by station, of each client
+    std::map<std::string, std::vector<std::size_t>> counts;  // by station; events of each client
     for (std::size_t i = 0; i < clients; ++i)
         counts[stations[i % stations.size()]].resize(clients);
     for (const HeardEvent& event : events) {
@@ -375,7 +377,7 @@ Heard compare(const std::vector<HeardEvent>& events, const Renames& renames,
         const cache::GridName name{event.station, level2::Moment::ref, *time};
         const auto renamed = renames.find(cache::relative_path(name).filename());
         if (renamed == renames.end()) continue;
-        double nearest_ms = HUGE_VAL;  // of the renames of this grid
+        double nearest_ms = HUGE_VAL;  // to a rename of this grid
         for (const Clock::time_point at : renamed->second) {
             if (std::abs(ms_between(at, event.at)) < std::abs(nearest_ms))
                 nearest_ms = ms_between(at, event.at);

@@ -4,26 +4,27 @@
 //        [--seconds N] [--sites N] [--full] [--soak-hours N] [--threads N] [--json]
 //        (bench/request.h)
 // A national feed (bench/national_feed.h) is made once, untimed, below --work. For each speed, the
-// daemon that was built with this program is started with its own directories there, gridding every
-// volume at 1 km and 32 levels. What every site has already sent of its current volume is there
-// from the start. A row for each speed:
+// stormcellard of this build starts with its own directories there and grids every volume at 1 km
+// and 32 levels. The chunks that every site has already sent of its current volume exist from the
+// start. There is a row for each speed:
 //   speed          the requested speed
-//   sustained_x    heaviest hours an hour (bench/feed_run.h); with --sites, of that part of them
+//   sustained_x    heaviest hours of data processed in an hour (bench/feed_run.h); with --sites, of
+//                  these sites
 //   raw_mb_per_s   10^6 bytes of messages a second of wall time
 //   latency_*      from the last chunk to the grid
 //   bzip2_share    CPU time of bunzip alone for the same bytes, timed before and after each row,
-//                  divided by that of the daemon
+//                  divided by the daemon's CPU time
 //   peak_mib       peak resident memory (VmHWM); at most file_mib of it is page cache (mapped
 //                  files), and at most anonymous_mib is the daemon's own
 //   daemon_cores, feeder_cores  CPU time divided by wall time
 //   volumes        volumes whose last chunk was sent
-//   ungridded      those of them that have no grid in the end
+//   ungridded      of these, without a grid at the end
 //   held           share of the time during which the feed was paused
 //   cache_mib      the largest size of the cache
-// --sites N: the first N of the 160 sites, each sending as much, for a trial.
-// --soak-hours N: instead, 16 sites over N hours of the feed's clock, as fast as the daemon takes
-// them; files, rows and grids must agree in the end. --full: the whole hour at speed 1, then that
-// of 24 hours.
+// --sites N: uses only the first N of the 160 sites, for a trial. --soak-hours N: instead plays 16
+// sites over N hours of the feed's clock, as fast as the daemon can read them. Files, rows and
+// grids must agree at the end. --full: plays the whole hour at speed 1, and then 24 hours as for
+// --soak-hours.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -139,8 +140,8 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
     if (stretch.most_cache_bytes > cache_budget) fmt::print(stderr, "THE CACHE IS OVER BUDGET\n");
 }
 
-// Plays the feed once to a daemon of its own, whose directories are kept if anything fails. `check`
-// is called after the daemon has ended.
+// Plays the feed once to a new daemon. Its directories are kept if anything fails. `check` is
+// called after the daemon has ended.
 Status play(const NationalFeed& feed, const Wanted& wanted, const StretchOptions& options,
             const std::function<Status(const Stretch&, const DaemonProcess&)>& check) {
     const fs::path root = wanted.work / fmt::format("run-{}", ::getpid());

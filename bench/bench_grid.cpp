@@ -6,18 +6,18 @@
 //   file          its name
 //   spec          columns x rows x levels @ spacing, about the site
 //   threads       for decoding and gridding; libbz2 always has one
-//   decode_s      seconds of level2::decode, of one moment (REF)
+//   decode_s      level2::decode of one moment (REF)
 //   geometry_s    azimuth and arc of every column
 //   first_grid_s  gridding a decoded volume without a kept geometry: geometry and grid
 //   grid_s        gridding a decoded volume with the geometry kept
 //   write_s       the netCDF file
-//   whole_s       the program `stormcellar grid` from its start to its end
+//   whole_s       the program `stormcellar grid` from start to end
 //   libbz2_s      libbz2 alone over the same LDM records
 //   ratio         (whole_s - its own time for writing netCDF) / libbz2_s
 //   mcells_per_s  10^6 cells a second of grid_s
 //   peak_mib      peak resident memory of a process that decodes and grids the file once
-// Times are the least of the runs. In each run, all are timed one after the other. Files without
-// LDM records have no libbz2_s and no ratio; files without the moment are left out.
+// Times are in seconds, the least of the runs. In each run, all phases are timed one after another.
+// Files without LDM records have no libbz2_s and no ratio; files without the moment are left out.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -79,7 +79,7 @@ struct Phases {
     }
 };
 
-// Returns the number of `"key": number` in a JSON text.
+// Returns the number of a `"key": number` in a JSON text.
 double seconds_said(std::string_view json, std::string_view key) {
     const std::size_t at = json.find(fmt::format("\"{}\": ", key));
     if (at == std::string_view::npos) return 0;

@@ -1,17 +1,16 @@
-// bench_kernels: measures small parts of the work, each beside another way to do the same.
+// bench_kernels: compares the times of different ways to decompress, decode and place columns.
 //
 // usage: bench_kernels [--data DIR] [--threads N] [--runs N] [--json] [--benchmark_filter=REGEX]
 //        [FILE ...]   (bench/request.h; every real volume, unless files are named)
-// Google Benchmark times them, the least of the runs, which alternate at random. A row has:
-//   group    what is done: "volume FILE" (LDM records alone are decompressed, or all is decoded),
-//            "columns PROJECTION" (the geometry of 512 x 512 columns, 120 km off the site; not
-//            where files are named)
+// Google Benchmark times them in runs that alternate at random. A row has:
+//   group    "volume FILE" (decompresses only the LDM records, or decodes the whole file) or
+//            "columns PROJECTION" (computes the geometry of 512 x 512 columns 120 km from the site;
+//            left out if files are named)
 //   way      how
-//   ms       least time
-//   ratio    time of the group's first way divided by this: how many times as fast
-// In a group of a volume the first way is libbz2, one record after another, on one thread. All
-// ways of decompression are first compared with it, byte by byte. The filter is matched with
-// "GROUP/WAY".
+//   ms       least time of the runs
+//   ratio    time of the group's first way divided by this time
+// The first way for a volume is libbz2 on one thread, one record after another. All other ways of
+// decompression must first give the same bytes. The filter is matched with "GROUP/WAY".
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -47,11 +46,11 @@ using Records = std::vector<std::span<const std::byte>>;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-// All ways, in groups, whose rows keep the order in which they are added.
+// All ways, in groups. Rows have the order in which the ways were added.
 class Kernels {
   public:
     explicit Kernels(int runs) : runs_(runs) {}
-    // `work` is what is timed.
+    // Adds a way. `work` is timed.
     void add(const std::string& group, const std::string& way, std::function<void()> work) {
         ways_.emplace_back(group, way);
         benchmark::RegisterBenchmark((group + '/' + way).c_str(),
@@ -63,7 +62,7 @@ class Kernels {
             ->UseRealTime()
             ->Repetitions(runs_);
     }
-    // `least_ms` is by GROUP/WAY.
+    // Adds a row for each way in `least_ms`, whose keys are GROUP/WAY.
     void add_rows(const std::map<std::string, double>& least_ms, Table& table) const {
         std::map<std::string, double> first_ms;  // by group
         for (const auto& [group, way] : ways_) {
@@ -101,7 +100,7 @@ void stop_unless(bool good, std::string_view what) {
     std::exit(1);
 }
 
-// A volume in memory, and what its decompression needs.
+// A volume in memory, with the buffers for its decompression.
 struct LoadedVolume {
     RecordFile file;
     std::vector<bunzip::Workspace> workspaces;
@@ -143,7 +142,7 @@ void decode(const Bytes& bytes, int threads) {
     stop_unless(level2::decode(bytes, options).has_value(), "a volume cannot be decoded");
 }
 
-// Libbz2 comes first among all paths.
+// Adds the ways for a volume; libbz2 is the first.
 void add_volume(const fs::path& path, const Request& request, std::deque<LoadedVolume>& volumes,
                 Kernels& kernels) {
     auto found = read_records(path);
@@ -191,7 +190,7 @@ void add_columns(Kernels& kernels) {
     }
 }
 
-// Words for Google Benchmark begin with --benchmark_; all others are ours.
+// Passes arguments that begin with --benchmark_ to Google Benchmark, and reads all others.
 int run(std::span<char* const> arguments) {
     std::vector<char*> ours, theirs = {arguments.front()};
     std::array<std::string, 2> usual = {"--benchmark_enable_random_interleaving=true",

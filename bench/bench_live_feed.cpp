@@ -1,11 +1,12 @@
-// bench_live_feed: measures stormcellar-feed with a bucket on the loopback.
+// bench_live_feed: measures how soon stormcellar-feed fetches chunks from a bucket on the loopback.
 //
 // usage: bench_live_feed [--data DIR] [--work DIR] [--json]      (bench/request.h)
-// Real chunks become visible in the bucket one after another, at times that have nothing to do with
-// the feed's, and the real stormcellard grids what the feed writes. A row for each set of chunks:
-//   file_*   from visible in the bucket to the chunk in the drop directory
-//   grid_*   from visible to the living grid in the cache, of the chunks that complete a sweep
-//   beyond_* the same less the polling interval; the promise is one second at most at p95
+// Real chunks become visible in the bucket one after another, at times that are independent of the
+// feed's polls, and the real stormcellard grids the chunks that the feed writes. There is a row for
+// each set of chunks:
+//   file_*   from the chunk's appearance in the bucket to the drop directory
+//   grid_*   from its appearance to the living grid in the cache, for chunks that complete a sweep
+//   beyond_* grid_* less the polling interval; the promise is at most one second at p95
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -37,7 +38,7 @@ double seconds_from(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// `drop` is a name below the root, which is that of the daemon, if there is one.
+// Starts the feed. `drop` is a name below `root`, the daemon's root if a daemon runs.
 Result<ChildProcess> start_feed(const fs::path& root, const ChunkBucket& bucket,
                                 const std::vector<std::string>& stations) {
     std::error_code failed;
@@ -61,7 +62,7 @@ void add_latencies(Row& row, const std::string& name, const std::vector<double>&
     row.emplace_back(name + "_max_s", Cell{quantile(seconds, 1), 2});
 }
 
-// Makes a chunk visible and watches what becomes of it, for `rest_s` longer than that may take.
+// Makes a chunk visible in the bucket, waits for the results, and then waits `rest_s` more.
 void play(ChunkBucket& bucket, const std::string& key, const std::string& contents,
           const fs::path& drop, const GridWatch& watch, double rest_s, Latencies& latencies) {
     const auto visible = Clock::now();

@@ -5,40 +5,43 @@
 //        [--batch local|make|slurm] [--json]      (bench/request.h)
 // This is the experiment of the paper of 2008: 100 sites, 5 hours, 27 GB uncompressed, on a grid of
 // 256 x 256 x 128 cells over the common box of the sites. bench/mosaic_feed.h describes the files,
-// bench/mosaic_run.h what is timed. Files are made once, untimed, in the directory of --work (by
+// bench/mosaic_run.h the timed work. Files are made once, untimed, in the directory of --work (by
 // default stormcellar-bench-mosaic in the system's directory for temporary files; 0.7 GB for 100
-// sites) and used again. Merged volumes (60, one for each 5 minutes) go into a cache there, which
-// is removed at the end. Each row is measured in a process of its own:
+// sites), and are used again. The 60 merged volumes, one for each 5 minutes, go into a cache there,
+// which is removed at the end. Each row is measured in a process of its own:
 //   sites      1, 10, 30, 50, 100
-//   threads    for everything timed
+//   threads    threads of all timed work
 //   total_s    from raw files to merged volumes
-//   libbz2_s   libbz2 alone over the same files with as many threads, alternating with the former
+//   libbz2_s   libbz2 alone over the same files with as many threads, alternating with the work of
+//              total_s
 //   ratio      total_s / libbz2_s
 //   expansion  bytes of messages / bytes of files
 //   raw_gb     10^9 bytes of messages
 //   peak_mib   peak memory of the process
-//   paper_min  the paper's minutes, which are known for 100 sites: 46.87 in sequence (shown for one
-//              thread), 8.92 on its pool of 512 nodes (shown for more)
-// --only: this number of sites alone; --hours: the first H of the five hours; --alone: without the
-// runs of libbz2, so that libbz2_s and ratio have no value, and no row is left out. Without --full
-// only those rows are run that are expected to end within 9 minutes, judged by the rows before.
+//   paper_min  the paper's minutes for 100 sites: 46.87 in sequence (shown for one thread), 8.92 on
+//              its pool of 512 nodes (shown for several threads)
+// --only SITES runs one number of sites. --hours H uses the first H of the five hours. --alone
+// leaves out libbz2, so that libbz2_s and ratio have no value; it runs every row. Otherwise,
+// without --full, a row is run only if the previous rows predict that it ends within 9 minutes.
 //
-// Then the rows of the United States at 0.01 degrees follow (bench/nation.h), the least of the
-// runs; --sites or --us: one of the two alone; --cache: the mosaic stays there as the domain US.
-//   update_cpu, update_s  merging the new volume's partial into the mosaic, in place
-//   sum_cpu     from the bytes of the new volume to there: seconds of CPU time of all threads
+// Then the rows of the United States at 0.01 degrees follow (bench/nation.h), with the least times
+// of the runs. --sites or --us prints only one of the two tables. --cache DIR keeps the mosaic
+// there as the domain US.
+//   update_cpu, update_s  merging the new volume's partial into the mosaic
+//   sum_cpu     CPU time of all threads from the bytes of the new volume to the new mosaic
 //   merge_cpu, merge_s    merging the mosaic anew from all partials
 //   peak_mib    peak memory of the process so far
 //
-// --batch: instead, the same as a batch of tasks (`stormcellar batch`) beside one process. All raw
-// files are made then, 3.5 GB for 100 sites and five hours. A task is what one station sent on one
-// day, or the frames of an hour; --threads says how many run at a time. Slurm must run;
-// scripts/bench-batch starts one. Both ways alternate, and each row is one run:
+// --batch: instead compares the work as a batch of tasks (`stormcellar batch`) with one process.
+// All raw files are then made, 3.5 GB for 100 sites and five hours. A task grids a station's day,
+// or merges the frames of an hour; --threads N tasks run at a time. Slurm must be running;
+// scripts/bench-batch starts it. Both ways alternate, and each row is one run:
 //   engine, sites, tasks, frames
 //   batch_s      from `batch submit` to the end of the last task
 //   mosaic_s     the same files in one process; ratio: batch_s / mosaic_s
-//   task_cpu_s, mosaic_cpu_s, cpu_ratio  CPU time inside tasks, and of the one process
-//   overhead_s   time in which a place for a task was not inside one, a task
+//   task_cpu_s, mosaic_cpu_s, cpu_ratio  CPU time inside tasks, and of the single process
+//   overhead_s   time between tasks for each task: --threads times batch_s, less the time inside
+//                tasks
 //   plan_s       `batch plan`, which is not part of batch_s
 #include <algorithm>
 #include <chrono>
@@ -87,7 +90,7 @@ struct Case {
     }
 };
 
-// In a process of its own, with the words of run_sites().
+// Runs one row in this process, which run_sites() started with these arguments.
 int sites_once(char** words) {
     keep_freed_memory();
     const auto run =
@@ -156,10 +159,10 @@ void add_row(int sites, int threads, const SitesRow& row, Table& table) {
 // Measures the rows of sites in the order in which they are run.
 Status measure_sites(const Request& request, const Case& a_case, Table& table) {
     double elapsed_s = 0;
-    double libbz2_a_site_s = 0;  // of one thread
+    double libbz2_a_site_s = 0;  // with one thread
     for (const int sites : a_case.sites) {
         for (const int threads : request.threads) {
-            // A row takes some 1.6 times as long as libbz2 alone, which is timed as well. Making
+            // A row takes some 1.6 times as long as libbz2 alone, which is timed too. Making the
             // files of new sites takes half as long as libbz2.
             const double expected_s = libbz2_a_site_s * sites * (0.5 + 2.6 / std::min(threads, 2));
             if (!request.has("--full") && elapsed_s + expected_s > most_default_s) {
@@ -188,7 +191,7 @@ Result<double> seconds_of_stormcellar(std::vector<std::string> words) {
     return ran->seconds;
 }
 
-// Returns how long `batch plan` took, which takes the domain as options.
+// Runs `batch plan` with the domain as options. Returns its seconds.
 Result<double> plan(const Case& a_case, int sites, const fs::path& directory) {
     const grid::GridSpec domain = feed_domain(sites);
     const double width_km = domain.spacing_m * domain.nx / 1000;
@@ -205,7 +208,7 @@ Result<double> plan(const Case& a_case, int sites, const fs::path& directory) {
 }
 
 struct BatchRun {
-    double total_s = 0, inside_s = 0;  // by the clock; inside all tasks
+    double total_s = 0, inside_s = 0;  // wall time; sum of the times inside all tasks
     std::size_t tasks = 0;
     batch::Totals done;
 };
@@ -217,12 +220,12 @@ Result<BatchRun> run_batch(const Case& a_case, int threads, const fs::path& dire
     run.tasks = opened->facts().tasks();
     Result<batch::CheckReport> report = fail(ErrorCode::internal, "not all tasks were done");
     const auto began = std::chrono::steady_clock::now();
-    // Slurm takes half a second to give a place to the next task, and these take two.
+    // Slurm needs half a second to start the next task, and these tasks take two seconds.
     const auto submitted = seconds_of_stormcellar(
         {"batch", "submit", "--plan", directory, "--engine", *a_case.engine, "--jobs",
          std::to_string(threads), "--array-size", std::to_string(run.tasks / 5 + 1)});
     if (!submitted) return pass_on(submitted);
-    // Slurm has only taken the tasks; nothing says more surely than the records that they are done.
+    // `submit` returns when Slurm has accepted the tasks, so wait for the records of all tasks.
     constexpr double longest_s = 3600;
     while (run.total_s < longest_s) {
         report = batch::check(*opened, {});
@@ -287,7 +290,7 @@ Status measure_batch(const Request& request, const Case& a_case, Table& table) {
     return status;
 }
 
-// None for bad usage, which is said.
+// Returns none, after a message, for bad usage.
 std::optional<Case> case_of(const Request& request) {
     Case a_case;
     a_case.data = request.data_directory();

@@ -1,27 +1,28 @@
-// bench_plan: compares what the planner says of a grid, its time and its error, with what is true.
+// bench_plan: compares the planner's predictions of a grid's time and error with measured ones.
 //
 // usage: bench_plan [--data DIR] [--threads N] [--runs N] [--times | --errors] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
-// --times: a row for each file, moment, number of threads and choice of rungs:
+// --times: prints a row for each file, moment, number of threads and choice of rungs:
 //   file         its name
 //   moment       REF or VEL
 //   threads      for gridding
-//   choice       the rungs that are not those of the default chain
-//   predicted_s  by grid::predict()
-//   grid_s       gridding with the geometry kept, the least of the runs. With exact geodesics
-//                (which no other chain needs) making the geometry counts too. For one thread it is
-//                processor time, so that other programs do not count; for more, time by the clock
+//   choice       the rungs that differ from the default chain
+//   predicted_s  the prediction of grid::predict()
+//   grid_s       gridding with the geometry kept, the least of the runs. With exact geodesics,
+//                which only one chain needs, it includes making the geometry. For one thread it is
+//                CPU time, so that other programs do not count; for several threads it is wall time
 //   ratio        predicted_s / grid_s
-//   predict_s    the time that predicting took, once for all choices
-// The grid has 460 x 460 x 32 cells at 1 km, 0.4 degrees east of the site so that the frames
-// differ. The choices are: each rung of each step with the others at their default, every
-// interpolation with either extent of cells, and the chain's exact form.
-// --errors: a row for each volume, domain and budget that leaves something off:
-//   cells        that have a value in the chosen grid and in the exact one
-//   stated_db    99th percentile that the plan states
-//   true_db      99th percentile over all these cells
-//   held         1 if the true one is at most the stated one, else 0
-// Without either option, both. Files without the moment are left out.
+//   predict_s    time of the prediction for all choices together
+// The grid has 460 x 460 x 32 cells at 1 km. It is 0.4 degrees east of the site, so that site frame
+// and sphere frame differ. The choices are each rung of each step but the frame with the other
+// steps at their default, every interpolation with and without the size of cells, and the chain's
+// exact form. --errors: prints a row for each volume, domain and budget with which the plan turns
+// an effect off:
+//   cells        cells with a value in both the chosen and the exact grid
+//   stated_db    99th percentile of the error, from the plan
+//   true_db      99th percentile of the error over all these cells
+//   held         1 if true_db is at most stated_db, else 0
+// Without either option, it does both. Files without the moment are left out.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,7 +79,7 @@ std::vector<Choice> choices_of(const accuracy::Chain& chain, const Choice& usual
         for (std::size_t rung = 0; rung < step.rung_count(); ++rung) {
             Choice choice = usual;
             choice.rungs[i] = rung;
-            // Compared with the sphere and the geodesic, the time of gridding is small.
+            // Leave out other frames here: their geometry takes far longer than gridding.
             if (step.name != "frame" || rung == usual.rungs[i]) add(choice);
         }
     }
@@ -124,7 +125,7 @@ double seconds_of_gridding(grid::GridScene& scene, const grid::SceneChoice& choi
         if (!geometry) return -1;
         if (!grid::make_grid(scene.volume(), scene.site(), **geometry, options)) return -1;
         least_s = std::min(least_s, now_s(options.threads) - start_s);
-        if (least_s > 1 && run > 0) break;  // long times vary little
+        if (least_s > 1 && run > 0) break;  // long times vary little: two runs do
     }
     return least_s;
 }
@@ -166,7 +167,7 @@ struct Domain {
     const char* name;
     double side_m;
     double spacing_m;
-    double off_km;  // of its center, to the east of the site
+    double off_km;  // distance of its center east of the site
 };
 constexpr std::array domains = {Domain{"460 km", 460e3, 1000, 0}, Domain{"300 km", 300e3, 1000, 0},
                                 Domain{"300 km coarse", 300e3, 2000, 0},

@@ -1,4 +1,4 @@
-// bench_render: measures the paper's table of frames a second, and the accuracy of each row.
+// bench_render: measures frames a second as in the paper's table, and the accuracy of each row.
 //
 // usage: bench_render [--data DIR] [--threads N] [--runs N] [--json]      (bench/request.h)
 // The five volumes of sequence-kbgm are gridded over 300 x 300 x 11.5 km in three sizes and drawn
@@ -11,15 +11,16 @@
 //   threads   for drawing
 //   fps       1 / (t1 + t2 + t3)
 //   t1_s      opening, validating and mapping the file
-//   t2_s      what the rays need of the grid: which steps may show anything, and packed codes
+//   t2_s      preparing the grid for the rays: the bricks that may show echo, and packed codes
 //   t3_s      the rays, and compositing over the color of the page: 8 bits a channel
-//   de_mean, de_p99  CIEDE2000 against the reference marcher in double precision with 8,192 steps,
-//                    over every fifth pixel both ways of the first time step
-//   de_echo_mean, de_echo_p99  the same over the pixels where the reference has echo
-//   paper_fps  the paper's renderer, with a graphics card of 2008; 0 for numbers of slices that the
-//              paper does not give
-// What depends on view and colors alone is made once for all frames, as in a loop. Times are the
-// least of the runs, each the mean of five frames. The files come from the page cache.
+//   de_mean, de_p99  CIEDE2000 against a reference in double precision with 8,192 steps, over every
+//                    fifth column and row of the first time step
+//   de_echo_mean, de_echo_p99  the same over the pixels with echo in the reference
+//   paper_fps  the paper's result on a graphics card of 2008; 0 for numbers of slices that the
+//              paper lacks
+// Data that depend only on view and colors are made once for all frames, as in a loop. A run times
+// five frames and takes their mean; the row has the least of the runs. Files are read from the page
+// cache.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,8 +85,8 @@ class RenderScene {
     std::vector<std::filesystem::path> files_;
 };
 
-// Every `stride`-th pixel of the reference picture. The stride is odd, so that pixels on and
-// between the coarser grids of rays count alike.
+// Every `stride`-th pixel of the reference picture in both directions. The stride is odd, so that
+// pixels with and without a ray of their own count in proportion.
 struct ReferencePixels {
     static constexpr int stride = 5;
     static constexpr int steps = 8192;
@@ -96,7 +97,7 @@ struct ReferencePixels {
 
 struct PictureError {
     double mean = 0, p99 = 0;            // CIEDE2000 over all pixels compared
-    double echo_mean = 0, echo_p99 = 0;  // over those where the reference has echo
+    double echo_mean = 0, echo_p99 = 0;  // over the pixels with echo in the reference
 };
 
 constexpr std::array<const char*, 5> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
@@ -154,7 +155,7 @@ render::ViewGeometry RenderScene::view() const {
     return {spec_, camera, exaggeration, picture_width, picture_height};
 }
 
-// Composites over the color of the page, as every frame of the benchmark.
+// Composites a layer over the color of the page.
 render::Image finished(const render::Layer& layer, int threads) {
     render::Image picture(layer.width, layer.height, render::shades::dark.page);
     render::composite_over(layer, picture, 0, 0, threads);
@@ -218,7 +219,7 @@ constexpr std::array<Method, 4> methods = {{
     {"smooth", Integration::first_order, 2.0 / 255},
 }};
 
-// the paper's numbers, and some between
+// the paper's numbers, and some between them
 constexpr std::array<int, 7> measured_slices = {64, 128, 160, 192, 256, 512, 1024};
 
 struct Phases {

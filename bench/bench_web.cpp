@@ -1,27 +1,30 @@
-// bench_web: what the data server serves a second, beside nginx; and how soon it draws tiles.
+// bench_web: measures how much the data server serves in a second, compared with nginx, and how
+// soon it draws tiles.
 //
 // usage: bench_web [--data DIR] [--seconds N] [--clients "1 64"] [--json]
 //        [--tiles [--requests 20] [--cache DIR]] [FILE ...]      (bench/request.h)
-// `stormcellar serve` of the files (one busy volume, unless files are named) and nginx run on one
-// processor, wrk on another, by turns, --seconds (5) for each row. There is a row for each thing
-// that is asked for and number of clients:
-//   what            what is asked for, and from whom
-//   clients         connections that are kept open
+// `stormcellar serve` with the files (by default one busy volume) and nginx take turns on one
+// processor, while wrk runs on another. Each row takes --seconds (5). There is a row for each kind
+// of request and number of clients:
+//   what            kind of request, and server
+//   clients         open connections
 //   requests_per_s  answers a second
-//   mb_per_s        their bytes with headers
+//   mb_per_s        bytes of the answers, with headers
 //   p50_ms, p99_ms  from the request to the end of the answer
 //   cpu_cores       of the server
 //   peak_mib        resident memory of the server since its start
-//   failed          requests that got no answer or an error
-//   of_nginx        requests_per_s divided by nginx's in the row before; "-" where nginx has none
-// "first" rows have one client and one request of each kind: p50_ms is their median, p99_ms the
-// longest of them.
+//   failed          requests without an answer or with an error
+//   of_nginx        requests_per_s divided by that of nginx in the previous row; "-" without such a
+//                   row
+// In "first" rows one client makes one request of each kind; p50_ms is the median of their times,
+// p99_ms the longest.
 //
-// --tiles: instead, one client asks `stormcellar serve` of a file, and then of the cache DIR with
-// the domain US (bench_mosaic --us --cache), for --requests tiles about the middle, one by one:
+// --tiles: instead, one client requests --requests tiles about the middle, one by one, from
+// `stormcellar serve` with a file, and then with the cache DIR of the domain US (bench_mosaic --us
+// --cache):
 //   what        domain, layer and zoom
-//   first_ms    the layer's first tile, for which the product and its overviews are made
-//   new_p50_ms, new_max_ms    tiles that nobody asked for before
+//   first_ms    the layer's first tile, which makes the product and its overviews
+//   new_p50_ms, new_max_ms    tiles that were not requested before
 //   kept_p50_ms               the same tiles again
 //   peak_mib    resident memory of the server since its start
 #include <algorithm>
@@ -72,7 +75,7 @@ class WebBench {
     WebBench(WebServer ours, fs::path scratch, Table& table)
         : ours_(std::move(ours)), scratch_(std::move(scratch)), table_(table) {}
 
-    // Asks once for each, and keeps the time of each.
+    // Requests each path once, and keeps the time of each.
     Status ask_first(const std::string& what, const std::vector<std::string>& paths,
                      const std::vector<std::string>& headers) {
         const auto fetched = get_all(ours_, paths, headers, scratch_);
@@ -85,7 +88,7 @@ class WebBench {
         return {};
     }
 
-    // Loads nginx with the same bytes as a file, then us.
+    // Loads nginx with the same bytes as a file, and then our server.
     Status compare(const Asked& asked, const std::vector<int>& clients, std::chrono::seconds time) {
         std::string body;
         const auto fetched = get_all(ours_, {asked.path}, asked.headers, scratch_, &body);
@@ -107,7 +110,7 @@ class WebBench {
         return {};
     }
 
-    // The grids of the server, as "/api/v1/grids/DOMAIN/MOMENT/TIME/packed".
+    // Returns the paths of the server's grids: "/api/v1/grids/DOMAIN/MOMENT/TIME/packed".
     Result<std::vector<std::string>> packed_grids() {
         std::string body;
         const auto fetched = get_all(ours_, {"/api/v1/grids"}, {}, scratch_, &body);
@@ -188,7 +191,7 @@ struct TilePlace {
     std::vector<int> zooms;
 };
 
-// The tiles of a zoom in the order of their distance from the place's.
+// Returns the tiles of a zoom, nearest to the tile of the place first.
 std::vector<std::string> tiles_about(const TilePlace& place, std::string_view layer, int zoom,
                                      std::size_t count) {
     const double tiles = std::exp2(zoom);

@@ -46,7 +46,7 @@ void FeedRun::note_grids() {
         const auto now = Clock::now();
         renames_[std::string(name)].push_back(now);
         const auto sent = sent_.find(std::string(name));
-        if (sent == sent_.end()) return;  // of a volume that has not ended yet
+        if (sent == sent_.end()) return;  // the volume has not ended yet
         if (sent->second.latency_s < 0) {
             --unfinished_;
             const std::size_t volume = sent->second.volume;
@@ -96,7 +96,7 @@ Status FeedRun::start(const StretchOptions& options, const std::string& configur
     return {};
 }
 
-// Waits while too many volumes have no grid.
+// Notes the end of a volume, and waits while too many volumes have no grid.
 void FeedRun::end_volume(std::size_t volume, const StretchOptions& options) {
     const auto closed = Clock::now();
     std::unique_lock lock(mutex_);
@@ -120,8 +120,8 @@ void FeedRun::watch_on(const StretchOptions& options) {
     }
 }
 
-// Waits for grids of what was sent, then for everything else to be read. Returns when the daemon
-// had something to do for the last time.
+// Waits until all sent volumes have grids and the daemon is idle, at most `most_s`. Returns the
+// last time at which the daemon was busy.
 FeedRun::Clock::time_point FeedRun::drain(double most_s) {
     const auto begin = Clock::now();
     auto busy = begin;
@@ -164,7 +164,7 @@ Result<Stretch> FeedRun::run(const StretchOptions& options, const std::string& c
     replaying.delivery = options.delivery;
     replaying.speed = options.speed;
     replaying.stop = &stop_;
-    // Whole files come at their start, so that none is half sent when the clock begins.
+    // A whole file comes at once, so none is half sent when the clock begins.
     if (options.delivery != synth::Delivery::whole)
         replaying.past_s = feed_.past_s() / options.speed;
     replaying.stamp = [](const synth::ReplayItem& item, std::span<std::byte> bytes) {

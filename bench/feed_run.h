@@ -2,11 +2,11 @@
 //
 // Latency    From the close of the last chunk of a volume (or its rename) to the appearance of its
 //            last grid in the cache, by this program's clock.
-// Sustained  The bytes sent, divided by those that the feed sends in the wall time, from the first
-//            chunk until the daemon has nothing left to read. If more than `most_unfinished`
-//            volumes were sent and not gridded, the feed pauses, and then catches up; if that lasts
-//            for most_drain_s, it ends.
-// Files are deleted when both they and a later volume of their station have their grids.
+// Sustained  The bytes sent, divided by the bytes that the national feed sends in the same wall
+//            time. The time is from the first chunk until the daemon has nothing left to read. If
+//            more than `most_unfinished` sent volumes have no grid, the feed pauses and later
+//            catches up; after a pause of `most_drain_s` it ends.
+// A file is deleted when its own volume and a later volume of its station have grids.
 //
 // Threads    One thread at a time; run() starts another that watches.
 #pragma once
@@ -46,13 +46,13 @@ struct MemorySample {
 };
 
 struct Stretch {
-    double wall_s = 0;  // with the drain
+    double wall_s = 0;  // includes drain_s
     double drain_s = 0, held_s = 0;
     bool drained = false;  // if false, the daemon had more to read, and the figures are too good
     double sustained = 0;
     std::vector<double> latencies_s;
     std::size_t volumes = 0;    // volumes whose last chunk was sent
-    std::size_t ungridded = 0;  // those of them without a grid at the end of the drain
+    std::size_t ungridded = 0;  // of these, without a grid at the end of the drain
     double daemon_cpu_s = 0, player_cpu_s = 0;
     double bytes = 0;
     DaemonMemory memory;  // the maximum of each
@@ -63,14 +63,14 @@ struct Stretch {
     std::vector<int> volumes_sent;  // by site
 };
 
-// Times at which grids got their names, by these.
+// Maps the name of a grid to the times at which a grid was renamed to it.
 using Renames = std::map<std::string, std::vector<std::chrono::steady_clock::time_point>>;
 
 class FeedRun {
   public:
     FeedRun(const NationalFeed& feed, DaemonProcess& daemon) : feed_(feed), daemon_(daemon) {}
-    // The daemon is started when there is what every site sent before the feed's clock began. When
-    // it has read that, `begin` is called, and then the clock begins.
+    // Writes the chunks that every site sent before the feed's clock began, and starts the daemon.
+    // When the daemon has read them, calls `begin` and starts the clock.
     [[nodiscard]] Result<Stretch> run(
         const StretchOptions& options, const std::string& configuration,
         const std::function<Status()>& begin = [] { return Status{}; });
@@ -103,10 +103,10 @@ class FeedRun {
     Clock::time_point begin_;
     Renames renames_;
 
-    std::mutex mutex_;  // for all below
+    std::mutex mutex_;  // guards all members below
     std::condition_variable gridded_;
     std::unordered_map<std::string, Sent> sent_;  // by grid
-    std::map<std::size_t, std::size_t> last_;     // by site: the volume of the last grid
+    std::map<std::size_t, std::size_t> last_;     // by site: volume of the newest grid
     std::size_t unfinished_ = 0;
     Clock::time_point next_look_;
     Stretch stretch_;
@@ -116,12 +116,12 @@ class FeedRun {
 // hour. NaN for fewer than two.
 [[nodiscard]] double memory_slope_mib_h(std::span<const MemorySample> samples);
 
-// Files, rows and grids must agree after a long run.
+// A comparison of files, catalog rows and grids, which must agree after a long run.
 struct SoakCheck {
     std::size_t files = 0;          // below the drop directory
-    std::size_t rows = 0;           // of the catalog: volumes of whole files, deleted ones included
-    std::size_t missing_rows = 0;   // volumes that were sent and have no such row
-    std::size_t wrong_rows = 0;     // rows that say "gone" of an existing file, or the reverse
+    std::size_t rows = 0;           // of whole volumes in the catalog, deleted files included
+    std::size_t missing_rows = 0;   // sent volumes without such a row
+    std::size_t wrong_rows = 0;     // "gone" though the file exists, or the reverse
     std::size_t grids = 0;          // in the cache
     std::size_t missing_grids = 0;  // stations whose newest whole volume has no grid
     [[nodiscard]] bool agrees() const { return missing_rows + wrong_rows + missing_grids == 0; }

@@ -25,9 +25,9 @@ class GridWatch {
     [[nodiscard]] Status watch(const std::filesystem::path& cache,
                                std::span<const std::string> stations,
                                std::span<const std::string> days);
-    // Passes on the names of the files that appeared under their final names since the last call.
+    // Calls `appeared` with the name of each file that was renamed into place since the last call.
     void read(const std::function<void(std::string_view)>& appeared) const;
-    // Waits until something appears, at most for `seconds`.
+    // Waits at most `seconds` until a file appears.
     void wait(double seconds) const;
 
   private:

@@ -1,4 +1,4 @@
-// bench/measure.h -- what the benchmarks share: clocks, libbz2 alone, peak memory.
+// bench/measure.h -- clocks, decompression by libbz2 alone, and peak memory for all benchmarks.
 #pragma once
 
 #include <algorithm>
@@ -36,46 +36,46 @@ void keep_least_seconds(double& least, Work work) {
     least = std::min(least, seconds_of(work));
 }
 
-// Returns the streams of the LDM records in a file; empty if there are none. If it is a gzip file,
-// they point into `peeled`.
+// Returns the bzip2 streams of the LDM records in a file; empty if there are none. `peeled`
+// receives the file without its gzip layer, and the streams may point into it.
 [[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled);
-// A file, and the streams of its LDM records, which are empty where it has none. The records point
-// into `peeled`, which is the file without its gzip layer, if it has one.
+// A file, and the streams of its LDM records (empty if it has none), as ldm_records() returns them.
 struct RecordFile {
     Bytes raw;
     Bytes peeled;
     std::vector<std::span<const std::byte>> records;
 };
-// None where the file cannot be read, which is then said on stderr.
+// Returns none, after a message on stderr, if the file cannot be read.
 [[nodiscard]] std::optional<RecordFile> read_records(const std::filesystem::path& path);
 
-// Decompresses all records with libbz2 alone, one stream each, into parts of one buffer.
+// Decompresses all records with libbz2 alone, one stream each, part by part into one buffer.
 void decompress_all(std::span<const std::span<const std::byte>> records);
-// Does the same by bunzip's usual path, as level2 does.
+// Does the same with this project's bunzip, as level2 does.
 void bunzip_all(std::span<const std::span<const std::byte>> records);
 
-// Decodes reflectivity. `name` begins with the station for volumes that do not name theirs.
+// Decodes reflectivity. If the volume does not name its station, `name` must begin with it.
 [[nodiscard]] Result<level2::Volume> decode_ref(const Bytes& bytes, std::string_view name,
                                                 int threads);
 [[nodiscard]] Result<level2::Volume> decode_ref(const std::filesystem::path& file, int threads);
-// Returns the position in the volume; else (message 1 has none) that of the station table; else
-// not_found.
+// Returns the position of the radar from the volume, or from the station table if the volume has
+// none (message 1). Errors: not_found if neither has it.
 [[nodiscard]] Result<grid::SitePosition> site_of(const level2::Volume& volume);
 [[nodiscard]] grid::SitePosition position_of(const Station& station);
 
-// A program that was built with this one: "cli/stormcellar".
+// Returns the path of a program in the same build, such as "cli/stormcellar".
 [[nodiscard]] std::string built_program(const std::filesystem::path& program);
-// A program's output, and the time from its start to its end.
+// The output of a program, and its time from start to end.
 struct ProgramRun {
     double seconds = 0;
     std::string said;
 };
-// Runs a program to its end; none if it failed, which is then said on stderr.
+// Runs a program to its end. Returns none, after a message on stderr, if it failed.
 [[nodiscard]] std::optional<ProgramRun> run_program(const std::string& program,
                                                     std::vector<std::string> arguments);
 // Runs this program with these arguments in a process of its own. Returns what it prints.
 [[nodiscard]] std::optional<std::string> run_self(std::vector<std::string> arguments);
-// Does the same if it prints high_water_kib(); NaN if it failed.
+// Does the same for arguments that make this program print high_water_kib(). Returns that in MiB,
+// or NaN if the run failed.
 [[nodiscard]] double peak_mib(std::vector<std::string> arguments);
 // Returns the peak memory of this process in KiB, as the kernel counts it (proc(5)).
 [[nodiscard]] long high_water_kib();

@@ -67,7 +67,7 @@ const FeedKind& kind_of(int site) {
     return *kinds[static_cast<std::size_t>(site) % kinds.size()];
 }
 
-// Sites start at different times and intervals.
+// Returns the start of a site's volume. Starts and intervals differ between sites.
 UtcTime start_of(int site, int slot) {
     const std::chrono::seconds interval = kind_of(site).interval;
     const std::chrono::seconds late = std::chrono::seconds{37} * site % interval;
@@ -84,7 +84,7 @@ fs::path file_of(const fs::path& directory, const Station& station, UtcTime star
     return directory / fmt::format("{}{}_V06", station.icao, format_compact(start));
 }
 
-// Returns the missing files by the volume that they are made of.
+// Returns the missing files, keyed by the volume from which each is made.
 std::map<std::string, std::vector<Stamp>> missing_files(int sites, const fs::path& directory,
                                                         std::chrono::hours hours) {
     std::map<std::string, std::vector<Stamp>> missing;

@@ -4,14 +4,15 @@
 //           north. The order is alphabetical, so ten sites cover as large an area as a hundred.
 // Volumes   Each site sends one of ten kinds, in turn: real volumes of the data directory and a
 //           simulated line of storms, re-stamped (bench/restamp.h) and written by level2::encode():
-//           every radial has the site's name, position and its own time. Starts are 5 (simulated),
-//           6 or 10 minutes apart, as their patterns take, and no two sites start together.
+//           every radial has the site's name and position, and a time of its own. The volumes of a
+//           site start 5 (simulated), 6 or 10 minutes apart, the duration of their patterns. No two
+//           sites start together.
 // On disk   FeedFiles::first_hour: the files of the first hour, different for each site and start.
-//           The files of later hours are the same: when one is read for hour h, the times of the
+//           Later hours use the same files: when a file is read for hour h, the times of the
 //           decoded volume are moved by h hours (`moved`). So five hours are read, decompressed,
 //           decoded, gridded and merged; only the compression of 27 GB and disk space are saved.
-//           FeedFiles::every_hour: all of them, 3.5 GB for 100 sites, for programs that know
-//           nothing of moved times.
+//           FeedFiles::every_hour: the files of all hours, 3.5 GB for 100 sites, for programs that
+//           cannot move times.
 // Threads   Plain data and pure functions; make_feed() starts its own threads.
 #pragma once
 
@@ -36,19 +37,20 @@ inline constexpr int most_sites = 100;
 enum class FeedFiles { first_hour, every_hour };
 
 struct FeedVolume {
-    int site = 0;   // its number
+    int site = 0;   // index of the site
     UtcTime start;  // when it was sent
     std::filesystem::path file;
     std::chrono::hours moved{0};  // relative to the times in the file
 };
 
-// Returns the real volume of that name below `data`, or a simulated one ("simulated-3"), before it
-// is re-stamped.
+// Returns the volume before it is re-stamped: the real one of this name below `data`, or a
+// simulated one ("simulated-3").
 [[nodiscard]] Result<level2::Volume> feed_volume(const std::string& name,
                                                  const std::filesystem::path& data);
 
 [[nodiscard]] std::vector<Station> feed_sites(int count);
-// Returns the volumes of the first `hours`, ordered by start, then site. 1 to most_sites sites.
+// Returns the volumes of the first `hours`, ordered by start, then by site. `sites` is 1 to
+// most_sites.
 [[nodiscard]] std::vector<FeedVolume> feed_of(int sites, const std::filesystem::path& directory,
                                               std::chrono::hours hours = feed_length,
                                               FeedFiles files = FeedFiles::first_hour);
@@ -56,11 +58,10 @@ struct FeedVolume {
 // km), with 128 levels from 125 m to 16 km. For 100 sites, cells are some 15 km wide.
 [[nodiscard]] grid::GridSpec feed_domain(int sites);
 
-// Sizes of files, counted by their records.
+// Sizes of files, counted over their LDM records.
 struct FeedSize {
     std::uint64_t compressed = 0, uncompressed = 0;
-    std::uint64_t dense =
-        0;  // of the uncompressed bytes, those of files that expand 8 times at most
+    std::uint64_t dense = 0;  // uncompressed bytes of files that expand at most 8 times
 
     [[nodiscard]] double expansion() const {
         return static_cast<double>(uncompressed) / static_cast<double>(compressed);
@@ -71,8 +72,8 @@ struct FeedSize {
     void add(std::uint64_t compressed_bytes, std::uint64_t uncompressed_bytes);
 };
 
-// Writes the files of so many hours that are missing. `data` is the directory of the real volumes.
-// Errors: a real volume is missing or cannot be read; those of encode() and of writing.
+// Writes the missing files of the feed. `data` is the directory of the real volumes. Errors: a real
+// volume is missing or cannot be read; those of encode() and of writing.
 [[nodiscard]] Status make_feed(int sites, const std::filesystem::path& data,
                                const std::filesystem::path& directory, int threads,
                                std::chrono::hours hours = std::chrono::hours{1});

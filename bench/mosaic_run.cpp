@@ -76,7 +76,7 @@ class Runner {
 void Runner::decompress_alone(std::span<const FeedVolume> volumes) const {
     for_each_piece(static_cast<int>(volumes.size()), threads_, [&](int piece) {
         const auto bytes = read_file(volumes[static_cast<std::size_t>(piece)].file);
-        if (!bytes) return;  // the run itself says so
+        if (!bytes) return;  // the run reports that error
         Bytes peeled;
         decompress_all(ldm_records(*bytes, peeled));
     });
@@ -136,7 +136,8 @@ UtcTime middle_of(const pipeline::MadePartial& partial) {
     return pipeline::PartialView{&partial.description, {}}.middle();
 }
 
-// No frame from then on is made of these: of each site all but the last one before it.
+// Drops the partials that no frame from `time` on needs: for each site, all but the last one before
+// `time`.
 void Runner::drop_before(UtcTime time) {
     std::map<std::string, UtcTime> last;
     for (const pipeline::MadePartial& partial : partials_) {
@@ -169,7 +170,7 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
         const double volumes_s = seconds_of([&] { status = make_partials(here); });
         if (!status) return status;
         const bool is_last = end + stretch > until;
-        // All volumes are there that frames before this are made of.
+        // Make the frames before this time, because all of their volumes are there.
         const UtcTime ready = is_last ? until + minutes{1} : end - longest_wait;
         const double frames_s = seconds_of([&] {
             status = make_frames(next_frame, ready);

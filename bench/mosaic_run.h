@@ -2,17 +2,18 @@
 // does.
 //
 // Each file is read, decompressed, decoded (REF alone, in memory) and gridded on its site's window
-// (pipeline::make_partial, by the default method for such cells: area). Then a frame is made for
-// each multiple of 5 minutes (pipeline::make_frame: both neighbors in time of each site, moved to
-// the instant, merged) and committed to a cache. Nothing else is written. The daemon makes a frame
-// again when a volume changes it; here a frame is made once, as soon as all of its volumes are
-// there.
+// (pipeline::make_partial, by the default method for such cells: area). Then pipeline::make_frame()
+// makes a frame for each multiple of 5 minutes: it moves the volumes before and after the instant
+// of each site to the instant, and merges them. The frame is committed to a cache. Nothing else is
+// written. The daemon makes a frame again when a volume changes it; this benchmark makes each frame
+// once, as soon as all of its volumes exist.
 //
-// The work proceeds in half hours: libbz2 alone over their files, then all of the above. Each has
-// its own clock, so both run under the same conditions. Volumes are shared out between threads,
-// each decoded and gridded by one thread; so are the sites of a frame.
+// The run takes half an hour of data at a time: first libbz2 alone decompresses the files, then the
+// work above is done. Each of the two has its own clock, so both run under the same conditions.
+// Threads share the volumes, each of which is decoded and gridded by one thread, and the sites of a
+// frame.
 //
-// Memory    Partials of at most an hour; one volume for each thread.
+// Memory    Holds the partials of at most an hour, and one volume for each thread.
 #pragma once
 
 #include <filesystem>
@@ -24,18 +25,18 @@ namespace stormcellar::bench {
 
 struct MosaicRun {
     double total_s = 0;    // raw files to frames in the cache
-    double volumes_s = 0;  // the part of it from reading to partials; the rest is for frames
-    double cpu_s = 0;      // CPU time of total_s, of all threads
-    double libbz2_s = 0;   // reading and libbz2 alone, with as many threads
+    double volumes_s = 0;  // part of total_s from reading to partials; the rest makes frames
+    double cpu_s = 0;      // CPU time of all threads during total_s
+    double libbz2_s = 0;   // reading, and libbz2 alone, with the same number of threads
     double libbz2_cpu_s = 0;
     int volumes = 0;
     int frames = 0;
     FeedSize size;
 };
 
-enum class Beside { libbz2, nothing };  // what is timed beside
+enum class Beside { libbz2, nothing };  // work timed in addition
 
-// `cache` must be empty or missing; it has the frames afterward.
+// Runs the experiment. `cache` must be empty or missing; it receives the frames.
 [[nodiscard]] Result<MosaicRun> run_mosaic(int sites, int threads,
                                            const std::filesystem::path& feed,
                                            const std::filesystem::path& cache,

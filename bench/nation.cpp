@@ -29,7 +29,7 @@ using grid::GridSpec;
 using grid::GridWindow;
 
 constexpr std::size_t all_sites = 160;
-constexpr int stripes = 8;  // in which the whole mosaic is made, so that few files are open at once
+constexpr int stripes = 8;  // of the mosaic, made in turn, so that few files are open at once
 
 GridSpec nation_grid() {
     GridSpec spec = grid::default_spec(37.5, -95);
@@ -48,7 +48,8 @@ GridSpec nation_grid() {
     return spec;
 }
 
-// Returns how high storms reach over a column, in meters; none below 0. The same for all sites.
+// Returns the height of the top of storms over a column, which is the same for all sites. Below 0
+// there is no storm.
 double storm_top_m(int ix, int iy) {
     const double field = std::sin(ix / 97.0) * std::sin(iy / 71.0) +
                          0.6 * std::sin(ix / 31.0 + iy / 43.0) +
@@ -56,7 +57,8 @@ double storm_top_m(int ix, int iy) {
     return 12000 * field - 1500;
 }
 
-// A cell is seen between beams of 0.5 and 19.5 degrees over the 4/3 earth.
+// Returns the code of a cell. It is seen between beams of 0.5 and 19.5 degrees over an earth of 4/3
+// radius.
 std::uint8_t code_of(double arc_m, double top_m, double altitude_m, double level_m) {
     constexpr double radius_m = 8.5e6;
     const double fall_m = altitude_m + arc_m * arc_m / (2 * radius_m);
@@ -110,10 +112,10 @@ bool touch(const GridWindow& one, const GridWindow& other) {
            one.first_y < other.end_y() && other.first_y < one.end_y();
 }
 
-// The partials of all sites as files, which are open while they are in use.
+// The partials of all sites, as files.
 class Nation {
   public:
-    // The first site is that of the new volume.
+    // The first site is the radar of the new volume.
     Nation(GridSpec domain, fs::path directory, const Station& first)
         : domain_(std::move(domain)), directory_(std::move(directory)) {
         add(position_of(first));
@@ -145,7 +147,7 @@ class Nation {
         }
         return {};
     }
-    // Valid until the next call.
+    // Returns the partials that meet the window; valid until the next call.
     Result<std::vector<grid::Partial>> partials_in(const GridWindow& window) {
         open_.clear();
         std::vector<grid::Partial> partials;
@@ -189,7 +191,7 @@ class Nation {
     std::deque<cache::GridFile> open_;
 };
 
-// In seconds, of CPU time but for the two with _s.
+// The least times of the runs, in seconds: wall time for names with _s, else CPU time.
 struct Least {
     double update = HUGE_VAL, sum = HUGE_VAL, merge = HUGE_VAL;
     double update_s = HUGE_VAL, merge_s = HUGE_VAL;
@@ -202,7 +204,7 @@ void keep_both(double& least_cpu, double& least_s, Work work) {
     least_cpu = std::min(least_cpu, cpu_s() - before_s);
 }
 
-// Merges the mosaic, and then the new volume in place of what its site had sent.
+// Merges the mosaic, and then the new volume in place of its site's previous volume.
 Result<grid::Mosaic> run_once(Nation& nation, const Bytes& bytes,
                               const grid::ColumnGeometry& geometry, int threads, Least& least) {
     const PlacedSite& placed = nation.sites().front();

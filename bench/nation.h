@@ -1,10 +1,10 @@
-// bench/nation.h -- a mosaic of the United States from 160 synthetic radars, and a new volume in
-// it.
+// bench/nation.h -- times a mosaic of the United States from 160 synthetic radars, and its update
+// by a new volume.
 //
 // The grid has 7000 x 3500 columns at 0.01 degrees and the 33 levels of MRMS, 0.5 to 19 km. Storms
-// are in some 7 % of a site's bricks; sites that see the same place see the same storms. Partials
-// are grid files of the cache, made once (some 1 GiB) and mapped, as in the daemon. The new volume
-// is a real one, KLOT 2022-03-17, moved to Des Moines.
+// are in some 7 % of a site's bricks; all sites that see a place see the same storms there.
+// Partials are grid files of the cache, made once (some 1 GiB) and mapped, as in the daemon. The
+// new volume is a real one, KLOT 2022-03-17, moved to Des Moines.
 //
 // Threads   One thread at a time, because the clocks are those of the whole process.
 #pragma once
@@ -19,8 +19,8 @@
 namespace stormcellar::bench {
 
 // Adds a row for each number of threads (bench_mosaic.cpp has the columns). `work` keeps the
-// partials. With a cache, the mosaic is committed to it, as the domain US, for who wants to draw
-// it.
+// partials. If `cache` is given, the mosaic is committed to it as the domain US, so that it can be
+// drawn.
 [[nodiscard]] Status measure_nation(const Request& request, const std::filesystem::path& work,
                                     const std::optional<std::filesystem::path>& cache,
                                     Table& table);

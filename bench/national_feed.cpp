@@ -41,8 +41,8 @@ Result<Bytes> read_joined(const fs::path& path) {
     return joined;
 }
 
-// In the middle of the hour, so that the headers of its volumes are close enough to it for the
-// decoder to believe them (an hour).
+// Returns the time of the radials: the middle of the hour, because the decoder believes only times
+// within an hour of the header.
 UtcTime stamp_of(int hour) {
     return national_start() + std::chrono::minutes{60 * hour + 28};
 }

@@ -1,17 +1,18 @@
 // bench/national_feed.h -- the heaviest national hour of Level II: 160 sites, 13.8 GB an hour in
 // some 33 chunks a second.
 //
-// Sites     The first 160 WSR-88Ds by ICAO; if there are fewer, each sends as much.
-// Volumes   Each site sends one of three real volumes again and again: six sites of eight a storm
-//           with 94 chunks and 11.6 MB (KLOT, 2021, with MRLE), one KLBB 2016 (46 chunks, 4.0 MB),
-//           one KLOT 2026 in clear air (55 chunks, 3.1 MB). All take `period`, from which the rate
-//           follows, and the starts of the sites are spread evenly.
+// Sites     The first 160 WSR-88Ds by ICAO. With fewer sites, each site still sends the same
+//           amount.
+// Volumes   Each site sends one of three real volumes again and again: of eight sites, six send a
+//           storm with 94 chunks and 11.6 MB (KLOT, 2021, with MRLE), one sends KLBB 2016 (46
+//           chunks, 4.0 MB), and one sends KLOT 2026 in clear air (55 chunks, 3.1 MB). Every volume
+//           takes `period_s`, which is chosen to give the rate. The starts of the sites are spread
+//           evenly over it.
 // On disk   A file for each site and hour: the records of the real volume with the site's name,
-//           position and times, compressed again (bench/restamp.h). Within the hour,
-//           volumes of a site differ only in the time in their headers: the times of the radials
-//           are up to 40 minutes off, and gates are the same. This saves nothing in reading,
-//           decompressing, decoding, gridding or storing them. A replay (synth/replay.h) plays
-//           them.
+//           position and times, compressed again (bench/restamp.h). Within the hour, volumes of a
+//           site differ only in the time in their headers: the times of the radials are up to 40
+//           minutes off, and gates are the same. Reading, decompressing, decoding, gridding and
+//           storing them take as long as for real files. synth/replay.h plays the files.
 // Threads   Plain data; make() starts its own threads.
 #pragma once
 
@@ -34,16 +35,16 @@ inline constexpr double heaviest_hour_bytes = 13.8e9;
 struct NationalSite {
     Station station;
     int kind = 0;
-    double first_start_s = 0;  // of its volume 0 on the feed's clock, not after 0
+    double first_start_s = 0;  // start of volume 0 on the feed's clock, at most 0
     std::uint64_t bytes = 0;   // of a volume
     std::size_t chunks = 0;
-    std::vector<std::filesystem::path> hours;  // what it sends in each hour
+    std::vector<std::filesystem::path> hours;  // file for each hour
 };
 
 // A volume that a site sends.
 struct NationalVolume {
     std::size_t site = 0;
-    int number = 0;  // of the site, from 0
+    int number = 0;  // among the site's volumes, from 0
     UtcTime start;
     std::string grid;  // the name of its grid's file
 };
@@ -61,15 +62,15 @@ class NationalFeed {
     [[nodiscard]] double message_bytes_per_byte() const { return expansion_; }
     [[nodiscard]] double chunks_a_second() const;
 
-    // Bytes of the feed in a second of its clock.
+    // Returns the bytes that the feed sends in a second of its clock.
     [[nodiscard]] double bytes_a_second() const;
-    // The feed's clock is at 0 so long after the first site began.
+    // Returns the seconds from the earliest start of a site to 0 on the feed's clock.
     [[nodiscard]] double past_s() const { return -sites_.back().first_start_s; }
 
     // Returns the start of a site's volume, counted from 0.
     [[nodiscard]] UtcTime start_of(const NationalSite& site, int volume) const;
-    // Returns what begins before `until_s` on the feed's clock, in the order of a replay, and what
-    // to replay for it.
+    // volumes() returns the volumes that begin before `until_s` on the feed's clock, in the order
+    // of a replay. item_of() returns the item that replays one.
     [[nodiscard]] std::vector<NationalVolume> volumes(double until_s) const;
     [[nodiscard]] synth::ReplayItem item_of(const NationalVolume& volume) const;
 
@@ -79,6 +80,6 @@ class NationalFeed {
     double expansion_ = 0;
 };
 
-[[nodiscard]] UtcTime national_start();  // the time of the feed's clock at 0
+[[nodiscard]] UtcTime national_start();  // UTC when the feed's clock is 0
 
 }  // namespace stormcellar::bench

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds step{20};
 constexpr int steps_to_start = 3000;
 
-// Uses only calls that are safe in the child of a process with threads.
+// Becomes the program. Uses only calls that are safe in the child of a process with threads.
 [[noreturn]] void become(const std::vector<char*>& words, const char* output, const char* errors,
                          const cpu_set_t* processors, pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -107,8 +107,8 @@ double ChildProcess::cpu_s() const {
     std::ifstream file(fmt::format("/proc/{}/stat", child_));
     std::string line;
     std::getline(file, line);
-    // The name of the program, in parentheses, may contain spaces. Behind it, utime and stime are
-    // the 12th and 13th words (proc(5)).
+    // Skip the program's name, which is in parentheses and may contain spaces. After it, utime and
+    // stime are the 12th and 13th words (proc(5)).
     std::istringstream words(line.substr(std::min(line.rfind(')') + 1, line.size())));
     std::string word;
     for (int i = 0; i < 11; ++i)

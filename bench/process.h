@@ -1,9 +1,8 @@
-// bench/process.h -- runs another program as a child, among them the stormcellard built with the
-// benchmarks, and measures what it uses. The child is killed when this process ends, however that
-// happens.
+// bench/process.h -- runs another program as a child, such as the stormcellard of the same build,
+// and measures its CPU time and memory. The child is killed when this process ends for any reason.
 //
-// Threads   One thread, which must live as long as the child is to run (PR_SET_PDEATHSIG follows
-//           it).
+// Threads   One thread at a time. The child is killed when the thread that started it ends
+//           (PR_SET_PDEATHSIG).
 #pragma once
 
 #include <cstdint>
@@ -24,26 +23,26 @@ namespace stormcellar::bench {
 
 class ChildProcess {
   public:
-    // Starts `arguments[0]`, which is looked for in $PATH if it has no slash. `output` gets what it
-    // writes on stdout, `output`.err what it writes on stderr. It runs on this processor alone if
-    // one is named. Errors: io if there is no process to be had; what the program itself lacks
-    // shows in is_running().
+    // Starts `arguments[0]`, which is looked up in $PATH if it has no slash. Its stdout goes to the
+    // file `output`, its stderr to `output`.err. If `processor` is given, the child runs only on
+    // that one. Errors: io if the system cannot make a process. If the program cannot be run, the
+    // child ends at once, so is_running() returns false.
     static Result<ChildProcess> start(std::vector<std::string> arguments,
                                       std::filesystem::path output,
                                       std::optional<int> processor = std::nullopt);
     ChildProcess(ChildProcess&& other) noexcept;
     ChildProcess& operator=(ChildProcess&& other) noexcept;
-    ~ChildProcess();  // kills it if it still runs
+    ~ChildProcess();  // kills the child if it still runs
 
     [[nodiscard]] bool is_running();
-    // Waits for its end. Returns true if it ended with success.
+    // Waits for the child to end. Returns true if its exit status is 0.
     bool wait();
-    // Asks it to end with SIGTERM, and waits.
+    // Sends SIGTERM to the child, and then does the same as wait().
     bool stop();
-    [[nodiscard]] std::string output() const;  // what it has written so far
+    [[nodiscard]] std::string output() const;  // its stdout so far
 
-    [[nodiscard]] double cpu_s() const;  // of all of its threads, since its start
-    // Returns a line of its status (proc(5)) in MiB: "VmHWM", its peak resident memory.
+    [[nodiscard]] double cpu_s() const;  // of all threads of the child, since its start
+    // Returns a line of the child's status (proc(5)) in MiB; "VmHWM" is its peak resident memory.
     [[nodiscard]] double memory_mib(std::string_view line = "VmHWM") const;
     [[nodiscard]] pid_t id() const { return child_; }
 
@@ -76,10 +75,10 @@ class DaemonProcess {
     [[nodiscard]] std::filesystem::path cache() const { return root_ / "cache"; }
     [[nodiscard]] std::filesystem::path catalog() const { return root_ / "state/catalog"; }
 
-    // Starts the daemon with `configuration` after the paths in its configuration. Returns when it
-    // runs.
+    // Writes a configuration of the paths followed by `configuration`, and starts the daemon with
+    // it. Returns when the daemon runs.
     [[nodiscard]] Status start(const std::string& configuration);
-    // Asks the daemon to end and waits. Returns true if it ended with success.
+    // Sends SIGTERM to the daemon and waits. Returns true if its exit status is 0.
     [[nodiscard]] bool stop() { return child_ && child_->stop(); }
     [[nodiscard]] bool is_running() { return child_ && child_->is_running(); }
     [[nodiscard]] pid_t id() const { return child_ ? child_->id() : 0; }  // 0: none

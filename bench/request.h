@@ -21,7 +21,7 @@ namespace stormcellar::bench {
 
 struct Program {
     std::string_view name;
-    std::string_view files;                     // "[FILE ...]" if it takes files
+    std::string_view files;                     // "[FILE ...]" if the program takes files
     std::string_view purpose;                   // one line
     std::vector<std::string_view> flags = {};   // the program's own flags
     std::vector<std::string_view> values = {};  // the program's own options with a value
@@ -40,23 +40,24 @@ struct Request {
     [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
     // Returns --data, or $STORMCELLAR_DATA, or ../shared/data.
     [[nodiscard]] std::filesystem::path data_directory() const;
-    // Returns the files named, else every volume of the data directory, sorted by path.
+    // Returns the named files, or if none is named, every volume of the data directory, sorted by
+    // path.
     [[nodiscard]] std::vector<std::filesystem::path> volumes() const;
 };
 
-// `request` is none if there is nothing to do. Then `status` is the exit status (0 after --help, 2
-// after bad usage), and everything has been printed.
+// The result of reading a command line. `request` is none after --help or bad usage, which have
+// been answered; `status` is then the exit status, 0 or 2.
 struct ReadRequest {
     std::optional<Request> request;
     int status = 0;
 };
 [[nodiscard]] ReadRequest read_request(const Program& program, std::span<char* const> arguments);
 
-// Prints the error, if there is one. Returns the exit status of main(): 3 if something that is
-// needed is not there, else 1.
+// Prints the error, if there is one. Returns the exit status of main(): 0 for success, 3 for
+// not_found, 1 for any other error.
 [[nodiscard]] int exit_status(std::string_view program, const Status& done);
 
-// The body of main(): reads the request and runs the benchmark, which returns the exit status.
+// Reads the request and calls `run` with it. Returns the exit status of main().
 [[nodiscard]] int run_benchmark(const Program& program, int argc, char** argv,
                                 const std::function<int(const Request&)>& run);
 
@@ -65,8 +66,8 @@ class Table;
 using MeasureFile =
     std::function<void(const std::filesystem::path&, const Request& request, Table& table)>;
 
-// The body of a benchmark over files: reads the request, measures each file into a table, and
-// prints it. Returns the exit status of main(): 2 after bad usage, 3 if there are no files.
+// Reads the request, calls `measure` for each file, and prints the table of results. Returns the
+// exit status of main(): 2 after bad usage, 3 if there are no files.
 [[nodiscard]] int run_over_files(const Program& program, std::span<char* const> arguments,
                                  const MeasureFile& measure);
 

@@ -68,8 +68,8 @@ bool is_legacy(const level2::Volume& volume) {
     return !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
 }
 
-// The altitude of the feed horn is the sum of both heights. If they were equal, they would be read
-// as those of a TDWR, which are not added.
+// Sets the position. The altitude of the feed horn is the sum of both heights. They must differ,
+// because a reader does not add equal heights (as of a TDWR).
 void move_to(const Station& station, level2::VolumeBlock& block) {
     constexpr int tower_m = 20;
     const auto altitude_m = static_cast<int>(std::lround(station.antenna_altitude_m));
@@ -131,7 +131,7 @@ Bytes compressed(Bytes& messages) {
     return stream;
 }
 
-// Returns an empty result if it is no stream.
+// Returns the decompressed bytes; empty if the input is not a bzip2 stream.
 Bytes decompressed(std::span<const std::byte> stream) {
     Bytes messages;
     bunzip::Workspace workspace;

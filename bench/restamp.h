@@ -1,7 +1,7 @@
-// bench/restamp.h -- makes of a volume, or of a file of LDM records, what another radar would have
-// sent at another time. Gates, angles, the pattern and everything measured are unchanged.
+// bench/restamp.h -- changes a volume, or a file of LDM records, as if another radar had sent it at
+// another time. Gates, angles, the pattern and all measurements stay the same.
 //
-// Threads   Pure, and const functions, which may be called from any thread.
+// Threads   Functions without state; const functions may be called from any thread.
 #pragma once
 
 #include <chrono>
@@ -20,30 +20,29 @@ namespace stormcellar::bench {
 // Moves the time of the header and of every radial whose time is plausible.
 void move_times(level2::Volume& volume, std::chrono::milliseconds by);
 
-// The volume then starts at `start` (whole milliseconds) and belongs to the station: the ICAO of
-// the header (one is made if there is none) and of the radials, and the position in the volume
-// block of message 31, are those of the station. Message 1 has no position; its reader takes that
-// of the station table.
+// Makes the volume start at `start` (whole milliseconds) and belong to the station. Sets the ICAO
+// in the header (which is made if there is none) and in the radials, and the position in the volume
+// block of message 31. Message 1 has no position; its reader uses the station table.
 void restamp(level2::Volume& volume, const Station& station, UtcTime start);
 
-// A file of LDM records, re-stamped as restamp() does, but in the messages themselves: the records
-// remain as the RDA cut them, with everything that a Volume does not hold, and are compressed
-// again. In messages 31 the station, both times and the position are changed; all other messages
-// are unchanged.
+// A file of LDM records that is re-stamped like a volume in restamp(), but in the bytes of its
+// messages. So the records keep the RDA's divisions, and the contents that a Volume does not hold.
+// Station, both times and position of messages 31 are changed, and the records are compressed
+// again. All other messages stay the same.
 class StampedRecords {
   public:
     // Errors: not_level2 for anything but a header and whole LDM records after it; corrupt for a
-    // record that is no bzip2 stream.
+    // record that is not a bzip2 stream.
     [[nodiscard]] static Result<StampedRecords> read(std::span<const std::byte> file);
 
-    // Returns the file with the start at `start` (whole milliseconds).
+    // Returns the file of a volume that starts at `start` (whole milliseconds).
     [[nodiscard]] Bytes stamped(const Station& station, UtcTime start) const;
     [[nodiscard]] std::uint64_t message_bytes() const;
 
   private:
     struct Record {
         Bytes messages;
-        bool negative = false;  // control word
+        bool negative = false;  // sign of the record's control word
     };
     Bytes header_;
     UtcTime start_;

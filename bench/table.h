@@ -1,8 +1,8 @@
 // bench/table.h -- rows of measurements, printed as a table or as one JSON document.
 //
-// A row is a list of keys and values, from which both forms are made. As text, values are separated
-// by tabs under a head of keys (a new head if the keys change) and printed as soon as they are
-// known. As JSON, finish() prints {"machine": {...}, "rows": [{...}]}.
+// A row is a list of keys and values. As text, a row is printed as soon as it is added, with tabs
+// between its values; a line of keys comes before the first row, and again when the keys change. As
+// JSON, finish() prints {"machine": {...}, "rows": [{...}]}.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ class Cell {
     Cell(const char* text) : Cell(std::string_view{text}) {}
     Cell(const std::string& text) : Cell(std::string_view{text}) {}
     Cell(int number) : text_(std::to_string(number)), is_number_(true) {}
-    // In both forms with this many decimals; "-" and null if it is not finite.
+    // Shows the number with this many decimals; as "-" or null if it is not finite.
     Cell(double number, int places);
 
     [[nodiscard]] const std::string& text() const { return text_; }

@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds step{2};
 constexpr int most_steps = 30'000;
 constexpr int microseconds_in_a_millisecond = 1000;
 
-// Prints one line of figures at the end: requests and bytes, microseconds, latencies, failures.
+// A script for wrk that prints requests, bytes, microseconds, latencies and failures on one line.
 constexpr std::string_view report = R"(done = function(summary, latency, requests)
   local e = summary.errors
   io.write(string.format("figures %d %d %d %d %d %d\n", summary.requests, summary.bytes,
@@ -36,8 +36,7 @@ int processor_of_load() {
                                                    : processor_of_servers;
 }
 
-// Waits until somebody listens on the port of a server that was started and, if it has something to
-// do before it is ready, until it says so.
+// Waits until the started server listens on the port, and, if `ready` is not empty, has written it.
 Result<WebServer> listening(Result<ChildProcess> process, int port, const std::string& name,
                             const fs::path& said, std::string_view ready = {}) {
     if (!process) return pass_on(process);
@@ -62,7 +61,7 @@ Result<WebServer> serve(const std::vector<std::string>& words, const fs::path& s
     std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
                                           fmt::format("127.0.0.1:{}", port)};
     arguments.insert(arguments.end(), words.begin(), words.end());
-    // Ignores what a server before this one said.
+    // Remove the output of an earlier server.
     std::error_code ignored;
     fs::remove(scratch / "serve", ignored);
     return listening(ChildProcess::start(std::move(arguments), scratch / "serve", processor), port,
