@@ -324,8 +324,8 @@ int report_ladder(const AccuracyOptions& options, const GridRequest& request,
     return exit_done;
 }
 
-// Measures a mosaic's own steps for several sites or for an instant, else volumes that are held
-// out.
+// Measures the steps of a mosaic if there are several sites or an instant. Otherwise holds out
+// volumes of one site and measures how well they are interpolated.
 int run_files(const AccuracyOptions& options, const GridRequest& request) {
     auto sources = load_mosaic(options.grid.files, request);
     if (!sources) return report_error(sources.error());

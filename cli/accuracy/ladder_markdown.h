@@ -3,10 +3,10 @@
 //
 //   step | rung | time_s | position max / rms (m) | value rms / p95 / p99 / max (UNIT) |
 //   status differs (%) | Pareto
-// time_s is the time with kept geometry, or the first time if there is no other. Figures have three
-// significant digits, rounded up; percentages have two decimals; "-" stands for a missing value.
-// Ladders of pictures (cli/picture/picture_ladder.h): step | rung | time_s | color p99 (dE) |
-// Pareto.
+// time_s is the time of a grid whose geometry is kept, or of the first grid if only that was timed.
+// Figures have three significant digits, rounded up; percentages have two decimals; "-" stands for
+// a missing value. Ladders of pictures (cli/picture/picture_ladder.h): step | rung | time_s | color
+// p99 (dE) | Pareto.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once

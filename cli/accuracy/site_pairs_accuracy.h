@@ -20,16 +20,16 @@ struct SitePairs {
     std::vector<grid::SiteComparison> pairs;  // pairs that may overlap, by their names
 };
 
-// Compares files of two sites or more. If a site has two volumes, the motion of the weather is
-// known, so clocks can be compared. Errors: bad_argument for another moment than REF or files of
-// one site; those of load_mosaic() and grid_sources(). Shows a progress bar for the pairs if it is
+// Compares files of two or more sites. Clocks can be compared only if a site has two volumes, which
+// show how the weather moves. Errors: bad_argument for another moment than REF or files of one
+// site; those of load_mosaic() and grid_sources(). Shows a progress bar for the pairs if it is
 // wanted.
 [[nodiscard]] Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                                    const GridRequest& request,
                                                    const EffectRequest& effects,
                                                    bool shows_progress);
 
-// Returns a table, followed by faults and undetermined quantities.
+// Returns a table, followed by the faults found and the quantities that could not be determined.
 [[nodiscard]] std::string format_site_pairs(const SitePairs& compared, bool markdown);
 [[nodiscard]] nlohmann::ordered_json site_pairs_json(const SitePairs& compared);
 

@@ -1,9 +1,9 @@
 // cli/accuracy/truth_errors.h -- reports how far grids are from the truth of a simulated scene
 // (synth/compare_with_truth.h), as a table and as JSON.
 //
-// This is the sampling error: air that the radar did not see, and changes of the storm in the
-// meantime. The truth is taken at the center of each cell, at the middle of the volume's time. A
-// cell counts if it has a value where the truth has echo above the weakest shown (-20 dBZ).
+// The differences are sampling errors: air that the radar did not see, and changes of the storm
+// during the volume. The truth is taken at the center of each cell, at the middle of the volume's
+// time. A cell counts if it has a value and the truth there is above -20 dBZ.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// stormcellar batch check --plan PLAN: reports tasks that are done, missing, or have left files
-// out.
+// stormcellar batch check --plan PLAN: counts the tasks that are done or missing, and the files
+// that they left out.
 #include <algorithm>
 #include <memory>
 

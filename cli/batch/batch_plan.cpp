@@ -91,7 +91,7 @@ Result<pipeline::Domain> domain_of(const PlanOptions& options, const Recipe& rec
                                    const std::vector<std::string>& known) {
     if (Status good = check_mosaic_name(options.mosaic); !good) return pass_on(good);
     ArchiveOptions archive = options.archive;
-    archive.catalog = options.source;  // an archive's volumes come from the source
+    archive.catalog = options.source;  // the source gives the volumes, in place of a catalog
     if (archive.stations.empty() && archive.bounds.empty())
         archive.stations = fmt::format("{}", fmt::join(known, ","));
     const auto request = parse_archive(archive);

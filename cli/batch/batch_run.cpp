@@ -1,4 +1,4 @@
-// stormcellar batch run --plan PLAN --task N, and batch merge: do tasks of a plan.
+// stormcellar batch run --plan PLAN --task N|N-M, and batch merge: run tasks of a plan.
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -49,8 +49,8 @@ Result<TaskRange> parse_tasks(const std::string& text) {
     return range;
 }
 
-// Returns the exit status. It asks for another try only if the system failed, because no try
-// changes the data or the plan.
+// Returns the exit status for a failed task. It is exit_try_again only if the system failed,
+// because another try would meet the same data and the same plan.
 int status_of(const Error& error) {
     if (error.cause() == Cause::system) return exit_try_again;
     return error.code == ErrorCode::bad_argument ? exit_bad_usage : exit_failed;
@@ -75,7 +75,7 @@ void say_done(const Task& task, const TaskOutcome& outcome) {
                    printable(file.reason));
     }
     if (outcome.stood) {
-        fmt::print("task {}: {}: stands already\n", task.number, name_of(task));
+        fmt::print("task {}: {}: already done\n", task.number, name_of(task));
         return;
     }
     const bool is_grids = task.kind() == batch::TaskKind::grids;
@@ -83,7 +83,7 @@ void say_done(const Task& task, const TaskOutcome& outcome) {
         !is_grids ? ""
                   : fmt::format("{} {}, {} left out, ", record.files, plural(record.files, "file"),
                                 record.left_out.size());
-    fmt::print("task {}: {}: {}{} {}, {} written, {:.1f} s of a processor\n", task.number,
+    fmt::print("task {}: {}: {}{} {}, {} written, {:.1f} s of CPU time\n", task.number,
                name_of(task), of_files, record.grids,
                plural(record.grids, is_grids ? "grid" : "frame"),
                format_byte_size(record.bytes_written), record.cpu_s);
@@ -114,7 +114,9 @@ Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs
     return outcome;
 }
 
-// Runs a range of tasks. Returns the worst status of a task.
+// Runs a range of tasks, also after one has failed. Returns the status of the last task that failed
+// for good, else exit_try_again if any failed or an interrupt came, else exit_done. A number that
+// is no task of the plan, or is of the other kind, ends the run with its own status.
 int run_tasks(const TaskCommand& command) {
     const auto range = parse_tasks(command.tasks);
     if (!range) return report_error(range.error());

@@ -1,7 +1,7 @@
 // cli/batch/task_pool.h -- runs tasks of a plan as processes on this machine, several at a time.
 //
-// Each task is a process, as with any other engine, so a crash affects no other task. A task that
-// ends with status 75 is tried again, up to three times in all.
+// Each task is a process, so a crash affects no other task. A task that ends with status 75 is
+// tried again, up to three times in all.
 //
 // Threads   One pool at a time; it waits for all children of the process.
 // Errors    io or exhausted if a process cannot be started.

@@ -39,7 +39,7 @@ struct FileScene {
     pipeline::GeometryCache geometries{most_geometries};
 };
 
-// Grids without a plan: the default chain, changed by the settings of the effects.
+// Grids without a plan: by the default chain with the typed settings of effects.
 Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, const MomentRequest& of,
                               GridTimings& timings) {
     Stopwatch watch;
@@ -127,7 +127,7 @@ Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridReque
     return all;
 }
 
-// Merges the files for one instant: the requested one, or that of the first moment.
+// Merges the files for one instant: the requested time, or the instant chosen for the first moment.
 Result<std::vector<MadeGrid>> grid_files(const std::vector<std::string>& files, GridRequest request,
                                          const std::vector<MomentRequest>& moments,
                                          GridTimings& timings, std::vector<SourceVolume>* kept) {

@@ -23,9 +23,8 @@ struct MosaicOptions {
 };
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
-// Parses the options for one moment. Errors: bad_argument, naming the option, also for one that
-// only makes sense with several files. The averaging stays the default, because it is among the
-// effects.
+// Parses the options for one moment. Errors: bad_argument, naming the option, also if it needs
+// several files and there is one. Averaging keeps its default here, because it is set by --effect.
 [[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
                                                        const EffectOptions& effects,
                                                        std::size_t files,
@@ -52,11 +51,10 @@ struct MosaicSources {
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
 
-// Returns the request for the moment of `overlap`, on the grid of the sources: about the middle of
-// the sites if there is no --center, and reaching 230 km beyond them if there is no extent. Without
-// --time, the instant is the middle between the earliest and the latest of the sites' newest
-// volumes, or the middle of the newest one if any of these volumes is more than 15 minutes from the
-// first instant.
+// Returns the request for the moment of `overlap`, on the grid of the sources. Without --time it
+// has no instant, so the instant will be the middle between the earliest and the latest of the
+// sites' newest volumes; if one of these is more than 15 minutes from there, the middle of the
+// newest volume.
 [[nodiscard]] pipeline::MosaicRequest mosaic_request(const MosaicSources& sources,
                                                      const GridRequest& request,
                                                      const grid::MosaicOptions& overlap,

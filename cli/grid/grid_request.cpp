@@ -326,7 +326,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     request.threads = options.threads > 0
                           ? options.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    // For several sites, the extent and a spacing that fits it are known only once the sites are.
+    // For several sites, the extent depends on the sites, which are not known yet.
     const bool has_extent = request.extent_given || options.files.size() == 1;
     if (has_extent && (request.center_deg || grid::facts_of(request.projection).is_polar)) {
         if (const auto spec = spec_about(request, 0, 0); !spec) return pass_on(spec);

@@ -34,7 +34,7 @@ struct GridOptions {
     bool takes_moments = false;  // --moment may name several moments, or "all"
     std::string time, fields;
     SiteOptions site;
-    int volume = 0;   // its number, from 1; 0: see add_volume_option()
+    int volume = 0;   // number from 1; 0: none was typed
     int threads = 0;  // 0: as many as the machine has
     bool json = false;
 };
@@ -65,14 +65,14 @@ struct GridRequest {
     level2::Moment moment = level2::Moment::ref;
     std::vector<level2::Moment> more_moments;  // in addition to the first, in the order of the list
                                                // of moments
-    bool any_moment = false;            // --moment all: a moment that no volume holds is left out
+    bool any_moment = false;            // --moment all: leave out moments that no volume holds
     std::optional<UtcTime> frame_time;  // selects the sweeps nearest to this time
     grid::DetailSet details;            // for one file
     bool site_counts = false;           // for several files
     bool site_weights = false;
     SiteRequest site;  // applies to every file
-    int volume = 0;    // number in the one file, from 1; 0: the first, or the newest of chunks
-    // The files behind the names; null: each name is one file.
+    int volume = 0;    // number in a single file, from 1; 0: the first, or the newest of chunks
+    // The files found for the names; null: each name is one file.
     std::shared_ptr<InputFiles> inputs;
     int threads = 1;
 
@@ -84,13 +84,13 @@ struct GridRequest {
 // Errors: those of InputFiles::find().
 [[nodiscard]] Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options);
 
-// Parses the options. With --center, or if the center does not matter, it checks the spec as well.
+// Parses the options. With --center, or if the center does not matter, also checks the spec.
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Result<GridRequest> parse_request(const GridOptions& options);
 
-// Returns the requested grid about --center, or without one about this valid point. For a
-// latitude-longitude grid, kilometers are converted to degrees at the center, rounded up to whole
-// cells.
+// Returns the requested grid about --center. Without --center, the given point is the center; it
+// must be valid. For a latitude-longitude grid, kilometers are converted to degrees at the center,
+// rounded up to whole cells.
 [[nodiscard]] Result<grid::GridSpec> spec_about(const GridRequest& request, double latitude_deg,
                                                 double longitude_deg);
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view how_to_place =
     "; name the radar with --station ICAO, or give its position with --position LAT,LON,HEIGHT";
 
-// Returns the wish for the request, which must outlive it.
+// Returns the wish. The request must outlive the wish.
 grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cuts) {
     return {
         .moments = request.moments(),
@@ -64,7 +64,8 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
     grid::SourceWish wish = wish_of(request, choose_cuts);
     // If the directory has chunks, InputFiles has already chosen the volume.
     if (named->chunks.empty()) wish.volume = request.volume;
-    // With cuts left out, a volume may have no sweep and would not be counted, so decode all cuts.
+    // Volumes are counted by their sweeps, and a volume may have none of the chosen cuts, so decode
+    // all cuts.
     if (wish.volume > 0) wish.choose_cuts = {};
     auto read = read_and_decode(*inputs, *named, wish);
     if (!read) return pass_on(read);

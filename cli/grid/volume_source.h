@@ -15,8 +15,8 @@ using grid::ChooseCuts;
 using grid::SourceVolume;
 
 // Returns the first volume of the file that holds one of the requested moments, with these moments
-// only. If `choose_cuts` is set, only the sweeps of these cuts are decoded, or all sweeps if those
-// hold none of the moments. Errors name the file: those of reading and decoding, and of
+// only. If `choose_cuts` is set, decodes only the sweeps of the chosen cuts, or all sweeps if the
+// chosen ones hold none of the moments. Errors name the file: those of reading and decoding, and of
 // apply_site(); not_found if the position of the radar is unknown.
 [[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
                                                const ChooseCuts& choose_cuts = {});

@@ -97,8 +97,8 @@ Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call,
     return plan;
 }
 
-// Runs `work` with a progress bar. An interrupt need not wait for it, because grids are committed
-// whole.
+// Runs `work` with a progress bar. An interrupt ends the program at once, which is safe because
+// grids are committed whole.
 template <class Work>
 Status run_with_bar(const std::string& what, std::size_t total, bool wanted, Interrupt& interrupt,
                     Work work) {
@@ -193,7 +193,8 @@ void warn(const std::vector<pipeline::LeftOut>& files, std::string_view what) {
     }
 }
 
-// Reports the files left out. A file that can no longer be read may have been gridded earlier.
+// Reports the files that were left out, and adds to the reason if a grid of the file exists from an
+// earlier run.
 void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& missing,
                   ArchiveGrids& grids) {
     for (pipeline::LeftOut& file : grids.report.left_out) {

@@ -1,9 +1,9 @@
-// cli/loop/archive_loop.h -- makes the missing grids for an archive's loop
+// cli/loop/archive_loop.h -- makes the missing grids for a loop of an archive
 // (pipeline/care/archive_fill.h).
 //
 // The grids are kept in --cache, or below $XDG_CACHE_HOME (else ~/.cache) in a directory whose name
 // has a hash of everything that determines them: catalog, stations, grid, moment, rules, version.
-// One process at a time fills it.
+// One process at a time fills a cache.
 #pragma once
 
 #include <chrono>
@@ -28,9 +28,9 @@ namespace stormcellar::cli {
 struct ArchiveCall {
     ArchiveRequest request;
     std::filesystem::path catalog;
-    std::set<std::filesystem::path> files;  // of the catalog, use only these; empty: all
-    std::filesystem::path cache;            // empty: the private one
-    std::string domain;                     // of a mosaic; empty: composed of the stations' names
+    std::set<std::filesystem::path> files;  // files of the catalog to use; empty: all
+    std::filesystem::path cache;            // empty: a private cache
+    std::string domain;                     // of a mosaic; empty: named after its stations
     TimeRange range;                        // both ends are required
     level2::Moment moment = level2::Moment::ref;
     std::optional<std::chrono::seconds> interval;
@@ -48,12 +48,12 @@ struct ArchiveGrids {
     pipeline::FillReport report;
     double fill_s = 0, frames_s = 0;
     std::filesystem::path directory;  // of the cache
-    std::uint64_t bytes = 0;          // in it, set when it is left
+    std::uint64_t bytes = 0;          // in the cache; leave_cache() sets it
 };
 
-// Fills the cache, with progress on stderr, and names files that are left out. Returns none if
-// nothing in the catalog matches; `nothing` then says why. An interrupt ends the process at once;
-// committed grids stay.
+// Fills the cache, with progress on stderr. Names the files that it leaves out on stderr. Returns
+// none if nothing in the catalog matches; `nothing` then says why. An interrupt ends the process at
+// once; committed grids stay.
 [[nodiscard]] Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
                                                                     Interrupt& interrupt,
                                                                     std::string& nothing);

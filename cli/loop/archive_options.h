@@ -48,8 +48,9 @@ struct ArchiveRequest {
 // Parses the options. Errors: bad_argument, naming the option, also for one that needs --catalog.
 [[nodiscard]] Result<ArchiveRequest> parse_archive(const ArchiveOptions& options);
 
-// Returns the grid that holds the sites and 230 km around them, or the bounds. Without a spacing,
-// it takes the smallest of 1, 2, 4 and 8 km with which no side has more than 1024 cells.
+// Returns the requested grid. It holds the bounds; without bounds it has the typed extent, else it
+// holds the sites and 230 km around them. If neither extent nor spacing was typed, the spacing is
+// the smallest of 1, 2 and 4 km with which no side has more than 1024 cells, else 8 km.
 [[nodiscard]] Result<grid::GridSpec> archive_spec(const ArchiveRequest& request,
                                                   const std::vector<grid::SitePosition>& sites);
 

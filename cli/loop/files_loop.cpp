@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr int lock_tries = 20;
 constexpr auto lock_pause = std::chrono::milliseconds{50};
 constexpr std::size_t most_rejected_named = 20;
-// All volumes are between these times.
+// Every volume is between these times.
 constexpr UtcTime earliest{std::chrono::days{1}}, latest{std::chrono::days{100'000}};
 
 struct NamedFiles {

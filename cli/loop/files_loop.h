@@ -1,10 +1,10 @@
-// cli/loop/files_loop.h -- makes loops of raw files: it first makes a catalog of the files, and
-// then loops over it as over an archive.
+// cli/loop/files_loop.h -- makes loops of raw files: catalogs the files, so that `loop` can use the
+// catalog as that of an archive.
 //
-// The catalog is beside the grids: below --cache, or where the private caches are
-// (pipeline/care/archive_plan.h). Its name has a hash of the directories of the files. Files that
-// it has in their present state are not decoded again, and existing grids are reused, so a growing
-// directory costs only its new files.
+// The catalog is below --cache, or beside the private caches (pipeline/care/archive_plan.h). Its
+// name has a hash of the directories of the files. Files that have not changed since they were
+// cataloged are not decoded again, and existing grids are reused, so only new files of a growing
+// directory take time.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -22,10 +22,10 @@
 namespace stormcellar::cli {
 
 // Catalogs options.files, and sets in `options` the catalog and, where the options leave them open,
-// the stations of the files and the times that their volumes span. Names files that are left out on
-// stderr. An interrupt ends the process at once. Errors: bad_argument for standard input; those of
-// InputFiles::find() and of rebuild_catalog(); busy if another loop catalogs the same directory;
-// not_found if no file holds a volume.
+// the stations of the files and the times that their volumes span. Names on stderr the files that
+// are left out. An interrupt ends the process at once. Errors: bad_argument for standard input;
+// those of InputFiles::find() and of rebuild_catalog(); busy if another loop catalogs the same
+// directory; not_found if no file holds a volume.
 [[nodiscard]] Status catalog_files(LoopOptions& options, Interrupt& interrupt);
 
 // Returns, by station, the files and members of archives that hold no volume or cannot be read.

@@ -148,7 +148,7 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
 }
 
 // Distributes the grids over the frames of the loop. A followed loop may begin with a single grid;
-// its camera then stands still until there are more.
+// its camera then does not move until there are more.
 Status spread(LoopGrids& grids, const LoopOptions& options) {
     auto& frames = grids.frames;
     grids.frames_there = frames.size();

@@ -30,7 +30,8 @@ Camera orbiting(const LoopScene& shown, double by_deg) {
     return render::turned(shown.view, by_deg, shown.scene.curved_earth);
 }
 
-// Places a camera that has no position: as far from the scene as in the fitted view.
+// Returns the camera with a position. If it has none, its distance from the scene is that of the
+// fitted view.
 Camera placed(const LoopScene& shown, const Camera& camera) {
     if (camera.eye || camera.look_at) return camera;
     render::FittedView view = shown.view;

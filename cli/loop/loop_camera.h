@@ -1,6 +1,6 @@
 // cli/loop/loop_camera.h -- decides how many frames a loop has, and where the camera is in each.
 //
-// The camera stands still, orbits (--orbit), or follows the keys of a scene file ([[loop.camera]],
+// The camera is fixed, orbits (--orbit), or follows the keys of a scene file ([[loop.camera]],
 // render/view/camera_path.h). It orbits about the middle of a fitted view, about the point that it
 // looks at, or about the middle of the grid.
 //

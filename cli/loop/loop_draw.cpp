@@ -75,7 +75,7 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
                        : render();
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
-    if (const Status whole = grid->check_whole(); !whole) {  // the file was truncated while it was
+    if (const Status whole = grid->check_whole(); !whole) {  // its file was truncated while it was
                                                              // drawn
         return skip(whole.error());
     }

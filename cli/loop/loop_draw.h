@@ -22,7 +22,8 @@ struct Drawing {
     UtcTime made_for{};
 };
 
-// Returns one frame; none if the file of the grid is damaged, which is added to the report.
+// Returns one frame; none, with the reason added to the report, if its grid is damaged or cannot be
+// made.
 [[nodiscard]] Result<std::optional<render::Image>> draw(
     const LoopFrame& frame, const LoopOptions& options,
     std::optional<pipeline::BetweenGrids>& between, Drawing& drawing, LoopReport& report);

@@ -25,9 +25,10 @@ class Encoding {
   public:
     explicit Encoding(Writers writers) : writers_(std::move(writers)) {}
 
-    // Takes a frame and returns the outcome of the previous one.
+    // Waits for the previous frame, starts to encode this one, and returns the first error of the
+    // previous frame.
     Status add(render::Image frame);
-    // Stops before the next file if the flag is set.
+    // Waits for the last frame and finishes each file. Stops before the next file if `stop` is set.
     Status finish(const std::atomic<bool>& stop);
     // Returns the sum over the writers. Call it after finish().
     [[nodiscard]] double encode_s() const { return encode_s_; }
@@ -37,7 +38,7 @@ class Encoding {
         Status status;
         double seconds = 0;
     };
-    // Waits for all and returns the first error.
+    // Waits for all writers and returns the first error.
     Status wait();
 
     Writers writers_;

@@ -37,7 +37,7 @@ struct LoopGrids {
 // Returns the frames for the existing grids of a cache.
 [[nodiscard]] LoopGrids grids_of(const cache::StoreReader& store, const std::string& domain,
                                  const std::vector<cache::StoreEntry>& entries);
-// Returns the requested grids of a cache at this moment: relative times count from the call.
+// Returns the requested grids that a cache has now. Relative times count from the call.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_now(const cache::StoreReader& store,
                                                                  const LoopOptions& options,
                                                                  level2::Moment moment);

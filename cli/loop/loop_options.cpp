@@ -81,7 +81,8 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
 }
 
 Status take_sources(LoopOptions& options) {
-    // If the sources are files or an archive, the domain is the name of a mosaic.
+    // For files or an archive, the domain is only a name for the mosaic, so do not look for it in a
+    // cache.
     auto names = tell_apart_from_cache(options.sources, {}, options.cache_place);
     if (!names) return pass_on(names);
     options.files = std::move(names->files);

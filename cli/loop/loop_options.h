@@ -31,7 +31,7 @@ struct LoopOptions : LoopSettings {
     PlaceOption cache_place;           // as typed; `cache` is the result
     std::string cache;
     ArchiveOptions archive;
-    std::set<std::filesystem::path> archive_files;  // for files: use only these of the catalog
+    std::set<std::filesystem::path> archive_files;  // for files: files of the catalog to use
     SceneFile scene_file;
     FollowOptions follow;
     std::string interval;     // between frames; empty: one frame for each grid

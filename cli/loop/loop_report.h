@@ -1,4 +1,4 @@
-// cli/loop/loop_report.h -- reports the result of `loop`, and writes the metadata of its file.
+// cli/loop/loop_report.h -- reports the result of `loop`.
 #pragma once
 
 #include <filesystem>

@@ -52,7 +52,7 @@ struct SweepFrame {
                                         // newest
 };
 
-// State that the frames share, and the volume that was decoded last.
+// State that the frames share, with the volume that was decoded last.
 struct SweepDrawing {
     GridOptions grid;
     render::Scene scene;
@@ -136,7 +136,7 @@ Result<SweepSources> sources_of_domain(const LoopOptions& options) {
     return sources;
 }
 
-// Returns the decoded volume; decodes it unless it was the last one.
+// Returns the decoded volume. Decodes it unless it is the volume that was decoded last.
 Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t number,
                                      SweepDrawing& drawing) {
     if (drawing.decoded == number) return &*drawing.volume;
@@ -187,8 +187,8 @@ std::vector<UtcTime> times_of_sweeps(const SweptVolume& volume) {
     return times;
 }
 
-// Returns the frames that a volume may have. With --repeats, each sweep asks for the sweep of the
-// elevation nearest to it in time, so several may ask for the same one.
+// Returns the frames that a volume may have. With --repeats there is a frame for each sweep, which
+// shows the sweep of the elevation nearest to it in time; several frames may show the same one.
 std::vector<SweepFrame> frames_to_try(std::size_t number, const SweptVolume& volume,
                                       double asked_deg, const SweepDrawing& drawing) {
     std::vector<SweepFrame> frames;

@@ -1,11 +1,11 @@
-// cli/loop/sweep_loop.h -- makes loops of a ppi, sweeps as the radar saw them: one sweep of each
-// volume; with --all-elevations each elevation of each volume, from the lowest up; with --repeats
-// each sweep of one elevation.
+// cli/loop/sweep_loop.h -- makes loops of sweeps as the radar saw them (product ppi). A loop has
+// one sweep of each volume; with --all-elevations, one sweep of each elevation of each volume, from
+// the lowest up; with --repeats, each sweep of one elevation.
 //
-// Sweeps are drawn from raw files: the named ones, those of an archive's catalog, or the raw files
-// of a domain's grids. If sweeps repeat in a volume (SAILS, MRLE), the newest is shown, or with
-// --repeats each in order of time. All frames have the plane of the first, so that the map stands
-// still.
+// Sweeps are drawn from raw files: the named files, the files of an archive's catalog, or the raw
+// files of a domain's grids. If a volume repeats a sweep (SAILS, MRLE), the newest is shown, or
+// with --repeats each one in order of time. All frames have the plane of the first frame, so that
+// the map does not move.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -1,9 +1,9 @@
 // cli/picture/drawn_frames.h -- keeps pictures of a followed loop for reuse.
 //
-// When one grid arrives, the next loop shares all frames but one with the last loop. A frame is
+// When a grid arrives, the new loop shares all frames but one with the loop before it. A frame is
 // identified by the file of its grid (path, inode, time and size) and by the parts of the scene
-// that may differ between frames, with the plan, or with the echo: camera, exaggeration, opacity,
-// light, slices, integration and rays.
+// that may differ between frames, because of the plan or of the echo: camera, exaggeration,
+// opacity, light, slices, integration and rays.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -1,4 +1,4 @@
-// cli/picture/frame_probe.h -- frame --probe and --probe-at: report what is at one place of a
+// cli/picture/frame_probe.h -- `frame --probe` and `--probe-at`: report the value at one place of a
 // picture.
 #pragma once
 
@@ -20,8 +20,7 @@ using MaybeProbe = std::optional<render::Probe>;
 [[nodiscard]] Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
                                             const PictureGrid& file);
 
-// Prints a line for the place, one for its value, and one for the heights seen above it or for its
-// gate.
+// Prints three lines: the place, its value, and the heights seen above it or its gate.
 void print_probe(const render::Probe& probe, const FrameOptions& options,
                  const render::Scene& scene, const cache::GridDescription& grid);
 // Returns the same for --json.

@@ -13,8 +13,7 @@ struct FrameTiming {
     double render_s = 0, write_s = 0, total_s = 0;
 };
 
-// Returns how long reading and decoding the files took, which is part of the reading time; none for
-// a grid of the cache.
+// Returns the seconds for reading and decoding the files; 0 for a grid of the cache.
 [[nodiscard]] double decode_s(const PictureGrid& grid);
 
 // Reports the written file on stderr, or as a document with --json, and the probe.

@@ -1,5 +1,5 @@
-// cli/picture/frame_sources.h -- finds the grid for `frame`: it makes it from the named files, or
-// takes the newest one of a domain in the cache.
+// cli/picture/frame_sources.h -- gets the grid for `frame`: makes it from the named files, or takes
+// a domain's newest grid from the cache.
 //
 // Threads   One thread at a time.
 // Errors    See each function.

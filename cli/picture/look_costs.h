@@ -1,6 +1,6 @@
-// cli/picture/look_costs.h -- measures the costs of a picture's defaults that are not in its plan:
-// smooth colors, and the view fitted to the echo. They are a choice of appearance, not of accuracy,
-// so no tolerance turns them off; `frame --explain` prints them below the plan.
+// cli/picture/look_costs.h -- measures the time that two defaults of a picture cost: smooth colors,
+// and the view fitted to the echo. Both affect appearance, not accuracy, so no plan chooses them;
+// `frame --explain` prints their costs below the plan.
 #pragma once
 
 #include <string>

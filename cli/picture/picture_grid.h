@@ -20,9 +20,9 @@
 
 namespace stormcellar::cli {
 
-// Adds the options of a grid that is made for a picture, except those of the picture itself.
+// Adds the options for a grid that is made for a picture, without the options of the picture.
 void add_picture_grid_options(CLI::App& app, GridOptions& options);
-// Returns true if one of these was typed, which makes no sense for a grid of the cache.
+// Returns true if one of these options was typed. They make no sense for a grid of the cache.
 [[nodiscard]] bool has_picture_grid_options(const GridOptions& options);
 
 class PictureGrid {
@@ -33,8 +33,8 @@ class PictureGrid {
     // files, the moment, the place of the grid and the number of threads. Errors name the file or
     // the option.
     [[nodiscard]] static Result<PictureGrid> make(GridOptions options);
-    // Decodes once and grids several moments, "REF,VEL". Returns a grid for each, in their order.
-    // The first grid owns the volumes.
+    // Decodes the files once and grids several moments, "REF,VEL". Returns a grid for each, in
+    // their order. The first grid owns the volumes.
     [[nodiscard]] static Result<std::vector<PictureGrid>> make_each(GridOptions options);
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
@@ -44,7 +44,7 @@ class PictureGrid {
     PictureGrid& operator=(PictureGrid&&) noexcept;
     ~PictureGrid();
 
-    // Returns false once it was moved from.
+    // Returns false after the object was moved from.
     [[nodiscard]] bool has_grid() const { return stored_ != nullptr || made_ != nullptr; }
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this object lives
     [[nodiscard]] const cache::GridDescription& description() const;

@@ -1,6 +1,7 @@
-// cli/picture/picture_ladder.h -- measures the time that the accuracy of a volume's picture costs.
+// cli/picture/picture_ladder.h -- measures how the time and the error of a volume's picture depend
+// on the rungs of its plan.
 //
-// The volume is gridded with the defaults of `stormcellar grid` and drawn with those of
+// The volume is gridded with the defaults of `stormcellar grid` and drawn with the defaults of
 // `stormcellar frame`: 796 x 532 pixels, the default view, the colors of the moment. The rows of
 // light are for a picture with all kinds of light; the other rows are for one without light. Times
 // are the smallest of the rounds; each round makes everything anew.

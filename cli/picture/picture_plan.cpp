@@ -53,7 +53,7 @@ bool keeps_slices(const PicturePlanOptions& options) {
            std::none_of(options.effects.begin(), options.effects.end(), chooses_slices);
 }
 
-// Returns the default with the settings applied.
+// Returns the default choice with the typed settings applied.
 render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scene& scene) {
     accuracy::Choice choice = render::rungs_of(chain, choice_of(scene));
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
@@ -76,8 +76,8 @@ std::string error_text(const accuracy::Plan& plan) {
     return fmt::format("{} ({})", text, plan.description);
 }
 
-// Handles a plan for a product other than a volume. It is an error if the product is the file's; if
-// --product replaced the volume of the file, the plan has no effect.
+// Handles a plan for a product other than a volume. Returns an error, unless the plan is a scene
+// file's whose volume was replaced by --product; that plan is ignored.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
         return fail(

@@ -22,7 +22,7 @@ struct ScenePlan {
     bool of_volume = true;
 };
 
-// The options as they were typed, or as in a scene file.
+// The options, from the command line or a scene file.
 struct PicturePlanOptions {
     std::string tolerance;
     std::vector<std::string> effects;
@@ -31,7 +31,7 @@ struct PicturePlanOptions {
     std::optional<ScenePlan> scene;  // none: no file was given
 
     [[nodiscard]] bool asked() const { return explain || !tolerance.empty() || !effects.empty(); }
-    // returns true if nothing was typed in addition to the file
+    // returns true if the options are exactly those of the file
     [[nodiscard]] bool is_scenes() const {
         return scene && !explain && tolerance == scene->tolerance && effects == scene->effects;
     }
@@ -45,12 +45,12 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 [[nodiscard]] Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                                             const SceneOptions& scene);
 
-// Plans for this grid and sets the scene's slices, integration and rays; the number of slices stays
-// if no tolerance or effect chooses it. Prints the plan if requested: to stderr with `json`, else
-// to stdout. Returns one line about the expected error of the picture. Does nothing and returns an
-// empty line if nothing was requested. A plan of the scene file is ignored if a product other than
-// a volume was typed. Errors: bad_argument for invalid options, or a product that is not a volume;
-// not_found, naming the best plan, if none meets the tolerance.
+// Plans for this grid and sets the scene's slices, integration and rays. Keeps the number of slices
+// unless a tolerance or an effect chooses it. Prints the plan if requested: to stderr with `json`,
+// else to stdout. Returns one line about the expected error of the picture. Does nothing and
+// returns an empty line if nothing was requested. A plan of the scene file is ignored if a product
+// other than a volume was typed. Errors: bad_argument for invalid options, or a product that is not
+// a volume; not_found, naming the best plan, if none meets the tolerance.
 [[nodiscard]] Result<std::string> plan_picture(const grid::BrickView& view,
                                                const render::FrameFacts& facts,
                                                const PicturePlanOptions& options, bool json,

@@ -18,16 +18,16 @@
 
 namespace stormcellar::cli {
 
-// A volume as the catalog has it; it may still be growing.
+// A volume from the catalog, which may still be growing.
 struct RawVolume {
     std::string file;
     UtcTime start;  // of the volume; the file may hold others
     std::vector<std::byte> bytes;
-    std::vector<std::string> notes;  // such as missing chunks
+    std::vector<std::string> notes;  // remarks, such as missing chunks
 };
 
-// Returns the grids of a domain of any moment, one for each time, ascending. Errors: those of the
-// cache.
+// Returns a domain's grids: one for each time at which it has a grid of any moment, ascending.
+// Errors: those of the cache.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> grids_of_any_moment(
     const cache::StoreReader& store, const std::string& domain, std::optional<UtcTime> from,
     std::optional<UtcTime> to);
@@ -38,8 +38,8 @@ struct RawVolume {
                                               const std::string& domain,
                                               const cache::GridDescription& grid);
 
-// Reads the volume of a station that starts at a time, from this file if several have it. Errors:
-// as above.
+// Reads the volume of a station that starts at this time. If several files have it, reads it from
+// `file`. Errors: as above.
 [[nodiscard]] Result<RawVolume> raw_volume_at(const catalog::CatalogReader& catalog,
                                               const std::string& station, UtcTime start,
                                               const std::filesystem::path& file);

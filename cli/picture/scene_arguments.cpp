@@ -22,12 +22,12 @@ using render::PictureSettings;
 using render::TextValue;
 using render::WholeValue;
 
-// Keeps the first problem, which is the one that is reported.
+// Keeps the first problem, because only one is reported.
 void note(SceneOptions& options, const Status& status) {
     if (!status && !options.problem) options.problem = status.error();
 }
 
-// Adds one row of the table as an option, with this name and help text.
+// Adds a row of the table as an option.
 struct ValueAdder {
     CLI::App& app;
     std::string name;

@@ -124,7 +124,8 @@ void read_value(const NamesValue& value, const Place& at) {
     if (!known) at.complain(known.error().message);
 }
 
-// The sections of a file. Each is asked for once, so that unknown keys are found.
+// The sections of a file. Each has one TomlTable, which notes the keys that were read, so that
+// unknown keys are found.
 class Sections {
   public:
     explicit Sections(TomlTable root) : root_(root) {}
@@ -259,7 +260,7 @@ void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSet
     }
 }
 
-// Recognizes the project's other .toml files by a section that only they have.
+// Refuses the project's other .toml files, each recognized by a section that only it has.
 Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     constexpr std::array<std::pair<const char*, const char*>, 3> others{
         std::pair{"radar", "this is a simulated scene for stormcellar synth"},

@@ -39,7 +39,7 @@ struct LoopSettings : LoopChoices {
                                      PicturePlanOptions& plan, LoopSettings& loop);
 
 // The option --scene. `error` is an error of the file, for the command to report. `alone` is an
-// error that a further option may correct.
+// error of the file that a typed option may correct.
 struct SceneFile {
     std::string path;
     std::optional<Error> error;

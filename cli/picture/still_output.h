@@ -1,7 +1,7 @@
 // cli/picture/still_output.h -- the output of `frame`: its format (stormcellar/render/still.h), and
 // how it is written.
 //
-// "-" is a PNG on standard output; "-.webp" is another format there.
+// "-" is a PNG on standard output; "-.webp" is WebP on standard output, and so on.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -43,9 +43,9 @@ struct PlacedSweep {
 [[nodiscard]] Result<SweptVolume> decode_sweeps(const RawVolume& raw, const GridOptions& options,
                                                 const render::Scene* shown);
 
-// Finds the sweep that the scene names. Its plane is `plane`, that of another frame, or is about
-// the site or the center of the options and reaches to the last gate or as far as the options say.
-// Errors: those of grid::SweepLookup::find().
+// Finds the sweep that the scene names. Its plane is `plane`, if given (the plane of another
+// frame). Otherwise the plane is about the center of the options, else about the site, and reaches
+// as far as the options say, else to the last gate. Errors: those of grid::SweepLookup::find().
 [[nodiscard]] Result<PlacedSweep> place_sweep(const SweptVolume& volume, const render::Scene& scene,
                                               const grid::GridSpec* plane = nullptr);
 

@@ -1,4 +1,4 @@
-// stormcellar catalog stations|list|latest|oldest|get|check|rebuild: asks and maintains the
+// stormcellar catalog stations|list|latest|oldest|get|check|rebuild: queries and maintains the
 // catalog.
 #include "stormcellar/catalog/catalog.h"
 
@@ -36,7 +36,8 @@ struct CatalogOptions {
     GetOptions get;
 };
 
-// Returns the state of the volume. In a file with several, one may be complete and another not.
+// Returns the state of the volume. Of several volumes in a file, one may be complete and another
+// incomplete.
 catalog::FileState state_of(const CatalogEntry& entry) {
     using catalog::FileState;
     const bool settled = entry.state == FileState::complete || entry.state == FileState::partial;
@@ -288,7 +289,7 @@ Run set_up_catalog(CLI::App& command) {
         one->add_flag("--json", options->json, "Print one JSON document");
 
     return [=] {
-        // A user who names both makes a private catalog, not the service's.
+        // A user who types both directories makes a private catalog, not the service's.
         const bool is_own =
             rebuild->parsed() && !options->place.directory.empty() && !options->drop.empty();
         if (options->stations.empty()) options->stations = is_own ? "any" : "known";

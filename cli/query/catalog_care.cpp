@@ -30,7 +30,7 @@ using catalog::Repair;
 using catalog::StationCheck;
 using catalog::Trouble;
 
-// Returns the rule that --stations describes. For `any`, it admits the stations that have a
+// Returns the rule that --stations describes. For "any", the rule admits every station that has a
 // database.
 Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
     if (options.stations == "known") return std::make_shared<StationRule>();

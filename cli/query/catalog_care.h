@@ -15,8 +15,8 @@ struct CareOptions {
     bool json = false;
 };
 
-// Both print their findings and return the exit status: 0 if nothing is wrong (check), or nothing
-// is wrong any more (rebuild). Lost rows are reported but are not a failure.
+// Check or rebuild the catalog, print the findings, and return the exit status: 0 if nothing is
+// wrong (after rebuild_catalog(): any more). Lost rows are reported but are not a failure.
 int check_catalog(const CareOptions& options);
 int rebuild_catalog(const CareOptions& options);
 

@@ -42,7 +42,7 @@ Error system_error(const fs::path& path, int error_number) {
             fmt::format("{}: {}", path.native(), std::system_category().message(error_number))};
 }
 
-// Waits until the descriptor is ready. Returns false if the time is over.
+// Waits until the descriptor is ready. Returns false if `end` comes first.
 bool wait_for(int descriptor, short what, Clock::time_point end) {
     while (true) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -84,7 +84,7 @@ std::optional<nlohmann::json> read_status_file(const fs::path& file) {
     return parse_object({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
-// Returns the objects in the list of a status's loops.
+// Returns the objects in the status document's list of loops.
 std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
     std::vector<nlohmann::json> loops;
     const auto all = document.find("loops");

@@ -26,7 +26,7 @@ struct StatusOptions {
 struct StatusPlaces {
     std::vector<std::filesystem::path> sockets;  // tried in this order
     std::filesystem::path file;                  // empty: none
-    std::filesystem::path loops;                 // of a process that only keeps loops; empty: none
+    std::filesystem::path loops;                 // of a loops-only process; empty: none
 };
 // Returns where to look. Errors: bad_argument, and those of reading the configuration.
 [[nodiscard]] Result<StatusPlaces> places_of(const StatusOptions& options);
@@ -41,9 +41,9 @@ struct StatusAnswer {
 [[nodiscard]] Result<StatusAnswer> find_status(const StatusPlaces& places);
 
 // Adds two members if another process than the daemon keeps or kept the loops. "loops" has the
-// loops of that process, all stopped if the process is gone, and further loops that the daemon's
-// configuration names. "loops_service" has what the process reports about itself ("state", "pid",
-// "version", "started", "updated"), and "alive", whether it exists.
+// loops of that process (marked as stopped if the process is gone), and loops that only the
+// daemon's configuration names. "loops_service" describes the process ("state", "pid", "version",
+// "started", "updated"); its "alive" is true if the process exists.
 void add_loops(nlohmann::json& document, const std::filesystem::path& loops);
 
 // Returns advice for a socket that may not be opened: "; members of the group GROUP may ask: sudo

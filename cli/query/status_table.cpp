@@ -127,7 +127,7 @@ std::string with_kinds(const json& status, const char* key, const char* by, Pain
     return in_yellow(line + fmt::format(" ({})", fmt::join(each, ", ")), paint);
 }
 
-// Returns how long the first pending file still has to wait, if that is long.
+// Returns how long the next pending file still has to wait, if that is long.
 std::string wait_of(const json& pending) {
     const double wait_s = number(pending, "longest_wait_s").value_or(0);
     return wait_s < 1 ? std::string{} : fmt::format(" (for up to {:.0f} s)", wait_s);

@@ -31,7 +31,7 @@ struct OptionReference {
     std::string value;                 // "FILE" (value_words.h); empty: a flag
     std::vector<std::string> choices;  // the allowed values; none: any
     std::vector<std::string> offers;   // usual values, where others are allowed too
-    Kept kept = Kept::files;           // where to look for values that are not listed
+    Kept kept = Kept::files;           // source of values that are not listed
     std::string range;                 // "1 to 1000000"; empty: none
     std::string initial;               // the default; empty: none, or given in the description
     std::string description;

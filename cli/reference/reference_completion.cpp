@@ -106,7 +106,7 @@ struct KeptOffer {
 constexpr auto kept_offers = std::to_array<KeptOffer>({
     {Kept::files, "files", "_files", " -r -F"},
     {Kept::directories, "directories", "_files -/", " -x -a '(__fish_complete_directories)'"},
-    // zsh calls an action with a leading blank as it is.
+    // The leading blank keeps zsh from adding arguments of its own to the action.
     {Kept::domains, "domains", " _stormcellar_names domains",
      " -x -a '(__stormcellar_names domains)'"},
     {Kept::stations, "stations", " _stormcellar_names stations",
@@ -234,7 +234,8 @@ std::string bash_values_of(const CommandReference& command) {
     return out;
 }
 
-// The first gap takes the names of all commands, the second what each of them offers.
+// A format: the first gap is for the names of all commands, the second for the words that each
+// command offers.
 constexpr std::string_view bash_script =
     R"bash(# bash completion of stormcellar; made by stormcellar --reference bash.
 # Adds files, directories, or the names that the program knows, to what is offered.

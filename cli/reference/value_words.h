@@ -1,8 +1,8 @@
 // cli/reference/value_words.h -- names the kind of value that each option takes.
 //
-// The parser only knows that a value is a text; this table knows that it is a file, a moment or a
-// station. Help, the manual and the completions of shells use it.
-// Thread contract: the table is constant.
+// The parser knows only that a value is a text; this table tells whether the text is a file, a
+// moment or a station. Help, the manual and the completions of shells use it. Thread contract: the
+// table is constant.
 #pragma once
 
 #include <span>

@@ -42,7 +42,7 @@ std::string value_of(const std::string& name, const CommandReference& command) {
     return option == nullptr ? std::string{} : option->value;
 }
 
-// Rewrites "Could not convert: --width = abc".
+// Rewrites the parser's message "Could not convert: --width = abc".
 std::string not_a_number(std::string_view said, const CommandReference& command) {
     const std::size_t equals = said.find(" = ");
     const std::string option(said.substr(0, equals));

@@ -21,9 +21,10 @@
 
 namespace stormcellar::cli {
 
-// Returns the named files, and all files in named directories and sets of chunks, sorted, as
-// absolute paths without links. Files that are not volumes are reported on stderr and left out.
-// Errors: those of InputFiles::find(); bad_argument for standard input.
+// Returns the absolute paths, without links, of the named files and of all files in named
+// directories and sets of chunks, sorted. Prints a note on stderr for each entry that
+// InputFiles::find() leaves out. Errors: those of InputFiles::find(); bad_argument for standard
+// input.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> files_to_serve(
     const std::vector<std::string>& names);
 
@@ -35,8 +36,8 @@ class ScratchCellar {
 
     [[nodiscard]] std::filesystem::path catalog() const { return scratch_.path() / "catalog"; }
     [[nodiscard]] std::filesystem::path cache() const { return scratch_.path() / "cache"; }
-    // Ingests one file. Returns the number of its grids; 0, with a note on stderr, if the file
-    // gives none. Errors: those of a full disk.
+    // Ingests one file. Returns the number of grids made; a note on stderr says why a file gives
+    // none. Errors: those of pipeline::Ingestor::ingest().
     Result<std::size_t> take(const std::filesystem::path& file);
 
   private:

@@ -22,7 +22,7 @@ namespace stormcellar::cli {
 // Ingests the files one after another.
 class ServedFiles {
   public:
-    // Ingests files until one has given grids, so that there is something to see from the start.
+    // Ingests files until one has given grids, so that the page shows something from the start.
     // Decoding and gridding use `threads` threads; 0: one for each processor. Errors: those of
     // files_to_serve() and ScratchCellar; not_found if no file gives grids.
     static Result<std::unique_ptr<ServedFiles>> take(const std::vector<std::string>& names,

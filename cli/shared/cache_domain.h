@@ -14,8 +14,8 @@
 
 namespace stormcellar::cli {
 
-// Sorts words into files and a domain as tell_apart() does. Domains are those of the given cache,
-// or else of the service's.
+// Sorts words into files and a domain as tell_apart() does. The domains are those of the given
+// cache, else of the service's cache.
 [[nodiscard]] Result<SourceNames> tell_apart_from_cache(const std::vector<std::string>& words,
                                                         const std::string& domain,
                                                         const PlaceOption& cache);

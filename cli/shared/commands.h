@@ -34,7 +34,7 @@ enum ExitStatus : int {
 using Run = std::function<int()>;
 
 struct Command {
-    CLI::App* app = nullptr;  // tells whether it was chosen
+    CLI::App* app = nullptr;  // its parser, which knows if it was chosen
     Run run;
 };
 using Commands = std::vector<Command>;

@@ -134,7 +134,7 @@ Result<grid::RefractivityProfile> parse_profile(const std::string& text) {
                 sounding.error().message);
 }
 
-// A user who gives a profile wants beams that bend by it, unless another option says otherwise.
+// Turns refraction on if a profile was given, unless another option sets it.
 void bend_by_profile(EffectRequest& request) {
     for (accuracy::Step& step : request.chain.steps) {
         for (accuracy::Effect& effect : step.effects) {

@@ -1,10 +1,10 @@
 // cli/shared/follow.h -- `--follow`: makes a loop again whenever its grids change.
 //
-// The directories of the domain in the cache are checked five times a second. This takes a few
-// stat() calls: the times of directories change with every grid that is added, removed or replaced,
-// also on network file systems. After a change, the program waits until nothing has changed for a
-// quarter of a second, but at most three seconds. Then it lists the grids again and makes the loop
-// if they differ from those of the last loop.
+// The directories of the domain in the cache are checked five times a second. A check takes a few
+// stat() calls, because the times of directories change with every grid that is added, removed or
+// replaced, also on network file systems. After a change, the program waits until nothing has
+// changed for a quarter of a second, but at most three seconds. Then it lists the grids again and
+// makes the loop if they differ from those of the last loop.
 //
 // Threads   One thread at a time; see cli/shared/interrupt.h for the flag.
 #pragma once
@@ -25,7 +25,7 @@ namespace stormcellar::cli {
 
 struct FollowOptions {
     bool wanted = false;
-    pid_t parent = 0;  // the process with which this one ends; 0: none
+    pid_t parent = 0;  // this process ends when that one ends; 0: none
 };
 void add_follow_options(CLI::App& app, FollowOptions& options);
 
@@ -40,10 +40,10 @@ struct Following {
     bool quiet = false;
 };
 
-// Runs until the flag is set, and then returns exit_done. A failure to list the grids or make the
-// loop is reported once, and tried again after the next change. It waits if there is no grid or no
-// cache. It returns another status (exit_bad_usage) only if the request turns out to be invalid
-// before a first loop was made.
+// Runs until the flag is set, and then returns exit_done. Waits while there is no grid or no cache.
+// If listing the grids or making the loop fails, reports it once and tries again after the next
+// change. Returns exit_bad_usage if the request turns out to be invalid before a first loop was
+// made.
 int follow(const Following& following, const FollowOptions& options, const std::atomic<bool>& stop);
 
 // Prints the document on one line of stdout and flushes it.

@@ -1,10 +1,10 @@
 // cli/shared/input_files.h -- finds and reads the raw files that a command line names.
 //
 // A name may be a file, a tar or zip archive (its members), a directory (the files in it and below
-// it, or one volume if it holds chunks) or "-" for standard input. If chunks of one volume are
-// named one by one, as by a shell's pattern, they form one volume. Members are written
-// ARCHIVE!MEMBER. Entries of a directory or an archive that are not Level II are left out and
-// reported; a named file must be Level II.
+// it, or one volume if it holds chunks) or "-" for standard input. Chunks of one volume that are
+// named one by one, as by a shell's pattern, form one volume. Members are written ARCHIVE!MEMBER.
+// Entries of a directory or an archive that are not Level II are left out and reported; a named
+// file must be Level II.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -34,13 +34,13 @@ struct InputFile {
 
 class InputFiles {
   public:
-    // Selects among the volumes of a directory of chunks: a number from 1 in order of time, or one
-    // of these.
+    // Values that select volumes of a directory of chunks; a number from 1 selects one in order of
+    // time.
     enum OfChunks : int { newest = 0, all = -1 };
-    // Finds the files. Volumes whose chunks were named one by one come first, then files in the
-    // order of the names; those of a directory are sorted by path. Errors: not_found, permission
-    // and io for the names; bad_argument if "-" is named twice, or a directory has fewer volumes;
-    // not_found if nothing is left.
+    // Finds the files. Volumes whose chunks were named one by one come first, then the other names
+    // in their order. Files of a directory are sorted by path. Errors: not_found, permission and io
+    // for the names; bad_argument if "-" is named twice, or a directory has fewer volumes than the
+    // selected number; not_found if no file is left.
     [[nodiscard]] static Result<InputFiles> find(std::vector<std::string> names,
                                                  int volume = newest);
     InputFiles(InputFiles&&) noexcept;

@@ -1,8 +1,8 @@
 // cli/shared/interrupt.h -- Ctrl-C as a flag that long work checks between its steps.
 //
 // While an Interrupt exists, the first SIGINT, SIGTERM or SIGHUP sets the flag instead of ending
-// the program (a signal that was ignored stays ignored). A second signal ends the program at once.
-// The work checks the flag, discards what it has half done, and calls end_by_signal().
+// the program (an ignored signal stays ignored). A second signal ends the program at once. The work
+// checks the flag, discards what it has half done, and calls end_by_signal().
 //
 // Threads   One Interrupt at a time; the flag may be read from any thread.
 #pragma once

@@ -14,8 +14,8 @@ enum class Paint { plain, colors };
 // TERM is missing or "dumb".
 [[nodiscard]] Paint paint_for(int descriptor);
 
-// These color a text: bold red for errors, yellow for warnings. Paint::plain and an empty text
-// change nothing.
+// Return the text in bold red, for errors, or in yellow, for warnings. With Paint::plain they
+// return it unchanged, and so an empty text.
 [[nodiscard]] std::string in_red(std::string_view text, Paint paint);
 [[nodiscard]] std::string in_yellow(std::string_view text, Paint paint);
 

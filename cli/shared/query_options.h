@@ -33,7 +33,7 @@ struct TimeRange {
 // are not UTF-8 become U+FFFD.
 void print_json(const nlohmann::json& document);
 
-// Warns on stderr if a time that is shown as the newest is in the future (is_believed()).
+// Warns on stderr if the newest time that is shown is in the future (is_believed()).
 void warn_of_future(UtcTime newest);
 
 // Reports on stderr that nothing matched. Returns the exit status.

@@ -37,14 +37,14 @@ struct ServicePlaces {
 
 enum class Directory { cache, catalog };
 
-// A directory of the service, as an option (--cache, --catalog) or by --config.
+// A directory of the service that --cache, --catalog or --config names.
 struct PlaceOption {
     Directory which = Directory::cache;
     std::string directory;  // as typed; find() sets it if empty
     std::string config;
 
-    // Looks the directory up if it was not typed. Errors: bad_argument, with what can be done, if
-    // nothing says where it is; those of service_places().
+    // Looks the directory up if it was not typed. Errors: bad_argument, with advice, if no
+    // configuration names the directory; those of service_places().
     [[nodiscard]] Status find();
 };
 // Adds the option for the directory, and --config. `place` must outlive the parse.

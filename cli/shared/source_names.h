@@ -19,10 +19,10 @@ struct SourceNames {
 };
 
 // Sorts the words. A word is a path if it has a slash, is "-", or names an existing file or
-// directory. Any other word is a domain. `domain` is the value of --domain. Errors: bad_argument,
-// with the way to write each, for a word that is both a domain (by `is_domain`) and a file;
+// directory. Any other word is a domain. `domain` is the value of --domain. Errors: bad_argument
+// for a word that is both a domain (by `is_domain`) and a file, with the way to write each;
 // bad_argument for files together with a domain, and for several domains; not_found for a word that
-// looks like the name of a file that does not exist.
+// looks like a file that does not exist.
 [[nodiscard]] Result<SourceNames> tell_apart(
     const std::vector<std::string>& words, const std::string& domain,
     const std::function<bool(const std::string&)>& is_domain);

@@ -156,7 +156,7 @@ int run_replay(const ReplayCommandOptions& options) {
     const double total_s = seconds_since(start);
     if (options.json) print_json(json_of(*report, total_s));
     if (report->stopped) {
-        std::fflush(stdout);  // a signal that ends the program does not flush
+        std::fflush(stdout);  // because a signal that ends the program does not flush
         return report_stop(*report, items->size(), interrupt);
     }
     if (!options.json) {

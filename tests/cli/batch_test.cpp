@@ -76,7 +76,7 @@ TEST_F(Batch, PlansRunsMergesAndChecks) {
     const ProgramResult ran = batch("run", "p", {"--task", "0"});
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("task 0: KBGM 20050822: 5 files, 0 left out, 5 grids"));
-    EXPECT_THAT(batch("run", "p", {"--task", "0"}).out, HasSubstr("stands already"));
+    EXPECT_THAT(batch("run", "p", {"--task", "0"}).out, HasSubstr("already done"));
     EXPECT_EQ(batch("merge", "p", {"--task", "1-2"}).status, 0);
     const ProgramResult checked = batch("check", "p", {"--table"});
     EXPECT_EQ(checked.status, 0) << checked.err;
