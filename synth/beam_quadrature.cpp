@@ -13,7 +13,7 @@ namespace {
 constexpr double nepers_a_db = std::numbers::ln10 / 10;
 constexpr double reach_deviations = 4;
 constexpr double least_points = 0.75;
-constexpr double most_points = 4.2;  // between two steps, so that 0.75 * 2^2.5 is the last step
+constexpr double most_points = 4.2;  // the largest result is 0.75 * 2^2.5
 constexpr double steps_apart = 1.7;  // in deviations of the integrand
 
 // dBZ = peak - drop (x / length)^2 is a Gaussian in mm^6/m^3 with this deviation.
@@ -21,8 +21,8 @@ double deviation_m(double length_m, double drop_db) {
     return length_m / std::sqrt(2 * nepers_a_db * std::max(drop_db, 1.0));
 }
 
-// Returns the deviation of a Gaussian that is as narrow as the crests of a sine of this many
-// decibels.
+// Returns the deviation of a Gaussian that is as narrow as the crests of a sine with this amplitude
+// in decibels.
 double wave_deviation_m(double most_db, double length_m) {
     if (most_db <= 0) return std::numeric_limits<double>::infinity();
     return length_m / (2 * std::numbers::pi * std::sqrt(std::max(1.0, nepers_a_db * most_db)));
@@ -33,7 +33,7 @@ void shrink(FinestLengths& lengths, double across_m, double up_m) {
     lengths.up_m = std::min(lengths.up_m, up_m);
 }
 
-// Returns the width of a leaning Gaussian along the vertical.
+// Returns the deviation along the vertical of a leaning Gaussian.
 double leaning_m(double across_m, double up_m, double lean) {
     return 1 / std::hypot(1 / up_m, lean / across_m);
 }

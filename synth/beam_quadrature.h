@@ -11,18 +11,18 @@
 //           and ends at 4 s' + D/2. Weights add up to 1. Along the range the pattern is a Gaussian
 //           with a deviation of 0.35 c tau / 2 (a matched receiver), by the three points of Gauss
 //           and Hermite.
-// Source    Doviak & Zrnic (1993): eqs 5.75 and 5.76, for the deviations across the beam and along
-//           it. In azimuth, that Gaussian is averaged over the turn of a radial, with equal weights
+// Source    Doviak & Zrnic (1993), eqs 5.75 and 5.76, give the deviations across the beam and along
+//           it. In azimuth, the Gaussian is averaged over the turn of a radial, with equal weights
 //           for all pulses.
 // Sampling  Equally spaced points (the trapezoid rule). Each feature of the weather has its own
-//           points, at most 1.7 deviations of the pattern times the feature apart; the error is
-//           0.01 dB for smooth weather. They are never closer than s / 4.24. Up and down there are
-//           at least two for each deviation where a feature begins abruptly at a height (layers,
-//           boxes).
-// Accuracy  For a gate from 5 dBZ on and 0.95 degrees: storms 0.1 dB in 99 of 100 gates and 0.3 dB
-//           in all; 2 dB where layers and boxes are cut off. Enforced by tests/synth/beam_test.cpp
-//           over the scenes of this project, against a quadrature three times as fine as the
-//           finest.
+//           points. They are at most 1.7 deviations of the product of pattern and feature apart;
+//           the error is 0.01 dB for smooth weather. Points are never closer than s / 4.24. Where a
+//           feature begins abruptly at a height (layers, boxes), there are at least two points for
+//           each deviation in elevation.
+// Accuracy  For gates from 5 dBZ on and a beam of 0.95 degrees: 0.1 dB in 99 of 100 gates of storms
+//           and 0.3 dB in all of them; 2 dB where layers and boxes are cut off. Enforced by
+//           tests/synth/beam_test.cpp over the scenes of this project, against a quadrature three
+//           times as fine as the finest.
 // Threads   Pure functions.
 #pragma once
 
@@ -39,9 +39,9 @@ struct BeamNode {
     double weight = 0;
 };
 
-// The finest lengths over which the weather changes. A length is the deviation of a Gaussian in
-// mm^6/m^3 that falls off, or waves, as steeply. Without weather both lengths are infinite.
-// `cut_off` means that a feature begins abruptly at a height.
+// The shortest lengths over which the weather changes. A length is the deviation of the Gaussian in
+// mm^6/m^3 that is as steep as the weather. Without weather both lengths are infinite. `cut_off` is
+// true if a feature begins abruptly at a height.
 struct FinestLengths {
     double across_m = 0;
     double up_m = 0;
@@ -59,11 +59,10 @@ struct FinestLengths {
                                                   double turn_deg, double per_deviation);
 [[nodiscard]] std::vector<BeamNode> range_nodes(double pulse_length_m);
 
-// Returns every feature as weather of its own, with its own discs, ceiling and points. Their
-// reflectivities still add up.
+// Splits the weather into its features. The sum of their reflectivities is that of the weather.
 [[nodiscard]] std::vector<Weather> single_features(const Weather& weather);
 
-// Returns how many points for each deviation a feature needs at a range. The result is 0.75 times a
+// Returns the number of points for each deviation that a feature needs at a range: 0.75 times a
 // power of sqrt(2).
 [[nodiscard]] double points_a_deviation(double beam_width_deg, double range_m, double finest_m);
 

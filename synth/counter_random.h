@@ -1,4 +1,4 @@
-// synth/counter_random.h -- random numbers that depend only on their place.
+// synth/counter_random.h -- random numbers that depend only on their place in the data.
 //
 // A stateless, counter-based generator gives four words of 32 bits for each (seed, purpose, volume,
 // cut, radial, gate). The words are the same in any order and on any number of threads.
@@ -38,7 +38,7 @@ struct DrawPlace {
 // Returns a number in (0, 1), with each of 2^32 values equally likely.
 [[nodiscard]] double uniform_of(std::uint32_t word);
 
-// Two independent numbers with mean 0 and deviation 1 (Box and Muller 1958), at most 6.8 off.
+// Two independent numbers with mean 0 and deviation 1 (Box and Muller 1958), in [-6.8, 6.8].
 struct NormalPair {
     double first = 0;
     double second = 0;

@@ -35,7 +35,7 @@ struct Instrument {
     double velocity_noise_mps = 0;  // the same for a velocity
     // if off, velocities beyond the Nyquist velocity stay unchanged
     bool velocity_folding = false;
-    bool range_folding = false;     // if off, no echo comes from beyond the unambiguous range
+    bool range_folding = false;     // if off, echo beyond the unambiguous range does not fold back
     double azimuth_jitter_deg = 0;  // largest deviation from the nominal azimuth
     double elevation_jitter_deg = 0;
     double missing_fraction = 0;  // share of the radials, at random
@@ -43,7 +43,7 @@ struct Instrument {
     std::vector<int> missing_cuts;  // from 1
     std::optional<Clutter> clutter;
 
-    // Returns true if a gate is the mean over a volume of air, and not the sample of a point.
+    // Returns true if a gate is a mean over a volume of air, not a sample at a point.
     [[nodiscard]] bool has_volume() const { return beam_width_deg > 0 || pulse_length_m > 0; }
     // Returns true if gates are more than point samples.
     [[nodiscard]] bool changes_gates() const {

@@ -9,7 +9,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// from a real radar, 2022
+// as in a real radar, 2022
 constexpr float calibration_dbz = -42.875F;
 constexpr float vertical_calibration_dbz = -42.5F;
 constexpr float horizontal_noise_dbm = -81.5F;
@@ -67,7 +67,7 @@ class Antenna {
         RadialObserver observer(scene_, beam_, cut, sweep.radials.front(),
                                 {number_, elevation_number, pointings.size()});
         for (std::size_t row = 0; row < pointings.size(); ++row) {
-            // The data are valid at the radial's own time, to the millisecond.
+            // Observe the weather at the time that the radial states, in whole milliseconds.
             const double t_s =
                 scene_s_ + std::chrono::duration<double>(pointings[row].since_start).count();
             observer.observe(row, pointings[row].number, sweep.radials[row], t_s);
@@ -129,7 +129,7 @@ class Antenna {
 level2::VolumeBlock block_of(const Scene& scene) {
     constexpr int usual_tower_m = 20;
     const int altitude_m = scene.site.antenna_altitude_m;
-    // A tower as high as its site would look like a TDWR's way of writing heights.
+    // If tower and ground were equally high, a reader would take the heights for those of a TDWR.
     const int tower_m = altitude_m == 2 * usual_tower_m ? usual_tower_m - 1 : usual_tower_m;
     level2::VolumeBlock block;
     block.version_major = 2;

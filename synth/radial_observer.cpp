@@ -119,7 +119,7 @@ void RadialObserver::make_parts() {
     }
 }
 
-// Gates that need equally many points form a band.
+// Divides the gates into bands that need the same number of points.
 void RadialObserver::make_bands(Part& part) const {
     const Instrument& instrument = scene_.instrument;
     const double width_deg = instrument.beam_width_deg;
@@ -168,7 +168,7 @@ void RadialObserver::aim(Part& part, double elevation_deg, const Disc& disc) con
     if (elevation_deg == part.aimed_deg) return;
     const bool first_time = std::isnan(part.aimed_deg);
     part.aimed_deg = elevation_deg;
-    // more than the distance of a beam's edges before or behind its axis
+    // larger than the offset of a beam's edges in range
     constexpr double slack_m = 3000;
     const double distance_m = std::hypot(disc.x_m, disc.y_m);
     for (Band& band : part.bands) {
@@ -277,7 +277,7 @@ void RadialObserver::sample_points(const level2::Radial& radial, double t_s) {
          });
 }
 
-// Every ray of the beam adds its echo, by its weight; then the mean of each gate is taken.
+// Adds up the echo of every ray of the beam, with its weight, and takes the mean of each gate.
 void RadialObserver::sample_beam(const level2::Radial& radial, double t_s) {
     std::fill(sums_.begin(), sums_.end(), BeamSum{});
     for (Part& part : parts_) {
@@ -334,8 +334,8 @@ void RadialObserver::add_clutter(const level2::Radial& radial) {
     }
 }
 
-// Only cuts with velocity that are sampled with ambiguity are folded. The reflectivity of all cuts
-// is that of a surveillance cut.
+// Returns the folded gates: none except in Doppler and batch cuts. The reflectivity of every cut is
+// computed as in a surveillance cut.
 std::vector<bool> RadialObserver::find_folded() const {
     const bool ambiguous = cut_.waveform == Waveform::doppler || cut_.waveform == Waveform::batch;
     if (!scene_.instrument.range_folding || !ambiguous) return {};
@@ -348,12 +348,12 @@ std::vector<bool> RadialObserver::find_folded() const {
     return overlaid_gates(power, trip_gates, static_cast<double>(folding_threshold_db));
 }
 
-// Returns the estimate for the echo of a gate, or for none.
+// Returns the radar's estimate for a gate, with or without echo.
 GateEcho RadialObserver::estimate(std::size_t number, std::size_t gate) const {
     const Instrument& instrument = scene_.instrument;
     GateEcho echo = echoes_[gate];
     const auto nyquist = static_cast<double>(nyquist_mps(cut_));
-    // noise has all velocities with equal probability
+    // noise has a uniform distribution of velocities
     const double of_noise_mps = nyquist / std::numbers::sqrt3;
     if (instrument.noise_db > 0 || instrument.velocity_noise_mps > 0) {
         const RandomWords words =

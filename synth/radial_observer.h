@@ -27,7 +27,7 @@ class RadialObserver {
     RadialObserver(const Scene& scene, const grid::BeamGeometry& beam, const Cut& cut,
                    const level2::Radial& like, const Place& place);
 
-    // Fills a row. `number` is the radial's number in the full turn, lost radials included.
+    // Fills a row. `number` counts the radials of the full turn, lost ones included.
     void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
 
     // Returns the observed moments. Do not observe anything after that.
@@ -50,7 +50,7 @@ class RadialObserver {
         double weight = 1;
         std::vector<grid::EarthPoint> points;
     };
-    // Gates that are sampled by the same rays.
+    // A range of gates that are sampled by the same rays.
     struct Band {
         std::size_t first = 0;
         std::size_t end = 0;
@@ -61,7 +61,7 @@ class RadialObserver {
     struct Part {
         Weather weather;
         double ceiling_m = 0;
-        double aimed_deg = 0;  // the elevation for which its points were computed; NaN: none yet
+        double aimed_deg = 0;  // elevation for which the points were computed; NaN: not computed
         std::vector<Band> bands;
     };
     // Sums over the beam, in mm^6/m^3.
@@ -98,7 +98,7 @@ class RadialObserver {
     std::vector<grid::EarthPoint> points_;  // of the gates, on the axis of the beam
     std::vector<double> limits_dbz_;        // weakest reflectivity that is shown, by gate
     double ceiling_m_ = 0;                  // no echo is higher
-    double aimed_deg_ = 0;                  // the elevation for which the points were computed
+    double aimed_deg_ = 0;                  // elevation for which the points were computed
     std::vector<Part> parts_;               // for a beam with a width
     std::vector<BeamSum> sums_;
     std::vector<GateEcho> echoes_;

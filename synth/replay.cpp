@@ -92,7 +92,7 @@ class Player {
     Status play_whole() {
         double due_s = 0;
         for (const Arrival& arrival : arrivals_of(options_.faults, 0, items_.size())) {
-            // A piece that comes after the next one takes the next one's time.
+            // A reordered file comes right after the file before it in this order.
             due_s = std::max(due_s, turns_[arrival.piece].start_s);
             if (!wait_until(due_s, arrival.piece)) return {};
             const ReplayItem& item = items_[arrival.piece];
@@ -246,7 +246,7 @@ class Player {
     PieceWriter writer_;
     std::map<std::size_t, Growing> growing_;  // by item
     ReplayReport report_;
-    bool has_begun_ = false;  // what is past is written
+    bool has_begun_ = false;  // the pieces due before past_s are written
     Clock::time_point begin_;
 };
 

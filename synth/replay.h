@@ -19,13 +19,13 @@
 //
 // The first piece of a file comes at the time in its header. The others are spread evenly until the
 // same station's next volume begins, over at most `longest_volume_s`. The last volume of a station
-// takes as long as the previous one, and a single volume takes `usual_volume_s`. So the volumes of
-// several stations mix, as in a feed. Whole files come at the time in their header. Files without a
-// readable header come last, without waiting, by name.
+// takes as long as its previous one, and the only volume of a station takes `usual_volume_s`. So
+// volumes of several stations overlap, as in a feed. Whole files come at the time in their header.
+// Files without a readable header come last, in order of their names, without a wait.
 //
 // Sources are only read. Files that were already in the drop directory are never overwritten.
 //
-// Memory    The files that are growing at the same time.
+// Memory    Holds the files that are growing at the same time.
 // Threads   One thread at a time; another thread may set `stop`.
 #pragma once
 
@@ -59,7 +59,7 @@ struct ReplayItem {
 
 // Finds the files to play, in the order of replay. Files keep their own names. Archives (tar, zip)
 // give their members under their names. Directories give all regular files in them under their
-// relative names, without dot-files, which are still being written. Errors: not_found if there is
+// relative names, but no dot-files, which may still be written. Errors: not_found if there is
 // nothing at all; bad_argument if two would get the same name.
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
@@ -77,12 +77,12 @@ struct ReplayOptions {
     FaultRates faults;
     const std::atomic<bool>* stop = nullptr;         // when set, the replay ends between two pieces
     std::function<void(std::size_t done)> replayed;  // called after each file
-    // Called after each file, too, for who must know which one it was.
+    // Called after each file, too, with the file.
     std::function<void(const ReplayItem& item)> ended;
     // Called with a file's bytes before they are written. It may change them, but not their pieces.
     std::function<void(const ReplayItem& item, std::span<std::byte> bytes)> stamp;
-    // What is due in the first `past_s` seconds is written at once, as if the replay had begun so
-    // long ago. Then `begun` is called, and the clock goes on after it.
+    // Pieces that are due in the first `past_s` seconds are written at once, as if the replay had
+    // begun that long ago. Then `begun` is called, and the clock continues from `past_s`.
     double past_s = 0;
     std::function<void()> begun;
     // Called before each wait of more than `long_wait_s`, with its length and the source of the
@@ -96,7 +96,7 @@ inline constexpr double long_wait_s = 10;
 struct ReplayPlan {
     std::size_t files = 0;
     std::optional<UtcTime> first, last;  // times of the files; none if no file has one
-    double takes_s = 0;                  // without the time of the writing itself
+    double takes_s = 0;                  // without the time for writing
 };
 [[nodiscard]] ReplayPlan plan_replay(const std::vector<ReplayItem>& items,
                                      const ReplayOptions& options);
@@ -109,19 +109,19 @@ struct FaultMade {
     std::filesystem::path name;
     std::size_t chunk = 0;         // from 1, within the source; 0: the whole file
     std::uint64_t bytes = 0;       // its size
-    std::uint64_t kept_bytes = 0;  // bytes that were written: fewer if truncated, none if dropped
+    std::uint64_t kept_bytes = 0;  // written bytes: fewer if truncated, 0 if dropped
 };
 
 struct ReplayReport {
     std::size_t files = 0;    // files that are finished
-    std::size_t writes = 0;   // number of pieces or of whole files written
+    std::size_t writes = 0;   // pieces or whole files written
     std::uint64_t bytes = 0;  // written
     bool stopped = false;
     std::vector<std::filesystem::path> unfinished;  // still growing when the replay stopped
     std::vector<FaultMade> faults;                  // in the order in which they were made
 };
 
-// Plays the items. Errors before anything is written: io if a file of that name exists;
+// Plays the items. Errors before anything is written: io if the target of an item exists;
 // bad_argument for chunks of a file that holds no LDM records, or whose time or station are
 // unknown. Later errors are those of reading or writing; files written before stay.
 [[nodiscard]] Result<ReplayReport> replay(const std::vector<ReplayItem>& items,

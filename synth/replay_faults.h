@@ -1,15 +1,16 @@
 // synth/replay_faults.h -- makes deliberate faults on the way to a drop directory.
 //
-// A fault affects an element of a row: a piece of a file if files come piece by piece, else a file.
+// A fault affects an element of a row: a piece in the row of a file's pieces if files come piece by
+// piece, else a file in the row of all files.
 //   drop      The element never comes. In a file that grows, its bytes are missing in the middle.
 //   repeat    It comes a second time after itself: it is appended again, or its file is written
 //             again with the same bytes.
 //   reorder   It comes after the next element of its row.
 //   truncate  Its last bytes are missing: a random number, at least one and not all.
-// Each element has at most one fault, and the element that a reordered one follows has none. The
-// last element of a row is not reordered, and a piece of less than two bytes is not truncated.
-// Random numbers depend only on the seed and on the place in the row, so the same sources give the
-// same faults at any speed.
+// Each element has at most one fault. An element after which a reordered one comes has no fault.
+// The last element of a row is not reordered, and an element of less than two bytes is not
+// truncated. Random numbers depend only on the seed and on the place in the row, so the same
+// sources give the same faults at any speed.
 //
 // Threads   Pure functions.
 #pragma once
@@ -36,7 +37,7 @@ struct FaultRates {
 // once. Errors: bad_argument; the message says what is wrong and what is allowed.
 [[nodiscard]] Result<FaultRates> parse_fault_rates(std::string_view text);
 
-// One write. A dropped element is listed too, with nothing to write.
+// One write of an element. A dropped element has an arrival, too, but nothing is written.
 struct Arrival {
     std::size_t piece = 0;
     Fault fault = Fault::none;

@@ -11,8 +11,8 @@
 namespace stormcellar::synth {
 
 // Returns the ends of the pieces of a file, rising; the last one is the file's size. A piece is an
-// LDM record. The first one includes the header before it, and a second header also begins a piece.
-// A file without LDM records comes in sixteenths.
+// LDM record; a header belongs to the piece of the record after it. A file without LDM records
+// comes in sixteenths.
 [[nodiscard]] std::vector<std::size_t> piece_ends(std::span<const std::byte> bytes);
 
 // Returns true if LDM records begin here or after a header.

@@ -1,14 +1,14 @@
-// synth/sampled_truth.h -- samples the truth of a scene at places on the earth and times of the
-// clock, at places as seen from its radar, and as velocity seen from any site.
+// synth/sampled_truth.h -- samples the truth of a scene by UTC: its echo at places on the earth or
+// at places seen from its radar, and its radial velocity seen from any site.
 //
 // Units     Degrees (WGS84), meters, heights above mean sea level, m/s positive away from the site.
 // Model     The weather is in the azimuthal equidistant plane about the scene's radar
 //           (stormcellar/grid/site_frame.h), so azimuth and arc from there are exact. East and
-//           north of a motion are those of that plane. Radial velocity is the horizontal motion
-//           times the cosine of the elevation at the antenna, as in synth/observe.h. From a site
-//           other than the scene's, the direction is the direction in the plane, whose scale errs
-//           by (arc / earth radius)^2 / 6 across the radius: 0.02 % at 230 km.
-// Accuracy  1e-6 m in place within 500 km, and that of synth/truth.h. Enforced by
+//           north of a motion are directions in that plane. Radial velocity is the horizontal
+//           motion times the cosine of the elevation at the antenna, as in synth/observe.h. From a
+//           site other than the scene's, the direction is the direction in the plane, whose scale
+//           errs by (arc / earth radius)^2 / 6 across the radius: 0.02 % at 230 km.
+// Accuracy  Places within 1e-6 m up to 500 km away; echo as in synth/truth.h. Enforced by
 //           tests/synth/sampled_truth_test.cpp.
 // Threads   Immutable; the scene must outlive it.
 #pragma once
@@ -47,8 +47,8 @@ class SampledTruth {
     [[nodiscard]] Echo at(const Place& place, UtcTime time) const;
     [[nodiscard]] Echo at(const PolarPlace& place, UtcTime time) const;
 
-    // Returns the velocity that a radar without instrument effects would measure there, without
-    // aliasing, or none if there is no echo. The height of `site` is that of its antenna.
+    // Returns the velocity that a radar at `site` without instrument effects would measure at
+    // `place`, without aliasing, or none if there is no echo. `site` has the height of its antenna.
     [[nodiscard]] std::optional<double> radial_velocity_mps(const Place& place, const Place& site,
                                                             UtcTime time) const;
     // Does the same for the scene's radar.

@@ -62,13 +62,12 @@ struct ClutterBeam {
 [[nodiscard]] double clutter_reach_m(const Clutter& clutter);
 inline constexpr double clutter_width_mps = 0.3;  // of its spectrum, around 0 m/s
 
-// Returns the sum of two echoes. Reflectivities add in mm^6/m^3; velocity and squared width are
-// those of the sum of the two spectra.
+// Returns the sum of two echoes. Reflectivities add in mm^6/m^3; velocity and width are computed
+// from the sum of the two spectra.
 [[nodiscard]] GateEcho sum_of(const GateEcho& a, const GateEcho& b);
 
-// The antenna's deviation at a time after the start of its cut, at most 1 in either direction. It
-// is the mean of three sines of 7.3, 3.1 and 1.7 seconds, with phases of their own in each cut and
-// volume.
+// The antenna's deviation at a time after the start of its cut, in [-1, 1]. It is the mean of three
+// sines with periods of 7.3, 3.1 and 1.7 seconds, whose phases differ between cuts and volumes.
 struct Jitter {
     double azimuth = 0;
     double elevation = 0;

@@ -71,8 +71,7 @@ Site read_site(TomlTable radar) {
     const auto known = find_station(site.station);
     const auto read = [&](std::string_view key, TomlRange range, double Station::*field) {
         if (known) return radar.number(key, range).value_or((*known).*field);
-        // With a wrong name, a missing position would not be the real problem, so no position is
-        // required.
+        // If the name is wrong, do not also complain that the position is missing.
         return named ? needed_number(radar, key, range) : radar.number(key, range).value_or(0);
     };
     site.latitude_deg = read("latitude_deg", {-90, 90}, &Station::latitude_deg);
@@ -300,7 +299,7 @@ Stand stand_of(const Site& site, double latitude_deg, double longitude_deg) {
     const grid::PolarPoint there = origin.to_polar({site.latitude_deg, site.longitude_deg});
     const grid::PolarPoint back = radar.to_polar({latitude_deg, longitude_deg});
     const grid::PlanePoint place = grid::SiteFrame::to_plane(there);
-    // At the origin itself there is no turn.
+    // At the origin the plane is not turned.
     const double turn_deg =
         there.arc_m > 0 ? std::remainder(there.azimuth_deg + 180 - back.azimuth_deg, 360) : 0;
     return {place.x_m, place.y_m, turn_deg};

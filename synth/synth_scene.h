@@ -4,7 +4,7 @@
 //
 // Units     Each member names its unit.
 // Threads   Plain data and pure functions.
-// Errors    bad_argument, with the file, the line and the key; those of reading the file.
+// Errors    bad_argument, with the file, the line and the key; errors of reading the file.
 #pragma once
 
 #include <filesystem>
@@ -38,12 +38,12 @@ struct Schedule {
 struct Scene {
     Site site;
     Schedule schedule;
-    Weather weather;  // in the plane about the site, wherever the file has its origin
+    Weather weather;  // in the plane about the site, even if the file gives another origin
     Instrument instrument;
 };
 
-// Returns the place of a radar in the plane of weather whose origin is at the given position. So
-// two scenes with one origin are two radars that see the same weather.
+// Returns the place of a radar in the plane of weather whose origin is at the given position. With
+// it, two scenes with the same origin describe two radars that see the same weather.
 [[nodiscard]] Stand stand_of(const Site& site, double latitude_deg, double longitude_deg);
 
 // Parses a scene. `name` stands for the file in messages.

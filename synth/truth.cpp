@@ -126,7 +126,7 @@ double hook_dbz(const Hook& hook, const Offset& offset, double z_m) {
         const double fall = square(distance_m / hook.width_m) + square(z_m / hook.top_m);
         return hook.peak_dbz - (hook.peak_dbz - edge_dbz) * fall;
     };
-    // No point of the arc is nearer than its circle.
+    // The arc is at least as far away as its circle, which is quick to compute.
     if (dbz_at(from_center_m - hook.radius_m) < weakest_dbz) return nothing;
     return dbz_at(distance_to_arc(hook, east_m, north_m, from_center_m));
 }

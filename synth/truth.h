@@ -131,16 +131,16 @@ struct Stand {
     double y_m = 0;
     double turn_deg = 0;
 };
-// Returns the same weather in the plane about that radar, as if both planes were one. The error is
-// the difference of their scales across the radius, (arc / earth radius)^2 / 6: 50 m if both radars
-// are 200 km away.
+// Returns the same weather in the plane about the radar at `stand`, as if both planes were one. The
+// error is the difference of their scales across the radius, (arc / earth radius)^2 / 6: 50 m if
+// both radars are 200 km away.
 [[nodiscard]] Weather seen_from(const Weather& weather, const Stand& stand);
 
 // Returns the reflectivity, or minus infinity if there is nothing.
 [[nodiscard]] double truth_dbz(const Weather& weather, const Point& point, double t_s);
 
-// The measurement of a radar at a point: the reflectivity and the motion of the features there,
-// each weighted by its reflectivity in mm^6/m^3; zero if there is nothing.
+// The reflectivity at a point, and the motion there: the mean over the features, weighted by their
+// reflectivities in mm^6/m^3; zero without echo.
 struct Echo {
     double dbz = 0;
     Motion motion;

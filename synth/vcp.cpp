@@ -93,7 +93,7 @@ constexpr Line lines_215[] = {
     {16.6992, high, 18672, 0, 0, 8, 50, 8},        {19.5117, high, 18672, 0, 0, 8, 50, 8},
 };
 
-// Returns a PRF of the table, whatever number the scene gives.
+// Returns the facts of the cut's PRF. A number outside the table gives the nearest row.
 const PrfFacts& facts_of(const Cut& cut) {
     const int number = has_velocity(cut) ? cut.doppler_prf : cut.surveillance_prf;
     return prf_facts[static_cast<std::size_t>(std::clamp(number, 0, 8))];
