@@ -1,4 +1,4 @@
-// Tests what every benchmark promises: options, and rows as a table or as JSON.
+// Tests the options of every benchmark, and its rows as a table and as JSON.
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -96,7 +96,7 @@ TEST(BenchGrid, JsonHasARowForEachSpecAndNumberOfThreads) {
     }
 }
 
-// Rows under their head, with the same keys as in JSON.
+// The table has a head with the keys of the JSON.
 TEST(BenchGrid, TheTableHasTheKeysOfTheJson) {
     STORMCELLAR_NEED_DATA();
     const std::vector<std::string> words = {"--threads", "1", "--runs", "1", smallest_volume()};
@@ -116,8 +116,8 @@ TEST(BenchGrid, TheTableHasTheKeysOfTheJson) {
     EXPECT_EQ(rows[0]["threads"], 1);
 }
 
-// Without Google Benchmark there is no such program. Every way beside libbz2's makes the same
-// bytes, or the program ends with 1.
+// Without Google Benchmark the program is not built. The program ends with 1 if a way does not make
+// the same bytes as libbz2.
 TEST(BenchKernels, RowsAreRatiosToLibbz2) {
     STORMCELLAR_NEED_DATA();
     if (!fs::exists(bench("bench_kernels"))) GTEST_SKIP() << "it was not built";
@@ -140,7 +140,7 @@ TEST(BenchKernels, RowsAreRatiosToLibbz2) {
     EXPECT_EQ(run_program(bench("bench_kernels"), {"--benchmark_fliter=x", file}).status, 2);
 }
 
-// The benchmark makes one site's hour by tasks, and in one process from the same files.
+// The benchmark makes an hour of one site by tasks, and in one process from the same files.
 TEST(BenchMosaic, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_mosaic"), {"--batch", "condor"}).status, 2);
@@ -159,7 +159,7 @@ TEST(BenchMosaic, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     EXPECT_NE(said.err.find(", 12 frames"), std::string::npos) << said.err;
 }
 
-// One site, one thread: the keys of the paper's table.
+// A run with one site and one thread has the keys of the paper's table.
 TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_mosaic"), {"--work"}).status, 2);

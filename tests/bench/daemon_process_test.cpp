@@ -19,7 +19,7 @@ std::filesystem::path stormcellard() {
     return std::filesystem::path{BENCH_DIRECTORY}.parent_path() / "daemon/stormcellard";
 }
 
-// Returns true if the process runs; one that ended and was not waited for does not count.
+// Returns true if the process runs; a zombie does not.
 bool runs(pid_t process) {
     std::ifstream file(fmt::format("/proc/{}/stat", process));
     std::string line;

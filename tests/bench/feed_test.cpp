@@ -1,5 +1,5 @@
-// Tests the national feed of bench_feed: re-stamped records, what a replay of it writes, the slope
-// of memory.
+// Tests the national feed of bench_feed: re-stamped records, the files that its replay writes, and
+// the slope of memory.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -63,7 +63,7 @@ TEST(StampedRecords, WhatIsNoneIsRefused) {
     EXPECT_FALSE(StampedRecords::read(cut));
 }
 
-// Eight sites have all three kinds.
+// Returns a feed of eight sites, which have all three kinds of volumes.
 const NationalFeed& feed() {
     static const testing::TemporaryDirectory directory;
     static const NationalFeed made =
@@ -76,7 +76,7 @@ class PlayedFeed : public ::testing::TestWithParam<synth::Delivery> {
     testing::TemporaryDirectory drop_;
 };
 
-// All that is due in the first 1.6 periods is written at once; then the replay is stopped.
+// Writes at once all chunks that are due in the first 1.6 periods, and then stops the replay.
 TEST_P(PlayedFeed, GivesEachVolumeAtItsTimeAsTheSiteWouldSendIt) {
     STORMCELLAR_NEED_DATA();
     const auto volumes = feed().volumes(2 * feed().period_s());

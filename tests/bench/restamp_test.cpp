@@ -1,4 +1,4 @@
-// Tests volumes of the mosaic benchmark: another site, another time, the same gates.
+// Tests that a re-stamped volume has the new site and time and the same gates.
 #include "bench/restamp.h"
 
 #include <chrono>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Returns a volume of that kind, re-stamped, written and read again.
+// Returns the volume after it was re-stamped, written and read again.
 level2::Decoded sent_by(const level2::Volume& source, const Station& station, UtcTime start) {
     level2::Volume stamped = source;
     restamp(stamped, station, start);
@@ -59,7 +59,7 @@ void expect_moved(const level2::Volume& from, const level2::Volume& to,
     }
 }
 
-// One of each kind: message 31, message 1, simulated.
+// The parameter is a volume of each kind: message 31, message 1, simulated.
 class EachKind : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EachKind, HasTheSiteAndTheTimesAskedForAndTheSameGates) {
@@ -91,7 +91,8 @@ INSTANTIATE_TEST_SUITE_P(All, EachKind,
                          ::testing::Values("mosaic-northeast/KDOX20100911_012056_V04.gz",
                                            "sequence-kbgm/KBGM20050822_024414.gz", "simulated-3"));
 
-// The station whose heights would be equal, which would be read as those of a TDWR.
+// Tests the station whose two heights would be equal, so that they would be read as heights of a
+// TDWR.
 TEST(Restamp, SplitsAnAltitudeIntoTwoHeightsThatAddUp) {
     level2::Volume volume;
     volume.block.emplace();

@@ -71,7 +71,7 @@ Words lines_of(const std::string& text) {
     return lines;
 }
 
-// The head of each table of the page, and rows of the same form.
+// The output has the head of each table of docs/accuracy.md, and rows of the same form.
 TEST(Accuracy, MarkdownIsWhatThePageShows) {
     STORMCELLAR_NEED_DATA();
     const ProgramResult ran = run(with({"accuracy", volume("KTLX19990503_235621.gz"), "--rounds",
@@ -129,7 +129,7 @@ TEST(Accuracy, PrintsALadderForARealVolume) {
     EXPECT_NE(text.str().find("</svg>"), std::string::npos);
 }
 
-// In each step the exact rung has no difference from itself, and the cheapest has some.
+// In each step the exact rung has no error, and the cheapest has some.
 TEST(Accuracy, PrintsALadderForAPictureWithItsLight) {
     STORMCELLAR_NEED_DATA();
     const ProgramResult ran = run(
@@ -289,7 +289,7 @@ TEST_F(Effects, ASoundingFarAboveTheAntennaIsNoted) {
     EXPECT_EQ(noted(880, grid), "");
 }
 
-// 2026-11-21: some of these were reported as failed work, some as bad usage.
+// 2026-11-21: some of these mistakes were reported as failed work, others as bad usage.
 TEST_F(Effects, AProfileThatIsNoneIsBadUsage) {
     const auto written = [&](const std::string& name, const std::string& text) {
         const std::string path = (directory_.path() / name).string();

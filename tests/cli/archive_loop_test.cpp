@@ -65,7 +65,7 @@ TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
     EXPECT_THAT(second.err, HasSubstr("the grids stay in"));
 }
 
-// 2026-11-24: a loop from an archive was drawn of whatever stood in the cataloged files' places.
+// 2026-11-24: a loop drew any file that had the path of a cataloged one.
 TEST_F(ArchiveLoop, LeavesOutWhatIsNotTheFileThatWasCataloged) {
     fs::rename(raw(five_volumes[0]), directory_ / "elsewhere");
     fs::create_symlink(directory_ / "elsewhere", raw(five_volumes[0]));
@@ -89,7 +89,8 @@ TEST_F(ArchiveLoop, DrawsWhatTheCacheDraws) {
     EXPECT_FALSE(fs::exists(loops()));
 }
 
-// 2026-11-22: every raw file was called gone, for a cache's directory had no parent to be synced.
+// 2026-11-22: with `--cache word` every raw file was reported as gone, because the path has no
+// parent to sync.
 TEST_F(ArchiveLoop, TheCacheMayBeNamedByOneWord) {
     const testing::WorkingDirectory inside(directory_ / "drop");
     const auto result = run_station({"--cache", "word", "--quiet"});
@@ -154,7 +155,7 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     EXPECT_THAT(nobody.err, HasSubstr("no station in the catalog reaches these bounds"));
     EXPECT_THAT(with_range({"--bounds=-180,-90,180,90"}).err,
                 HasSubstr("too wide for a flat projection"));
-    // A drop directory is no cache.
+    // A drop directory is not a cache.
     fs::create_directories(directory_ / "ldm" / "KBGM");
     fs::copy_file(raw(five_volumes[0]), directory_ / "ldm" / "KBGM" / five_volumes[0]);
     const auto drop = run_station({"--cache", (directory_ / "ldm").string()});
@@ -168,8 +169,8 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     EXPECT_FALSE(fs::exists(out()));
 }
 
-// 2026-11-22: frames were not counted when all volumes stood, and all of a year's were, of which
-// two had a volume.
+// 2026-11-22: no frames were counted if all volumes had grids; otherwise all frames of the year
+// were counted, though only two had volumes.
 TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
     const Words mosaic = words(
         "--bounds=-77,41,-75,43 --spacing-km 4 --levels-km 1,3,5 --domain south --from 2005-01-01 "
@@ -213,7 +214,7 @@ TEST_F(ArchiveLoop, MakesAMosaicOfTheStationsThatReachTheBounds) {
 
 TEST_F(ArchiveLoop, MakesFramesBetweenTheVolumesOfAStation) {
     const auto json = json_of(run_station({"--interval", "2min", "--json"}));
-    EXPECT_EQ(json["frames"], 12);  // 02:48, behind the first middle, to 03:10
+    EXPECT_EQ(json["frames"], 12);  // 02:48, after the first volume's middle, to 03:10
     EXPECT_EQ(json["interpolated"], 12);
     EXPECT_EQ(json["from"], "2005-08-22T02:48:00Z");
     EXPECT_EQ(json["to"], "2005-08-22T03:10:00Z");
@@ -250,7 +251,7 @@ TEST_F(ArchiveLoop, RefusesOptionsThatMakeNoSense) {
                   {"loop", "KBGM", "--cache", "x", "--stations", "KBGM", "-o", out()})
                   .status,
               2);
-    // There is no such cache.
+    // The cache "x" does not exist.
     EXPECT_EQ(testing::run_stormcellar({"loop", "--cache", "x", "-o", out()}).status, 1);
 }
 

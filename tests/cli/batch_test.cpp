@@ -35,7 +35,7 @@ class Batch : public ::testing::Test {
     [[nodiscard]] std::string place(const std::string& name) const {
         return (directory_ / name).string();
     }
-    // Grids of 4 km, and frames every five minutes.
+    // Returns the options for grids of 4 km, and frames every five minutes.
     [[nodiscard]] static Words grid() {
         return words(
             "--bounds=-79,40,-73,44.5 --spacing-km 4 --levels-km 1:6:1 --interval 5min "
@@ -50,7 +50,7 @@ class Batch : public ::testing::Test {
                                       const Words& more = {}) const {
         return run(with({"batch", command, "--plan", place(name)}, more));
     }
-    // Returns the grids that a loop makes of the same files.
+    // Returns the grids that a loop makes from the same files.
     [[nodiscard]] std::map<std::string, std::string> grids_of_a_loop() const {
         const Words places{"--catalog", place("catalog"), "--cache", place("c"),
                            "-o",        place("a.webp")};
@@ -114,7 +114,7 @@ TEST_F(Batch, IsToTheByteWhatALoopMakes) {
     EXPECT_THAT(batch("submit", "p", {"--engine", "make"}).out, HasSubstr("all 3 tasks are done"));
 }
 
-// The program and what it started are killed as soon as there is a grid.
+// The program and its children are killed as soon as a grid exists.
 TEST_F(Batch, ByMakeKilledHalfWayAndRunAgainIsWhatALoopMakes) {
     ASSERT_EQ(plan("p").status, 0);
     const std::string make = "setsid " STORMCELLAR_PROGRAM " batch submit --plan " + place("p") +

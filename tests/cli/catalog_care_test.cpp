@@ -34,7 +34,7 @@ class CatalogCare : public ::testing::Test {
     ProgramResult run(const Words& arguments) {
         return cli::run(with({"catalog"}, arguments, {"--catalog", catalog_}));
     }
-    // Copies, or decodes, what the catalog has of KBGM.
+    // Copies or decodes the cataloged files of KBGM.
     ProgramResult get(const std::string& out, bool decode) {
         Words arguments = {"get", "--station", "KBGM", "-o", directory_ / out};
         if (decode) arguments.emplace_back("--decode");
@@ -44,7 +44,7 @@ class CatalogCare : public ::testing::Test {
         return static_cast<std::size_t>(
             std::distance(fs::directory_iterator(directory_ / out), fs::directory_iterator{}));
     }
-    // A catalog of another station, as an older configuration left it.
+    // Adds the database of another station, as if from an older configuration.
     void put_database(const std::string& station) {
         auto catalog = *catalog::CatalogWriter::open(catalog_);
         catalog::FileFacts facts;
@@ -59,7 +59,7 @@ class CatalogCare : public ::testing::Test {
     std::string first_ = testing::small_sequence[0], second_ = testing::small_sequence[1];
 };
 
-// 2026-11-24: a link in a file's place was followed with the rights of who asked.
+// 2026-11-24: `get` followed a link that had replaced a file, with the rights of its user.
 TEST_F(CatalogCare, GetDoesNotFollowALinkInAFilesPlace) {
     fs::rename(raw(first_), directory_ / "secret");
     fs::create_symlink(directory_ / "secret", raw(first_));
@@ -146,7 +146,7 @@ TEST_F(CatalogCare, DatabasesOfUnknownStationsAreSaidAndCleared) {
     EXPECT_EQ(run({"list", "--station", "KBGM"}).status, 0);
 }
 
-// An attack's state, with few descriptors: bounded, and quick.
+// An attacker made thousands of databases; the commands need few descriptors and little time.
 TEST_F(CatalogCare, ThousandsOfDatabasesAreCheckedAndClearedWithFewDescriptors) {
     put_database("XAAA");
     constexpr int databases = 1500;

@@ -15,7 +15,7 @@ class KeptFramesTest : public ::testing::Test {
         std::ofstream(directory_ / name) << text;
         return directory_ / name;
     }
-    // The picture has 400 bytes of pixels; its red channel is the number of the drawing.
+    // Returns a frame with 400 bytes of pixels, whose red channel counts the drawings.
     Result<render::Image> frame(DrawnFrames& kept, const fs::path& path,
                                 const render::Scene& scene = {}) {
         return kept.frame(path, scene, [this]() -> Result<render::Image> {
@@ -52,7 +52,7 @@ TEST_F(KeptFramesTest, WhatDiffersIsDrawnAnew) {
     scene.pixel_tolerance = 0.01;
     (void)frame(kept, a, scene);
     EXPECT_EQ(drawn_, 5);
-    fs::rename(grid("new"), a);  // replaced by rename, as the store does it
+    fs::rename(grid("new"), a);  // replaced by rename, as by the store
     (void)frame(kept, a, scene);
     EXPECT_EQ(drawn_, 6);
     grid("a", "another length");

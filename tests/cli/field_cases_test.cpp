@@ -1,4 +1,4 @@
-// Tests small inputs that failed once (../shared/data/cases) against what its README calls right.
+// Tests inputs that failed once (../shared/data/cases) against the results that its README expects.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -61,8 +61,8 @@ TEST_F(FieldCases, RadialsMayNameTheirStationInLowerCase) {
     EXPECT_EQ(lower["sweeps"], whole["sweeps"]);
 }
 
-// One volume makes no frame, since two must be near its instant. This is reported, and nothing
-// crashes.
+// One volume makes no frame, because two must be near its instant. The program reports that and
+// does not crash.
 TEST_F(FieldCases, AMosaicAboutACenterNeedsNoStationOfTheTable) {
     const std::string catalog = out("catalog");
     for (const auto& [drop, status] :
@@ -149,7 +149,7 @@ TEST_F(FieldCases, OldFilesAreNamedAndPlacedByTheirNameOrByOptions) {
     EXPECT_THAT(no_name.err, HasSubstr("--station"));
 }
 
-// 2026-11-28: such files were filed as unknown, and a loop found no volume of the station.
+// 2026-11-28: such files were cataloged under an unknown station, so a loop did not find them.
 TEST_F(FieldCases, AStationThatNoTableHasIsFiledByWhatItsFileSays) {
     fs::create_directory(directory_ / "drop");
     fs::copy_file(in("files/6-station-not-in-the-table/ROP420240601_220000_V06"),
@@ -165,8 +165,8 @@ TEST_F(FieldCases, AStationThatNoTableHasIsFiledByWhatItsFileSays) {
     EXPECT_EQ(made["frames"], 1);
 }
 
-// 2026-11-28: files that begin with ARCHIVE2 do not name their radar, and only names that begin
-// with it did.
+// 2026-11-28: files that begin with ARCHIVE2 do not name their radar, and the station was looked
+// for only at the start of the file's name.
 TEST_F(FieldCases, TheStationOfAnOldFileMayBeAnyWordOfItsName) {
     const std::string file = in("files/11-name-of-an-old-file/Level2_KTLX_19990503_2356.ar2v");
     EXPECT_EQ(info(file)["site"], "KTLX");
@@ -176,8 +176,8 @@ TEST_F(FieldCases, TheStationOfAnOldFileMayBeAnyWordOfItsName) {
     }
 }
 
-// 2026-11-28: the bucket uses numbers of volumes again, and a directory with chunks of two volumes
-// was refused.
+// 2026-11-28: a directory with chunks of two volumes was refused, but the bucket reuses its
+// directories.
 TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     const std::string chunks = in("files/8-chunks-of-two-volumes/KTLX/589");
     const auto start = [&](const Words& words) {
@@ -198,7 +198,7 @@ TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     };
     EXPECT_EQ(time_of_frame({chunks}), "22:02");
     EXPECT_EQ(time_of_frame({chunks, "--volume", "1"}), "22:00");
-    // The shell's pattern 20240601-220000-* names these.
+    // These are the names that a shell makes from 20240601-220000-*.
     Words named;
     for (const auto& entry : fs::directory_iterator(chunks)) {
         if (entry.path().filename().native().starts_with("20240601-220000-"))
@@ -234,7 +234,7 @@ TEST_F(FieldCases, ChunksNamedByTheirLdmKeyAreOneVolume) {
     EXPECT_EQ(volumes[0]["n_radials"], 360);
     EXPECT_EQ(list(catalog, {"--rejected"}).size(), 1U)
         << "the other chunks have no line of their own";
-    // A single chunk under a meaningless name is distinguished from a volume.
+    // A chunk whose name does not show that it is one must not be taken for a volume.
     fs::create_directory(directory_ / "drop");
     fs::create_directory(directory_ / "other");
     fs::copy_file(in("9-ldm-key-chunk-names/drop/L2-BZIP2_KLOT_20201019054806_34_2_I_V06_0"),

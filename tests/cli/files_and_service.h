@@ -1,5 +1,5 @@
 // tests/cli/files_and_service.h -- real volumes as files, and the directories of a service that can
-// take them in.
+// ingest them.
 #pragma once
 
 #include <csignal>
@@ -16,7 +16,7 @@
 
 namespace stormcellar::cli {
 
-// Skips its tests where there are no real volumes.
+// Skips its tests if the real volumes are not available.
 class FilesAndService : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -31,7 +31,7 @@ class FilesAndService : public ::testing::Test {
         return (directory_ / name).native();
     }
 
-    // Runs the daemon on a copy of the raw file until the cache has a grid of it.
+    // Runs the daemon on a copy of the raw file until the cache has a grid made from it.
     void ingest(const std::string& file) {
         fs::create_directories(directory_ / "drop");
         fs::copy_file(file, directory_ / "drop" / fs::path(file).filename());

@@ -50,7 +50,7 @@ TEST_F(FilesLoop, ADirectoryItsFilesAndTheirArchiveGiveTheSameLoop) {
     for (const auto& entry : fs::directory_iterator(sequence())) {
         files.push_back(entry.path().string());
     }
-    // The files are those of the directory, so the grids stand.
+    // These are the files of the directory, so their grids exist.
     EXPECT_EQ(json_of(files)["grids_found"], 5);
     EXPECT_EQ(loop(), by_directory);
 
@@ -68,7 +68,7 @@ TEST_F(FilesLoop, OnlyTheFilesThatAreNamedAreShown) {
     EXPECT_EQ(two["frames"], 2);
     EXPECT_EQ(two["grids_found"], 2);
     EXPECT_EQ(two["from"], "2005-08-22T02:50:01Z");
-    // The first of the three volumes began before that time and ended after it.
+    // The first of the three volumes begins before 03:00 and ends after it.
     EXPECT_EQ(json_of({sequence()}, {"--from", "2005-08-22T03:00"})["frames"], 3);
 }
 
@@ -92,7 +92,7 @@ TEST_F(FilesLoop, ACacheThatIsNamedHoldsGridsAndCatalog) {
     EXPECT_EQ(json_of({sequence()}, {"--cache", cache})["grids_found"], 5);
 }
 
-// 2026-11-29: such members were missing without a word.
+// 2026-11-29: such members were left out without a message.
 TEST_F(FilesLoop, MembersThatHoldNoVolumeAreNamedEachTime) {
     const fs::path day = directory_ / "day", tar = directory_ / "day.tar";
     fs::create_directory(day);

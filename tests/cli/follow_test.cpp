@@ -27,12 +27,12 @@ using testing::RunningProgram;
 class Follow : public Loop {
   protected:
     [[nodiscard]] Words arguments(const Words& more) const {
-        // Few slices are quick; only volumes have any.
+        // Draw few slices, which is quick; only volumes have slices.
         const Words few = has(more, "--product") ? Words{} : Words{"--slices", "16"};
         return with({"loop", "KBGM", "--cache", directory_ / "cache", "--follow", "--json"}, few,
                     more);
     }
-    // One a remake.
+    // Returns the JSON documents printed so far, one for each loop.
     static std::vector<nlohmann::json> documents(const RunningProgram& program) {
         std::istringstream lines(program.out());
         std::vector<nlohmann::json> all;
@@ -45,7 +45,7 @@ class Follow : public Loop {
     }
 };
 
-// Before that a signal just ends it.
+// Returns true if the process handles SIGTERM. Before, the signal would just end it.
 bool catches_sigterm(pid_t id) {
     std::ifstream status("/proc/" + std::to_string(id) + "/status");
     for (std::string line; std::getline(status, line);) {
@@ -55,7 +55,7 @@ bool catches_sigterm(pid_t id) {
     return false;
 }
 
-// Counts how often the directory is opened, from now on. The program opens it at each look.
+// Counts how often the directory is opened from now on. The program opens it for each check.
 class Openings {
   public:
     explicit Openings(const fs::path& directory) {
@@ -63,7 +63,8 @@ class Openings {
     }
     [[nodiscard]] bool come_to(std::size_t count) {
         return testing::eventually([&] {
-            // Events of what is inside the directory have names.
+            // Events of entries of the directory have names; events of the directory itself have
+            // none.
             alignas(inotify_event) std::array<char, 4096> events;
             ssize_t size = 0;
             while ((size = ::read(events_.number(), events.data(), events.size())) > 0) {
@@ -90,7 +91,7 @@ TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
     const auto second = commit("20050822_025000", 33);
     ASSERT_TRUE(wait_for_remakes(program, 2)) << program.err();
     EXPECT_THAT(written(), ElementsAre("a.gif"));
-    commit("20050822_025000", 44);  // the volume went on: the same time, another grid
+    commit("20050822_025000", 44);  // the volume has grown: the same time, a new grid
     ASSERT_TRUE(wait_for_remakes(program, 3)) << program.err();
     fs::remove(second);
     ASSERT_TRUE(wait_for_remakes(program, 4)) << program.err();
@@ -102,9 +103,8 @@ TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
     EXPECT_EQ(program.err(), "");
 }
 
-// Frames are kept from loop to loop; nobody must see it.
-// The view is typed: a loop that is followed keeps the view that it began with as long as that
-// suits.
+// Frames are kept from loop to loop, which must not change the result. The test types the view,
+// because a followed loop keeps the view that it began with as long as it fits.
 TEST_F(Follow, IsTheLoopThatOneMakesAtOnce) {
     const Words view = words(
         "--azimuth 180 --tilt 55 --zoom 1 --exaggeration 5 --opacity 1 --sun 225,40 "
@@ -134,9 +134,9 @@ TEST_F(Follow, NothingIsMadeWithoutAChangeOfItsGrids) {
     RunningProgram program(STORMCELLAR_PROGRAM, arguments({"--last", "2", "-o", out("a.gif")}));
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     std::ofstream(grid.native() + ".pin") << "";
-    commit("20050822_024000", 11);  // not of the last two
-    // After some seven looks without another change it lists the grids, and goes on to look after
-    // the loop is made, if it is.
+    commit("20050822_024000", 11);  // not among the last two
+    // The program lists the grids after some seven checks without a change, and goes on checking
+    // after it has made a loop or not.
     EXPECT_TRUE(Openings(grid.parent_path().parent_path()).come_to(20));
     EXPECT_EQ(documents(program).size(), 1U) << program.out();
     EXPECT_EQ(program.end(SIGTERM), 0);
@@ -193,7 +193,7 @@ TEST_F(Follow, GoesOnAfterALoopThatCannotBeMade) {
     commit("20050822_025000", 33);
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     EXPECT_EQ(documents(program)[0]["skipped"].size(), 1U);
-    // Nowhere to write to.
+    // Remove the directory of the output.
     fs::remove_all(directory_ / "out");
     commit("20050822_025600", 44);
     ASSERT_TRUE(testing::eventually([&] {

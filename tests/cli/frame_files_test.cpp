@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 class FrameFiles : public FilesAndService {
   protected:
-    // The compressed pixels of a PNG, without what its texts say of the grid.
+    // Returns the compressed pixels of a PNG, without its texts.
     [[nodiscard]] std::string pixels_of(const std::string& path) const {
         const std::string png = testing::file_text(path);
         std::string pixels;
@@ -32,7 +32,7 @@ class FrameFiles : public FilesAndService {
     }
 };
 
-// The daemon's own grid of the file is drawn to the same pixel, with the same words.
+// The picture of the file has the same pixels and texts as that of the daemon's grid.
 TEST_F(FrameFiles, IsThePictureOfTheStoredGrid) {
     const std::string file = volume("KTLX19990503_235621.gz");
     ingest(file);

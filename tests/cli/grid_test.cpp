@@ -1,4 +1,4 @@
-// The program itself, as a user runs it: `stormcellar grid`.
+// Runs `stormcellar grid` as a user does.
 #include <filesystem>
 #include <fstream>
 
@@ -21,7 +21,7 @@ class GridTest : public ::testing::Test {
     [[nodiscard]] std::string file(const std::string& name) const {
         return (directory_.path() / name).string();
     }
-    // Bad usage: exit 2 and one line that names what is wrong; nothing is written.
+    // Expects bad usage: exit status 2, one line with `part`, and no output file.
     void expect_usage(const Words& arguments, const std::string& part) {
         const ProgramResult ran = grid(with(arguments, {"-o", file("out.nc")}));
         EXPECT_EQ(ran.status, 2) << part;
@@ -163,7 +163,7 @@ TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
     const std::string of_2022 = volume("KLOT20220317_000842_V06");
     EXPECT_EQ(moments_of({of_2022, "--moment", "all"}),
               (Names{"REF", "VEL", "SW", "ZDR", "PHI", "RHO", "CFP"}));
-    // With several files, one instant serves every moment, though their sweeps are of other times.
+    // With several files, all moments have one instant, though their sweeps have different times.
     EXPECT_EQ(moments_of({of_1999, volume("KTLX19990503_235621.gz"), "--moment", "REF,VEL"}),
               (Names{"REF", "VEL"}));
     const ProgramResult missing = grid({of_1999, "-o", file("no.nc"), "--moment", "REF,RHO"});
@@ -191,7 +191,7 @@ TEST_F(GridTest, AFrameTimeChoosesSweepsAndIsNamed) {
     EXPECT_EQ(facts({"--fields", "all"})["fields"].size(), 4U);
 }
 
-// 2026-11-21: of a volume of 1999 a frame of this day was made without a word.
+// 2026-11-21: a grid for today was made from a volume of 1999 without a note.
 TEST_F(GridTest, AFrameTimeFarFromTheVolumeIsNoted) {
     STORMCELLAR_NEED_DATA();
     const auto noted = [&](const std::string& time) {
@@ -208,7 +208,7 @@ TEST_F(GridTest, AFrameTimeFarFromTheVolumeIsNoted) {
     EXPECT_EQ(noted("1999-05-04T00:50:00Z"), "") << "less than an hour after its last radial";
 }
 
-// 2026-11-21: that the name of the file is looked at was not said.
+// 2026-11-21: the message did not say that the file's name may give the station.
 TEST_F(GridTest, AVolumeThatNobodyPlacesSaysHowToNameIt) {
     STORMCELLAR_NEED_DATA();
     const std::string nameless = volume("example_nexrad_archive_msg1.bz2");

@@ -1,4 +1,4 @@
-// Runs the program as a user does, and tests what it prints and how it ends.
+// Runs `stormcellar info` as a user does, and tests its output and exit status.
 #include <filesystem>
 #include <fstream>
 

@@ -84,7 +84,7 @@ TEST_F(InputFilesTest, OneMemberIsNamedBehindItsArchive) {
     EXPECT_THAT(none.err, HasSubstr("is not in the archive"));
 }
 
-// 2026-11-28: it was said not to be there.
+// 2026-11-28: the message was that the archive has no such member.
 TEST_F(InputFilesTest, OfAMemberThatCannotBeReadIsSaidWhy) {
     const std::string path = put_archive("order.tar", archive::Kind::tar);
     fs::resize_file(path, fs::file_size(path) - 100'000);

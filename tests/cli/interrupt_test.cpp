@@ -71,8 +71,8 @@ TEST(Interrupt, IgnoredSignalStaysIgnored) {
     ::signal(SIGHUP, SIG_DFL);
 }
 
-// Makes a directory with a file in it and says in `name` where it is, for the parent of a process
-// that is about to end.
+// Makes a scratch directory with a file in it, writes its path to the file `name` for the parent
+// process, and raises the signal.
 void make_scratch_and_raise(int number, const fs::path& name) {
     const auto scratch = ScratchDirectory::make();
     std::ofstream(scratch->path() / "output.webp") << "half";

@@ -38,7 +38,8 @@ class Loop : public ::testing::Test {
         return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
     }
     testing::ProgramResult run(Words arguments) const {
-        // Few slices are quick. Only volumes have any, and a tolerance chooses them.
+        // Draw few slices, which is quick. Other products have no slices, and a tolerance chooses
+        // their number.
         if (!has(arguments, "--product") && !has(arguments, "--tolerance")) {
             arguments.insert(arguments.begin(), {"--slices", "16"});
         }

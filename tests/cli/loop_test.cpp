@@ -43,7 +43,7 @@ TEST_F(Loop, WritesTheSameFramesToEveryOutput) {
     EXPECT_THAT(webp.metadata.at("XMP"), HasSubstr("KBGM 2005-08-22T02:44:00Z"));
 }
 
-// A view that is not fitted, because a loop is fitted to all of its grids.
+// Options for a view that is not fitted; a loop would fit it to all of its grids.
 const Words plain_view =
     words("--zoom 1 --field-of-view 0 --exaggeration 5 --opacity 1 --light none --tilt 55");
 
@@ -125,7 +125,7 @@ TEST_F(Loop, ColorsAndViewAreThoseOfAllFrames) {
         const auto first = render::decode_png_file(out("f/frame_0000.png"));
         const auto second = render::decode_png_file(out("f/frame_0001.png"));
         ASSERT_EQ(first.rgba.size(), second.rgba.size());
-        // The color bar and its numbers.
+        // Compare the color bar and its numbers.
         std::size_t differing = 0;
         for (int y = 60; y < first.height - 20; ++y) {
             for (int x = first.width - 110; x < first.width; ++x) {
@@ -240,13 +240,13 @@ TEST_F(Loop, AnOrbitAroundOneGridHasAsManyFramesAsAskedFor) {
         EXPECT_EQ(result.status, 0) << result.err;
         return render::decode_webp(out("o.webp")).frames;
     };
-    // With a place of its own, the camera goes around the point that it looks at.
+    // A camera with a typed position orbits about the point that it looks at.
     const auto frames = frames_of(
         {"--orbit", "360", "--frames", "8", "--camera-km", "5,-90,30", "--look-at-km", "5,0,4"});
     ASSERT_EQ(frames.size(), 8U);
     for (std::size_t i = 1; i < frames.size(); ++i)
         EXPECT_NE(frames[i].image.rgba, frames[0].image.rgba) << i;
-    // A quarter of the way, clockwise: from the west.
+    // After a quarter of the orbit, clockwise, the camera looks from the west.
     const auto from_west = frames_of({"--camera-km=-85,0,30", "--look-at-km", "5,0,4"});
     EXPECT_EQ(frames[2].image.rgba, from_west[0].image.rgba);
 }
@@ -376,7 +376,7 @@ TEST_F(Loop, PlaceThatCannotBeWrittenIsAFailureThatNamesIt) {
     EXPECT_THAT(cache.err, HasSubstr("nowhere"));
 }
 
-// A loop of very many grids, told to stop while its frames are being written.
+// A loop of very many grids is interrupted while it writes its frames.
 TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
     commit("20050822_024400", 22);
     for (int i = 0; i < 400; ++i) {
@@ -384,7 +384,7 @@ TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
     }
     const std::string cache = (directory_ / "cache").string();
     const std::string webp = out("a.webp"), frames = out("frames/");
-    // Its directory of frames stands under a temporary name while it works.
+    // The directory of frames has a temporary name until the loop is complete.
     const auto frames_drawn = [&] {
         for (const auto& entry : fs::directory_iterator(directory_ / "out")) {
             if (entry.is_directory() && fs::exists(entry.path() / "frame_0001.png")) return true;
@@ -414,8 +414,8 @@ TEST_F(Loop, InterruptedOnItsWayToStandardOutputItLeavesNoTemporaryDirectory) {
     EXPECT_TRUE(fs::is_empty(temporary));
 }
 
-// Many names of one file, which another thread cuts and mends again all the time: most frames are
-// cut while they are drawn.
+// The grids are many names of one file, which another thread truncates and restores all the time,
+// so most grids are truncated while they are drawn.
 TEST_F(Loop, GridsThatAreCutWhileTheyAreDrawnAreLeftOut) {
     commit("20050822_024400", 22);
     for (int i = 1; i < 40; ++i) {
@@ -457,7 +457,7 @@ TEST_F(Loop, RealVolumesBecomeALoop) {
     ASSERT_EQ(result.status, 0) << result.err;
     const auto loop = render::decode_webp(out("a.webp"));
     ASSERT_EQ(loop.frames.size(), 2U) << loop.error;
-    // Echo moves between the volumes: without labels nothing else can differ.
+    // Echo moves between the volumes; without labels nothing else can differ.
     EXPECT_NE(loop.frames[0].image.rgba, loop.frames[1].image.rgba);
     int saturated = 0;  // grounds and lines are grey
     const render::Image& image = loop.frames[0].image;

@@ -1,5 +1,5 @@
-// Sweeps as the radar saw them: of a file, of a file that is cut short, of a domain by the catalog,
-// and loops of them.
+// Draws sweeps as the radar saw them, from a whole file, a truncated file and the catalog of a
+// domain, and as loops.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 class Ppi : public FilesAndService {
   protected:
-    // The first bytes of a volume, as of one that the radar is still making.
+    // Writes the first bytes of a volume, as if the radar were still sending it.
     [[nodiscard]] std::string cut_volume(const char* name, std::size_t bytes) const {
         std::ifstream whole(volume(name), std::ios::binary);
         std::string begin(bytes, '\0');
@@ -24,7 +24,7 @@ class Ppi : public FilesAndService {
         return out(name);
     }
 
-    // Returns the facts of a frame, with what is at a place of the sweep that the words name.
+    // Returns the JSON of a frame with a probe at the place that `words` name.
     [[nodiscard]] nlohmann::json probe(Words words) const {
         words.insert(words.begin(), {"frame", "--product", "ppi", "--json"});
         return json_of(run(words));
@@ -43,7 +43,7 @@ TEST_F(Ppi, SaysWhichSweepsThereAre) {
     EXPECT_FALSE(fs::exists(out("a.png")));
 }
 
-// If a file is cut short, the sweeps and radials that it still holds are drawn.
+// The sweeps and radials that a truncated file still holds are drawn.
 TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
     // A third of the first sweep: the radials from the west to the northeast.
     const std::string begun = cut_volume("KLBB20160601_150025_V06", 400'000);
@@ -54,7 +54,7 @@ TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
     const auto drawn = run({"frame", begun, "--product", "ppi", "-o", out("a.png")});
     EXPECT_EQ(drawn.status, 0) << drawn.err;
 
-    // Two elevations are whole; the newest whole low sweep is shown, and no other elevation.
+    // The file has two whole elevations; the frame shows the newest whole sweep of the low one.
     const std::string low = cut_volume("KLBB20160601_150025_V06", 1'500'000);
     const auto lowest = probe({low, "--probe-at", "34.0,-102.2"});
     EXPECT_TRUE(lowest["partial"].get<bool>());
@@ -110,7 +110,7 @@ TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {
               2);
 }
 
-// Each elevation is a frame, from the lowest up, and a split cut is one elevation.
+// The loop has a frame for each elevation, from the lowest up; a split cut is one elevation.
 TEST_F(Ppi, ALoopGoesThroughTheElevations) {
     const std::string file = volume("KTLX20170101_030027_V06");
     const auto json = json_of(run({"loop", file, "--product", "ppi", "--all-elevations", "--cache",
@@ -121,7 +121,7 @@ TEST_F(Ppi, ALoopGoesThroughTheElevations) {
     EXPECT_TRUE(fs::exists(directory_ / "up/frame_0004.png"));
     EXPECT_FALSE(fs::exists(directory_ / "up/frame_0005.png"));
 
-    // A scene file says the same, and there and back is eight frames.
+    // A scene file with the same setting gives eight frames there and back.
     std::ofstream(directory_ / "up.toml")
         << "[picture]\nproduct = \"ppi\"\n[loop]\nall_elevations = true\nping_pong = true\n";
     EXPECT_EQ(json_of(run({"loop", "--scene", out("up.toml"), file, "--cache", out("own"), "--json",
@@ -129,7 +129,7 @@ TEST_F(Ppi, ALoopGoesThroughTheElevations) {
               8);
 }
 
-// The lowest two angles of this volume came twice (MRLE), each as a split cut.
+// This volume repeats its lowest two angles (MRLE), each as a split cut.
 TEST_F(Ppi, ALoopShowsEachSweepThatTheRadarRepeated) {
     const std::string chunks = (data_ / "chunks/L2D_230").native();
     const auto loop = [&](Words words) {

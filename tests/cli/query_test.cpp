@@ -45,7 +45,7 @@ TEST_F(QueryTest, CatalogListsVolumesInTimeOrder) {
     const json entries = json_of(run({"catalog", "list", "--station", "KBGM", "--json"}));
     ASSERT_EQ(entries.size(), 2U);
     EXPECT_EQ(entries[0]["start_time"], "2005-08-22T02:44:14Z");
-    EXPECT_EQ(entries[0]["n_radials"], 4028);  // golden
+    EXPECT_EQ(entries[0]["n_radials"], 4028);  // number in the file
     EXPECT_EQ(entries[1]["state"], "complete");
     EXPECT_EQ(run({"catalog", "list", "--from", "2005-08-22T02:50"}).out.find("024414"),
               std::string::npos);
@@ -84,7 +84,8 @@ TEST_F(QueryTest, GetCopiesRawBytesAndLeavesWhatIsThere) {
     EXPECT_EQ(run(forced).status, 0);
 }
 
-// A volume that came as one file a chunk goes out as one file, which holds what the chunks hold.
+// A volume that came as a file for each chunk is copied as one file with the contents of all
+// chunks.
 TEST_F(QueryTest, GetJoinsTheChunksOfAVolume) {
     const fs::path drop = directory_ / "drop/KLOT";
     fs::create_directories(drop.parent_path());
@@ -103,7 +104,7 @@ TEST_F(QueryTest, GetJoinsTheChunksOfAVolume) {
     auto decode = get;
     decode.emplace_back("--decode");
     EXPECT_EQ(run(decode).out, out + "/KLOT20260328_201457.nc\n");
-    // One is gone meanwhile: the rest, and a word about it.
+    // If a chunk has gone meanwhile, the others are copied, with a note.
     fs::remove(drop / "20260328-201457-007-I");
     auto forced = get;
     forced.emplace_back("--force");
@@ -135,7 +136,7 @@ TEST_F(QueryTest, GetDecodesEachVolumeToNetcdf) {
     EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.nc"), *read_file(other));
 }
 
-// A file of four volumes: each that the times ask for is a file of its own.
+// Each requested volume of a file with four becomes a file of its own.
 TEST_F(QueryTest, GetDecodesTheVolumesOfAFileThatWereAskedFor) {
     ingest(testing::real_file("volumes/KBBX20060113_170337.gz"));
     const json entries = json::parse(run({"catalog", "list", "--station", "KBBX", "--json"}).out);

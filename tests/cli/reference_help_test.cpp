@@ -1,4 +1,4 @@
-// Tests what help shows, with the commands that the program really has.
+// Tests the help of the program's real commands.
 #include <algorithm>
 #include <sstream>
 
@@ -53,7 +53,7 @@ Words names_of_options(const CommandReference& command) {
     return names;
 }
 
-// The words of a line as a shell makes them, without the program.
+// Returns the words of a command line as a shell splits it, without the program.
 Words words_of(std::string_view line) {
     Words words{""};
     bool quoted = false;
@@ -163,7 +163,7 @@ TEST_F(ReferenceHelp, ExamplesAreCommandLinesThatTheParserTakes) {
     for (const CommandGuide& guide : command_guides()) {
         for (const CommandExample& example : guide.examples) {
             Words words = words_of(example.line);
-            std::ranges::reverse(words);  // as the parser wants them
+            std::ranges::reverse(words);  // the parser takes them in reverse
             EXPECT_NO_THROW(app_.parse(words)) << example.line;
         }
     }
@@ -192,8 +192,8 @@ TEST(Help, IsAskedForInThreeWays) {
     EXPECT_THAT(run({"frame", "--help-all"}).out, HasSubstr("--curved-earth"));
 }
 
-// The usage of `frame` had one FILE, and its help the defaults of a camera that is fitted to the
-// echo instead (2026-11-26).
+// 2026-11-26: the usage of `frame` had one FILE, and its help named fixed defaults for a camera
+// that is fitted to the echo.
 TEST(Help, SaysWhatFrameTakesAndWhichViewItChooses) {
     for (const char* command : {"frame", "loop"}) {
         const std::string help = run({command, "--help-all"}).out;

@@ -1,4 +1,5 @@
-// A small version of what tests/packaging/check-reference compares with --help.
+// Tests the reference of a small program; tests/packaging/check-reference compares the real one
+// with --help.
 #include "cli/reference/reference.h"
 
 #include <CLI/CLI.hpp>

@@ -77,7 +77,7 @@ TEST(SceneOptions, AnOlderSpellingIsTakenAndNotShown) {
     EXPECT_THAT(app.help(), ::testing::Not(::testing::HasSubstr("--colours")));
 }
 
-// A row that is changed reaches the help by itself: the ends of its range, and what there is.
+// The help has the ranges and the allowed words from the table, so a changed row changes the help.
 TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     for (const PictureOption& row : render::picture_options())
         EXPECT_THAT(help_of(row), ::testing::Not(::testing::HasSubstr("{"))) << row.option;
@@ -179,7 +179,7 @@ TEST(SceneOptions, AMomentMayBeInLowerCase) {
     EXPECT_EQ(scene->moment, level2::Moment::vel);
 }
 
-// A message about a number said what it is, but not which option sets it (2026-11-25).
+// 2026-11-25: a message about a number did not name the option that sets it.
 TEST(SceneOptions, AnOptionOutOfItsRangeIsNamed) {
     const std::vector<std::pair<const char*, const char*>> said = {
         {"--tilt 120", "--tilt must be 0 to 90, not 120"},

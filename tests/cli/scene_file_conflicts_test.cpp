@@ -1,4 +1,5 @@
-// A scene file beside what was typed: what excludes what, and what is left out for what.
+// Tests a scene file together with typed options: which exclude each other, and which override
+// keys.
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -152,7 +153,7 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
         EXPECT_EQ(ran.status, exit_bad_usage) << more;
         return ran.err;
     };
-    // The picture says itself how many slices it has.
+    // The picture's metadata have its number of slices.
     const auto has_slices = [&](int count) {
         return testing::file_text(at("a.png")).find(fmt::format(", {} slices", count)) !=
                std::string::npos;

@@ -1,4 +1,4 @@
-// tests/cli/scene_file_fixture.h -- a scene file, a grid to draw, and the commands that take them.
+// tests/cli/scene_file_fixture.h -- a scene file, a grid to draw, and the commands that use them.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +30,7 @@ class SceneFileTest : public ::testing::Test {
     Status read(const std::string& text) {
         return read_scene_file(write(text), settings_.scene, settings_.plan, settings_.loop);
     }
-    // The message without the directory, which differs in each run.
+    // Returns the error for this scene file, without the directory, which differs in each run.
     std::string complaint(const std::string& text) {
         const Status status = read(text);
         if (status) return "no complaint";
@@ -39,7 +39,7 @@ class SceneFileTest : public ::testing::Test {
         EXPECT_TRUE(status.error().message.starts_with(directory)) << status.error().message;
         return status.error().message.substr(directory.size());
     }
-    // A grid of REF about KBGM.
+    // Commits a grid of REF about KBGM.
     void commit() {
         auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;

@@ -207,7 +207,7 @@ TEST_F(SceneFileTest, AnOlderKeyIsTakenToo) {
               "s.toml:3: [picture] colours: is the older name of colors; give only one of them");
 }
 
-// 2026-11-25: numbers of a file were printed and parsed again.
+// 2026-11-25: numbers of a file were printed and parsed again, which changed their last bits.
 TEST_F(SceneFileTest, NumbersReachTheSceneToTheLastBit) {
     ASSERT_TRUE(
         read("[light]\nsun_deg = [0.1, 40.00000000000001]\n"

@@ -50,7 +50,7 @@ TEST_F(SitePairs, AFaultIsMeasuredAndNamed) {
     EXPECT_THAT(printed.out, Not(HasSubstr("What cannot be determined")));
 }
 
-// With one volume of each site there is no motion, so the clock cannot be judged.
+// With one volume of each site the motion is unknown, so the clocks cannot be compared.
 TEST_F(SitePairs, WhatCannotBeToldSaysWhy) {
     auto files = testing::write_two_radars(directory_.path(), 0);
     files.resize(2);

@@ -165,7 +165,7 @@ TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {
     }
 }
 
-// Whoever answers may send anything: it is not obeyed by the terminal.
+// The answer may hold anything; no control character of it reaches the terminal.
 TEST(StatusTable, SaysWhenTheDropDirectoryIsLost) {
     const json status = {
         {"drop", "/d"}, {"directories", 0U}, {"drop_lost", "/d: Permission denied"}};
@@ -174,8 +174,8 @@ TEST(StatusTable, SaysWhenTheDropDirectoryIsLost) {
         std::string::npos);
 }
 
-// 2026-11-28: LDM with umask 027 and a service outside of its group looked like a feed without
-// data.
+// 2026-11-28: if LDM wrote with umask 027 and the service was not in its group, the status showed a
+// feed without data.
 TEST(StatusTable, NamesDirectoriesThatCannotBeRead) {
     const json status = {
         {"drop", "/d"},

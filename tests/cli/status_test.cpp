@@ -1,4 +1,5 @@
-// Tests `stormcellar status` with the real daemon, with none, and with a program that is no daemon.
+// Tests `stormcellar status` with the real daemon, without a daemon, and with another program on
+// its socket.
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -29,7 +30,7 @@ testing::ProgramResult status(const Words& arguments) {
     return run(with({"status"}, arguments));
 }
 
-// The daemon is ready once it answers.
+// Waits until the daemon answers, which means that it is ready.
 bool wait_until_it_answers(const fs::path& state) {
     return testing::eventually([&] { return status({"--state", state}).status == 0; });
 }
@@ -75,7 +76,7 @@ TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
     EXPECT_TRUE(document["source"]["age_s"].is_number());
     EXPECT_EQ(document["state"], "running") << "as it was last said";
     EXPECT_EQ(status({"--socket", daemon.root() / "state/status.sock"}).status, 1);
-    // The socket that it left does no harm.
+    // The socket that a killed daemon leaves behind does no harm.
     daemon.start();
     EXPECT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
@@ -91,7 +92,7 @@ TEST(Status, ASocketElsewhereIsFound) {
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
 }
 
-// Files are ingested without it, but the service does not report that it is ready.
+// Without its socket the daemon ingests files but does not report that it is ready.
 TEST(Status, TheDaemonStartsWithoutItsSocket) {
     RunningDaemon daemon;
     write_file(daemon.drop() / "junk", "no radar data");

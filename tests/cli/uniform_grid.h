@@ -12,7 +12,8 @@
 
 namespace stormcellar::testing {
 
-// `cells` rows and columns; the time as in names of files, "20050822_024400".
+// Returns a grid of `cells` rows and columns. The time is written as in names of files,
+// "20050822_024400".
 inline grid::Grid uniform_grid(const std::string& compact_time, float dbz, int cells = 40) {
     grid::Grid grid;
     grid.spec = grid::default_spec(42.2, -75.98);

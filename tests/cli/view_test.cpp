@@ -17,7 +17,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Sets a variable of the environment for as long as it lives.
+// Sets a variable of the environment while the object exists.
 class Environment {
   public:
     Environment(const char* name, const std::string& value) : name_(name) {
@@ -42,13 +42,13 @@ class ViewCommand : public ::testing::Test {
     }
     [[nodiscard]] std::string at(const std::string& name) const { return (directory_ / name); }
 
-    // Returns the port in what the program printed; 0 if there is none.
+    // Returns the port in the program's output; 0 if there is none.
     static int port_in(const std::string& out) {
         const std::string before = "the viewer is at http://127.0.0.1:";
         const auto found = out.find(before);
         return found == std::string::npos ? 0 : std::atoi(out.c_str() + found + before.size());
     }
-    // A program that stands for the desktop: it writes down what it is asked to open.
+    // Makes a fake xdg-open, which writes the address that it is to open into a file.
     void make_desktop() const {
         fs::create_directories(at("bin"));
         std::ofstream(at("bin/xdg-open")) << "#!/bin/sh\necho \"$@\" >'" << at("opened") << "'\n";

@@ -39,7 +39,7 @@ TEST(BeamQuadrature, HasTheMomentsOfThePattern) {
         EXPECT_NEAR(mean_of(up, [](double x) { return x; }), 0, 1e-12);
         EXPECT_NEAR(std::sqrt(mean_of(up, [](double x) { return x * x; })), deviation_deg,
                     0.003 * deviation_deg);
-        // A Gaussian and a turn of one degree: variances add, with 1/12 for the turn.
+        // The variance is that of the Gaussian plus 1/12 for the turn of one degree.
         for (const double elevation_deg : {0.5, 19.5, 60.0}) {
             const double own_deg = deviation_deg / std::cos(elevation_deg * degree);
             const auto across = azimuth_nodes(width_deg, elevation_deg, 1, points);
@@ -91,7 +91,7 @@ TEST(BeamWidth, AGaussianStormIsSmearedAsItMustBe) {
             storm.footprint.y_m = range_m;
             storm.footprint.minor_m = radius_m;  // east and west
             storm.footprint.major_m = 60000;     // along the beam: flat
-            storm.core_m = 25000;                // flat in height below
+            storm.core_m = 25000;                // independent of height below
             storm.top_m = 30000;
             storm.peak_dbz = 50;
             observed.scene.weather.storms = {storm};
@@ -134,7 +134,8 @@ TEST(BeamWidth, TheSpreadOfVelocityWidensTheSpectrum) {
     }
 }
 
-// The mean of linear Z over the pattern by brute force, 3 times as fine as the finest quadrature.
+// Returns the mean of linear Z over the pattern by brute force, 3 times as fine as the finest
+// quadrature.
 double fine_dbz(const Observed& observed, double azimuth_deg, double range_m) {
     const double elevation_deg = observed.cut.elevation_deg;
     const auto up = elevation_nodes(width_deg, 12);
@@ -158,7 +159,8 @@ struct Convergence {
     double largest_db = 0;
 };
 
-// In addition to half a code of rounding, for gates from 5 dBZ on.
+// Returns how far gates from 5 dBZ on differ from the fine quadrature, beyond the rounding of half
+// a code.
 Convergence convergence_of(const char* scene, std::int32_t gates_apart) {
     constexpr double elevation_deg = 1.5;
     Observed observed;

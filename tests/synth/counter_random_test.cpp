@@ -7,7 +7,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// The published answers for the generator (Random123, kat_vectors).
+// Compares with the published answers for the generator (Random123, kat_vectors).
 TEST(CounterRandom, GivesThePublishedAnswers) {
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}),
               (RandomWords{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
@@ -52,7 +52,7 @@ TEST(CounterRandom, NormalNumbersHaveTheirMomentsAndDoNotHangTogether) {
         }
     }
     constexpr double count = side * side;
-    // Four standard errors each.
+    // Each tolerance is four standard errors.
     EXPECT_NEAR(sum / count, 0, 4 / std::sqrt(count));
     EXPECT_NEAR(squares / count, 1, 4 * std::sqrt(2 / count));
     EXPECT_NEAR(fourths / count, 3, 4 * std::sqrt(96 / count));

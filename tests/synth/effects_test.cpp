@@ -51,7 +51,7 @@ TEST(Noise, GrowsAsTheSignalSinksIntoIt) {
     const double k = std::numbers::ln10 / 10;
     for (const double snr_db : {20.0, 10.0, 5.0, 3.0}) {
         const double over = 1 + std::pow(10, -snr_db / 10);
-        // A value below the noise has no decibels; its power still counts.
+        // An estimate below zero has no decibels, but its power still counts in the mean.
         const Moments z = moments_of(100000, [&](std::uint32_t i) {
             const double dbz = noisy_dbz(snr_db, 0, 1, normal(i));
             return dbz == no_echo_dbz ? 0 : std::pow(10, (dbz - snr_db) / 10);
@@ -96,12 +96,12 @@ TEST(VelocityFolding, IsAMultipleOfTheIntervalOffAndInside) {
 
 TEST(RangeFolding, AGateIsFoldedUnlessItTowersOverTheOtherTrips) {
     std::vector<double> power(20, 0);
-    power[2] = 10;  // alone in its trips: 2, 9 and 16
-    power[3] = 1;   // 3 and 10 are equal, so both are folded
+    power[2] = 10;  // the only echo of gates 2, 9 and 16
+    power[3] = 1;   // as strong as gate 10, so both are folded
     power[10] = 1;
     power[4] = 100;  // 20 dB above gate 11
     power[11] = 1;
-    power[5] = 3;  // 4.8 dB above the sum of 12 and 19
+    power[5] = 3;  // 4.8 dB above the sum of gates 12 and 19
     power[12] = 0.5;
     power[19] = 0.5;
     const auto folded = overlaid_gates(power, 7, 5);
@@ -118,7 +118,8 @@ TEST(Clutter, FallsWithRangeAndElevation) {
     EXPECT_DOUBLE_EQ(clutter_dbz(clutter, 1, {10, 0, 1}, 0), 50);
     EXPECT_DOUBLE_EQ(clutter_dbz(clutter, 1, {10, 0, 1}, 30000), 10);
     EXPECT_DOUBLE_EQ(clutter_dbz(clutter, 1, {10, -0.4, 1}, 15000), 30) << "no more than on it";
-    // Half a beam width up, on both ways: a half squared, 6.02 dB.
+    // At half a beam width above the axis the pattern is a half, so both ways together lose 6.02
+    // dB.
     EXPECT_NEAR(clutter_dbz(clutter, 1, {10, 0.5, 1}, 15000), 30 - 20 * std::log10(2), 1e-9);
     EXPECT_EQ(clutter_dbz(clutter, 1, {10, 2, 1}, 15000), no_echo_dbz);
     EXPECT_EQ(clutter_dbz(clutter, 1, {10, 0, 1}, clutter_reach_m(clutter) + 1), no_echo_dbz);

@@ -39,7 +39,7 @@ std::uint64_t checksum_of(const SweepMoment& moment) {
     return xxh3_64(std::as_bytes(std::span(moment.codes8)));
 }
 
-// The codes of 2026-11-20, before effects existed.
+// The codes are those of 2026-11-20, before effects existed.
 TEST(Instrument, WithoutEffectsTheCodesAreWhatTheyWere) {
     const level2::Volume volume = observe(scene_of("small-storm.toml"), 1);
     std::vector<std::uint64_t> sums;
@@ -114,7 +114,7 @@ TEST(Instrument, RangeFoldingMarksTheWeakerTripInDopplerCuts) {
     EXPECT_EQ(vel.status(north, gate_at(40000)), GateStatus::valid);
     EXPECT_EQ(surveillance.find(Moment::ref)->status(north_of(surveillance), gate_at(177000)),
               GateStatus::valid);
-    // Without the near one, nothing folds.
+    // Without the near storm, nothing folds.
     scene.weather.storms.erase(scene.weather.storms.begin());
     const level2::Decoded alone = written_and_read(scene);
     EXPECT_EQ(alone.volume.sweeps[1].find(Moment::vel)->status(north, gate_at(177000)),
@@ -129,7 +129,7 @@ TEST(Instrument, LostRadialsAndCutsAreNotInTheVolume) {
     ASSERT_EQ(read.volume.sweeps.size(), 2U);
     EXPECT_EQ(read.volume.sweeps[1].elevation_number, 3);
     for (const Sweep& sweep : read.volume.sweeps) {
-        EXPECT_EQ(sweep.radials.size(), 340U);  // 350.5 to 9.5 are lost
+        EXPECT_EQ(sweep.radials.size(), 340U);  // the radials from 350.5 to 9.5 are lost
         for (const auto& radial : sweep.radials) {
             EXPECT_GT(radial.azimuth_deg, 10);
             EXPECT_LT(radial.azimuth_deg, 350);
@@ -159,7 +159,7 @@ TEST(Instrument, JitterIsSaidByTheRadialsAndTheirGatesAreTrueThere) {
     Scene scene = scene_of("small-storm.toml");
     scene.instrument.azimuth_jitter_deg = 0.2;
     scene.instrument.elevation_jitter_deg = 0.15;
-    scene.instrument.noise_db = 1e-12;  // so that the code of the effects runs
+    scene.instrument.noise_db = 1e-12;  // so that the code for effects runs
     const level2::Volume volume = observe(scene, 0);
     const grid::BeamGeometry beam(scene.site.latitude_deg, scene.site.antenna_altitude_m);
     double most_off_deg = 0;

@@ -1,4 +1,4 @@
-// Reads back what a simulated radar writes and compares it with the truth.
+// Reads back the volumes of a simulated radar and compares them with the truth.
 #include "synth/observe.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Scene small_storm() {
     return std::move(*scene);
 }
 
-// Writes and reads the bytes, as every user does.
+// Writes a volume as a file's bytes and decodes them.
 level2::Decoded written_and_read(const Scene& scene, int number) {
     const auto encoded = level2::encode(observe(scene, number));
     if (!encoded) throw std::runtime_error(encoded.error().message);
@@ -143,7 +143,7 @@ TEST(Observe, VelocityIsTheRadialPartOfTheMotionPositiveAway) {
     EXPECT_LT(vel.value_of(vel.code(row, 191)), -15);
 }
 
-// The centroid of a sweep's reflectivity in mm^6/m^3, each gate weighted by its area.
+// Returns the centroid of a sweep's reflectivity in mm^6/m^3, with each gate weighted by its area.
 Point centroid(const Scene& scene, const Sweep& sweep) {
     const auto& ref = *sweep.find(Moment::ref);
     double weight = 0;
@@ -170,7 +170,7 @@ TEST(Observe, StormsMoveFromVolumeToVolume) {
     const Point after = centroid(scene, observe(scene, 1).sweeps[0]);
     EXPECT_NEAR(after.x_m - before.x_m, 15 * 60, 30);
     EXPECT_NEAR(after.y_m - before.y_m, 10 * 60, 30);
-    // The 217th degree of the sweep is seen some seconds after its start.
+    // The antenna reaches the storm, at azimuth 217, some 7 s after the start of the sweep.
     EXPECT_NEAR(before.x_m, -30000 + 15 * 7.2, 100);
     EXPECT_NEAR(before.y_m, -40000 + 10 * 7.2, 100);
 }

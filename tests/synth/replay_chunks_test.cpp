@@ -1,4 +1,4 @@
-// Tests chunks of replayed volumes, files that are kept open, and stations that mix.
+// Tests replays as chunks, with files kept open, and of several stations.
 #include <algorithm>
 #include <array>
 
@@ -116,10 +116,10 @@ TEST_F(Replay, StationsMix) {
     put("b", volume_of("KFTG", 1000, 20));
     ReplayOptions options;
     options.delivery = Delivery::growing;
-    options.speed = 10'000;  // both take 30 ms
+    options.speed = 10'000;  // each volume takes 30 ms
     std::atomic<bool> stop{false};
     options.stop = &stop;
-    // The first to finish stops the other, which has begun and is not done.
+    // The first volume to end stops the replay while the other is half written.
     options.replayed = [&](std::size_t) { stop = true; };
     const auto report = play(options);
     ASSERT_TRUE(report);

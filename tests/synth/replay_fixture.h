@@ -28,7 +28,7 @@ inline wire::Bytes volume_at(std::uint32_t ms, unsigned sweeps = 1) {
     return bytes;
 }
 
-// `station` has four letters.
+// Returns a small volume of a station, whose name has four letters.
 inline wire::Bytes volume_of(std::string_view station, std::uint32_t ms, unsigned sweeps = 1) {
     wire::Bytes bytes = volume_at(ms, sweeps);
     for (std::size_t i = 0; i < station.size(); ++i)
@@ -36,7 +36,7 @@ inline wire::Bytes volume_of(std::string_view station, std::uint32_t ms, unsigne
     return bytes;
 }
 
-// The time of volume_at(second) as in the names of chunks: "20220317-000002".
+// Returns the time of volume_at(second) as in names of chunks: "20220317-000002".
 inline std::string day_and_second(std::size_t second) {
     const auto header = level2::read_archive_header(wire::archive_header());
     const UtcTime time =
@@ -46,7 +46,7 @@ inline std::string day_and_second(std::size_t second) {
     return text;
 }
 
-// Returns one part of each row.
+// Returns one member of each row.
 template <class Row, class Part>
 std::vector<Part> parts_of(const std::vector<Row>& rows, Part Row::*part) {
     std::vector<Part> parts;

@@ -113,7 +113,7 @@ TEST_F(Replay, StoppedBetweenFilesNothingIsUnfinished) {
     EXPECT_FALSE(fs::exists(drop() / "b"));
 }
 
-// Headers are 500 ms apart; only the third is not due yet when the second is.
+// Headers are 500 ms apart, so the third is not due yet when the second is.
 TEST_F(Replay, WhatIsPastIsWrittenBeforeItBegins) {
     put("a", volume_at(1000));
     put("b", volume_at(1500));

@@ -68,7 +68,7 @@ TEST(SampledTruth, VelocityIsAlongTheBeamOfTheSiteThatAsks) {
     const double away_mps = (20 * std::sin(120 * degree) - 10 * std::cos(120 * degree)) * cosine;
     EXPECT_NEAR(*sampled.radial_velocity_mps(PolarPlace{120, 90000, 5000}, time), away_mps, 1e-9);
     EXPECT_NEAR(*sampled.radial_velocity_mps(place, {35, -97, 400}, time), away_mps, 1e-9);
-    // A site equally far on the other side sees nearly the opposite.
+    // A site at the same distance on the opposite side sees nearly the opposite velocity.
     const auto beyond = frame.to_geo({120, 180000});
     const Place site{beyond.latitude_deg, beyond.longitude_deg, 400};
     EXPECT_NEAR(*sampled.radial_velocity_mps(place, site, time), -away_mps, 0.02);

@@ -32,7 +32,7 @@ TEST(TruthStorm, IsStrongestInItsCoreAndTenAtItsEdges) {
     EXPECT_NEAR(truth_dbz(weather, {0, 20000, 4000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-10000, 0, 4000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {0, 0, 12000}, 0), 10, 1e-9);
-    // Halfway out, a quarter of the fall: 60 - 50 / 4.
+    // Halfway to the radius, a quarter of the decrease has happened: 60 - 50 / 4.
     EXPECT_NEAR(truth_dbz(weather, {5000, 0, 4000}, 0), 47.5, 1e-9);
 }
 
@@ -90,7 +90,7 @@ TEST(TruthHook, FollowsItsArcAndLeavesTheGap) {
     storm.footprint.major_m = storm.footprint.minor_m = 1000;  // out of the way
     storm.hook = Hook{-20000, 0, 5000, 90, 360, 1000, 6000, 50};
     const Weather weather = only(storm);
-    // On the arc in the south, one width away from it, and at its top.
+    // The points are on the arc in the south, one width away from it, and at its top.
     EXPECT_NEAR(truth_dbz(weather, {-20000, -5000, 0}, 0), 50, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-20000, -6000, 0}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-20000, -5000, 6000}, 0), 10, 1e-9);
@@ -129,7 +129,7 @@ TEST(Truth, FeaturesAddInLinearUnitsAndWeighTheirMotion) {
     EXPECT_NEAR(equal.dbz, 60 + 10 * std::log10(2), 1e-9);
     EXPECT_NEAR(equal.motion.east_mps, 15, 1e-9);
     EXPECT_NEAR(equal.motion.north_mps, 7.5, 1e-9);
-    north.peak_dbz = 50;  // a tenth of the other in power
+    north.peak_dbz = 50;  // a tenth of the power of `east`
     const Echo unequal = truth({{east, north}, {}}, {0, 0, 4000}, 0);
     EXPECT_NEAR(unequal.motion.east_mps, 30 / 1.1, 1e-9);
     EXPECT_NEAR(unequal.motion.north_mps, 1.5 / 1.1, 1e-9);
@@ -183,7 +183,7 @@ TEST(TruthBox, IsFlatAndFallsBeyondItsSides) {
     EXPECT_DOUBLE_EQ(truth_dbz(weather, {1000 + 9999, 19999, 2000}, 0), 40);
     EXPECT_NEAR(truth_dbz(weather, {1000, 20050, 3000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10025, 0, 3000}, 0), 40 - 30.0 / 4, 1e-9);
-    // 40 and 30 m beyond a corner: 50.
+    // This point is 30 m and 40 m beyond a corner, so 50 m from the box.
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10030, 20040, 3000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10050 + 100, 0, 3000}, 10), 10, 1e-9) << "it drifts";
     EXPECT_EQ(truth_dbz(weather, {1000, 0, 1999}, 0), -INFINITY);

@@ -6,7 +6,7 @@ namespace stormcellar::synth {
 namespace {
 
 TEST(SynthVcp, ThePatternsTakeAsLongAsTheRadars) {
-    // Minutes from the first radial to the last of real volumes.
+    // Real volumes take these minutes from the first radial to the last.
     EXPECT_NEAR(duration_s(*find_pattern(212)) / 60, 4.7, 0.15);
     EXPECT_NEAR(duration_s(*find_pattern(215)) / 60, 6.1, 0.15);
     EXPECT_NEAR(duration_s(*find_pattern(35)) / 60, 7.2, 0.15);
