@@ -1,12 +1,12 @@
 // grid_costs: grids a volume in two functions whose executed instructions can be counted.
 //
-// usage: grid_costs FILE usual|cheapest MOMENT EAST_DEG
-// The grid has 512 x 512 x 32 cells at 1 km, on one thread, centered EAST_DEG east of the site, by
-// the default chain or with every effect off. Prints one line, "CHECKSUM STATION MOMENT CHAIN",
-// with a checksum of the bits of the cells. scripts/check-costs runs it under callgrind, with a
-// library of every rung and with one of that chain alone (stormcellar/grid/chosen.h), and compares
-// the instructions of counted_geometry() and counted_grid(). Exit status: 0 done, 1 the work
-// failed, 2 bad usage.
+// usage: grid_costs FILE usual|cheapest MOMENT EAST_DEG The grid has 512 x 512 x 32 cells at 1 km
+// and is centered EAST_DEG east of the site. One thread makes it, by the default chain (usual) or
+// with every effect off (cheapest). Prints one line, "CHECKSUM STATION MOMENT CHAIN", with a
+// checksum of the bits of the cells. scripts/check-costs runs the program under callgrind, once
+// with a library of every rung and once with a library of that chain alone
+// (stormcellar/grid/chosen.h), and compares the instructions of counted_geometry() and
+// counted_grid(). Exit status: 0 done, 1 the work failed, 2 bad usage.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -29,7 +29,8 @@ namespace stormcellar::grid {
 
 using Geometry = std::shared_ptr<const ColumnGeometry>;
 
-// Found by name in the output of callgrind, so neither inlined nor cloned.
+// Neither inlined nor cloned, because scripts/check-costs finds the function by its name in the
+// output of callgrind.
 [[gnu::noinline, gnu::noclone]] Result<Geometry> counted_geometry(const SitePosition& site,
                                                                   const GridSpec& spec,
                                                                   ChosenFrame frame) {
@@ -49,7 +50,7 @@ struct Chain {
     Method method;
 };
 
-// A library of one chain aborts if it is asked for the other chain.
+// Returns the chain of a name. A library of one chain aborts when it makes any other chain.
 std::optional<Chain> chain_named(std::string_view name) {
     if (name == "usual") return Chain{FrameKind::table, {}};
     if (name != "cheapest") return std::nullopt;

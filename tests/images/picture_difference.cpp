@@ -37,7 +37,7 @@ Image softened(const Image& image) {
     return soft;
 }
 
-// For each pixel of the softened pictures, row by row.
+// Returns the difference of each pixel of the softened pictures, row by row.
 std::vector<double> differences(const Image& one, const Image& other) {
     const Image a = softened(one);
     const Image b = softened(other);

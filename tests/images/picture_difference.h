@@ -1,9 +1,9 @@
-// tests/images/picture_difference.h -- whether two pictures look the same.
+// tests/images/picture_difference.h -- measures how much two pictures differ to the eye.
 //
-// Letters and thin lines differ slightly with another FreeType or Cairo; everything else is the
-// same to the bit. So both pictures are first averaged over 3 x 3 pixels. Then colors are compared
-// (CIEDE2000), over the whole picture and in tiles of 8 x 8 pixels, so that one label that moved
-// shows even in a large picture.
+// Letters and thin lines differ slightly between versions of FreeType and Cairo; everything else
+// has the same bits. So both pictures are first averaged over 3 x 3 pixels. Then colors are
+// compared (CIEDE2000), over the whole picture and in tiles of 8 x 8 pixels, so that one label that
+// moved shows even in a large picture.
 #pragma once
 
 #include "stormcellar/base/result.h"
@@ -15,14 +15,14 @@ struct PictureDifference {
     double percentile_99 = 0;    // of all pixels
     double visible_share = 0;    // the share of the pixels that differ by more than `visible`
     double worst_tile = 0;       // the largest mean of a tile
-    int tile_x = 0, tile_y = 0;  // its top left pixel
+    int tile_x = 0, tile_y = 0;  // top left pixel of that tile
 };
 
 inline constexpr double visible = 3;
 
-// The difference that other letters may make. The tile decides about labels: the smallest
-// difference that tests/images/synthetic_picture_test.cpp must find is a tile of 3.8 (a label that
-// moved), and the largest that it tolerates is 2.1.
+// The largest allowed differences. The limit for a tile decides about labels: in
+// tests/images/synthetic_picture_test.cpp a label that moved makes a tile differ by 3.8 at least,
+// which must be found, and other letters make it differ by 2.1 at most, which is tolerated.
 struct Tolerance {
     double percentile_99 = 3;
     double visible_share = 0.01;
@@ -34,8 +34,8 @@ struct Tolerance {
                                                       const render::Image& other);
 [[nodiscard]] bool within(const PictureDifference& difference, const Tolerance& tolerance = {});
 
-// For two pictures of one size: returns the first in gray, with visible differences in red, deeper
-// if larger.
+// Returns `one` in gray, with visible differences in red, deeper where they are larger. Both
+// pictures must have the same size.
 [[nodiscard]] render::Image picture_of_difference(const render::Image& one,
                                                   const render::Image& other);
 

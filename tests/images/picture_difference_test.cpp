@@ -30,7 +30,8 @@ TEST(PictureDifference, OfBlackAndWhiteIsAHundred) {
     EXPECT_FALSE(within(*difference));
 }
 
-// A block of 8 x 8 pixels (10 x 10 when softened) that covers the tile at 40,24 more than others.
+// The changed block of 8 x 8 pixels (10 x 10 when softened) covers more of the tile at 40,24 than
+// of any other tile.
 TEST(PictureDifference, AFewPixelsInOnePlaceAreFoundThere) {
     Image other(160, 160, white);
     for (int y = 25; y < 33; ++y) {

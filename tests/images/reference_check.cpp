@@ -20,8 +20,8 @@ fs::path reference_path(const std::string& name) {
     return testing::source_directory() / "tests/images/references" / (name + ".png");
 }
 
-// Writes as small a file as zlib can, because these files are kept; render::encode_png() is made
-// for speed, and the simplified writer of libpng has no such choice.
+// Writes a PNG with zlib's best compression, because references are kept in Git.
+// render::encode_png() prefers speed, and libpng's simplified writer has no setting for it.
 bool write(const fs::path& path, const Image& image) {
     std::FILE* file = std::fopen(path.c_str(), "wb");
     if (file == nullptr) return false;
@@ -49,7 +49,8 @@ bool write(const fs::path& path, const Image& image) {
     return std::fclose(file) == 0;
 }
 
-// The files stay, so that somebody can look at them.
+// Writes the pictures into a new directory, which stays, so that a person can look at them. Returns
+// its path.
 std::string store_for_looking(const Image& picture, const Result<Image>& reference) {
     std::string directory = (fs::temp_directory_path() / "stormcellar-images-XXXXXX").string();
     if (::mkdtemp(directory.data()) == nullptr) return "no temporary directory";

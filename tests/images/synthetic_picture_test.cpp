@@ -1,6 +1,6 @@
-// Compares pictures of synthetic grids with stored references, and shows that errors are found:
-// each change below is drawn, or made in the drawn pixels, and must exceed the tolerance in every
-// picture that it concerns.
+// Compares pictures of synthetic grids with stored references, and tests that errors are found:
+// each test below changes the scene or the drawn pixels, and every picture that the change concerns
+// must then exceed the tolerance.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,7 +26,7 @@ class SyntheticPicture : public ::testing::TestWithParam<std::string> {
   protected:
     void SetUp() override { picture_ = make_picture(GetParam()); }
 
-    // Compares with the stored reference; a picture that cannot be drawn counts as found.
+    // Returns true if the picture differs from its reference, or could not be drawn.
     [[nodiscard]] static bool found(const Result<Image>& drawn) {
         if (!drawn) return true;
         const auto difference = difference_of(*drawn, read_reference(GetParam()).value());
@@ -36,7 +36,7 @@ class SyntheticPicture : public ::testing::TestWithParam<std::string> {
     Picture picture_;
 };
 
-// Subsets: those with a camera, those with text around them, those with a map.
+// Subsets of the pictures: with a camera, with text around the picture, with a map.
 class CameraPicture : public SyntheticPicture {};
 class LabelledPicture : public SyntheticPicture {};
 class SitePicture : public SyntheticPicture {};
@@ -88,7 +88,7 @@ TEST_P(SyntheticPicture, AMirroredGridIsFound) {
     EXPECT_TRUE(found(draw(picture_)));
 }
 
-// the classes of the table that occur in every one of these pictures
+// Exchanges classes of the table that occur in every one of these pictures.
 TEST_P(SyntheticPicture, TwoExchangedColorsAreFound) {
     const std::size_t classes = render::colors_of(picture_.scene).stops.size();
     const std::size_t first = picture_.scene.product == render::Product::cappi ? classes / 2 : 3;
@@ -137,7 +137,7 @@ TEST_P(SyntheticPicture, AMoveByAPixelIsFound) {
     EXPECT_TRUE(found(image));
 }
 
-// Rings, the mark of the site and its name.
+// A site that moved moves its rings, its mark and its name.
 TEST_P(SitePicture, ASiteThatMovedIsFound) {
     picture_.facts.sites[0].latitude_deg += 0.05;
     EXPECT_TRUE(found(draw(picture_)));

@@ -17,13 +17,13 @@ using render::Cell;
 using render::Product;
 using render::Scene;
 
-// 480 km wide, to 15 km.
+// Returns a grid 480 km wide and up to 15 km high.
 GridSpec storm_spec() {
     return render::small_spec(160, 20, 3000, 750);
 }
 
-// Velocity along the beam, where there is echo: a wind from the southwest that grows with height,
-// and a vortex about the core. Far in the southwest it is range folded.
+// Returns a grid of velocity along the beam where there is echo: a wind from the southwest that
+// grows with height, and a vortex about the core. Cells far in the southwest are range folded.
 Grid velocity_grid() {
     const GridSpec spec = storm_spec();
     Grid grid = render::make_grid_of(spec, [&](int ix, int iy, int iz) -> Cell {
@@ -95,7 +95,7 @@ Scene scene_of(const std::string& name) {
 
 Grid grid_of(const std::string& name) {
     if (name == "cappi-velocity") return velocity_grid();
-    // 900 km wide: much of it is out of the radar's reach.
+    // The grid is 900 km wide, so much of it is out of the radar's reach.
     if (name == "ground-not-seen")
         return render::storm_grid(render::small_spec(150, 12, 6000, 1000));
     return render::storm_grid(storm_spec());

@@ -1,5 +1,5 @@
-// tests/images/synthetic_pictures.h -- pictures that need no data: scenes of grids made from a
-// function of place without any symmetry, and the errors that can be made in them.
+// tests/images/synthetic_pictures.h -- pictures of synthetic grids without any symmetry, and
+// functions that put errors into them.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,19 @@
 namespace stormcellar::images {
 
 struct Picture {
-    std::string name;  // of its reference
+    std::string name;  // name of its reference
     render::Scene scene;
     render::FrameFacts facts;
     grid::Grid grid;
 };
 
-// Makes the picture of a name, which must be one of picture_names().
+// Makes the picture of this name, one of picture_names().
 [[nodiscard]] Picture make_picture(const std::string& name);
 [[nodiscard]] const std::vector<std::string>& picture_names();
 
 [[nodiscard]] Result<render::Image> draw(const Picture& picture);
 
-// Mirrors the grid east-west; its site stays where it is.
+// Mirrors the grid east-west; the site does not move.
 void mirror(grid::Grid& grid);
 // Exchanges the colors of two neighboring classes of the scene.
 void swap_classes(render::Scene& scene, std::size_t first);

@@ -1,5 +1,5 @@
-// Documents lead somewhere: links resolve, what they name is there, and what the installed tree
-// names is installed.
+// Tests that links of documents resolve, that the files which they name exist, and that documents
+// named by installed files are installed.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Documents outside of docs/. cmake/Install.cmake installs these and docs/, in the same places
-// below one directory.
+// Documents outside of docs/. cmake/Install.cmake installs these and docs/ with the same relative
+// paths.
 const std::vector<fs::path> single_documents = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
                                                 "bunzip/README.md"};
 
@@ -38,7 +38,7 @@ std::vector<fs::path> documents() {
     return found;
 }
 
-// A document without its blocks of code, which hold no links.
+// Returns a document without its blocks of code, which hold no links.
 std::string without_code(const std::string& text) {
     std::string rest;
     bool is_code = false;
@@ -56,7 +56,7 @@ struct Link {
     std::string heading;
 };
 
-// The links of a document within the repository.
+// Returns the links of a document to files of the repository.
 std::vector<Link> links_of(const fs::path& document) {
     static const std::regex link(R"(\]\(([^)\s]+)\))");
     std::vector<Link> links;
@@ -72,7 +72,8 @@ std::vector<Link> links_of(const fs::path& document) {
     return links;
 }
 
-// Returns headings as pages of Markdown name them: lower case, blanks as "-", without other signs.
+// Returns the anchors of a document's headings: in lower case, with "-" for blanks, without other
+// signs.
 std::set<std::string> headings_of(const fs::path& document) {
     static const std::regex heading(R"(\n#+ ([^\n]*))");
     std::set<std::string> names;
@@ -106,7 +107,7 @@ TEST(Documents, EveryLinkLeadsSomewhere) {
     EXPECT_GT(checked, 100U);
 }
 
-// The documents had 134,000 words once, which nobody read.
+// The documents once had 134,000 words, which nobody read.
 TEST(Documents, AreShortEnoughToBeRead) {
     constexpr std::size_t most_words = 65'000;
     std::vector<fs::path> all = documents();
@@ -121,7 +122,7 @@ TEST(Documents, AreShortEnoughToBeRead) {
     EXPECT_LE(words, most_words);
 }
 
-// Only the installed documents are beside an installed program, so they link to each other alone.
+// An installed document may link only to other installed documents.
 TEST(Documents, WhatTheInstalledOnesLinkToIsInstalled) {
     for (const fs::path& document : documents()) {
         for (const Link& link : links_of(document))
@@ -134,7 +135,7 @@ TEST(Documents, WhatTheInstalledOnesLinkToIsInstalled) {
         EXPECT_NE(rules.find(file), std::string::npos) << file << " is not installed";
 }
 
-// The manual pages, the units and the configuration name documents by where they are installed.
+// Manual pages, units and the configuration name documents by their installed paths.
 TEST(Documents, WhatManualPagesUnitsAndConfigurationNameIsThere) {
     static const std::regex installed(R"(@STORMCELLAR_DOCDIR@/([A-Za-z0-9_/-]+\.md))");
     static const std::regex named(R"(\b(docs/[A-Za-z0-9_/-]+\.md))");
@@ -157,7 +158,7 @@ TEST(Documents, WhatManualPagesUnitsAndConfigurationNameIsThere) {
     EXPECT_GT(checked, 5U);
 }
 
-// The sources of the tree, without what is built.
+// Returns the sources of the tree, without build output.
 std::vector<fs::path> sources() {
     static const std::set<std::string> kinds = {".h",   ".cpp",  ".md", ".cmake", ".in",
                                                 ".txt", ".toml", ".py", ".yml",   ".awk"};
@@ -176,7 +177,7 @@ std::vector<fs::path> sources() {
     return found;
 }
 
-// The documents that a text names by their place in the tree; not those of another tree or folder.
+// Returns the documents that a text names by their paths in the tree.
 std::vector<std::string> documents_named_in(const std::string& text) {
     const std::string folder = "docs/";
     const auto belongs = [](char sign) {
@@ -195,7 +196,7 @@ std::vector<std::string> documents_named_in(const std::string& text) {
     return found;
 }
 
-// In comments and documents alike.
+// Documents that comments or documents name must exist.
 TEST(Documents, NobodyRefersToADocumentThatIsNotThere) {
     const fs::path root = testing::source_directory();
     std::size_t checked = 0;
@@ -208,7 +209,7 @@ TEST(Documents, NobodyRefersToADocumentThatIsNotThere) {
     EXPECT_GT(checked, 100U);
 }
 
-// docs/find-it.md: the last column of each row is a path, and there are thirty rows at least.
+// The last column of each row of docs/find-it.md is a path, and there are at least thirty rows.
 TEST(Documents, FindItNamesFilesThatAreThere) {
     static const std::regex row(R"(\n\|[^\n]*\| `([^`\n]+)` \|(?=\n))");
     static const std::regex question(R"(\n(\| [A-Z][^\n|]*\? )\|)");
@@ -220,13 +221,13 @@ TEST(Documents, FindItNamesFilesThatAreThere) {
         << "a question without a file";
     for (const std::string& file : files)
         EXPECT_TRUE(fs::is_regular_file(root / file)) << file;
-    // So are all others that it names, and folders.
+    // All other files and folders that it names must exist, too.
     static const std::regex path(R"(`([a-z_0-9]+/[A-Za-z0-9_./-]*)`)");
     for (const std::string& named : testing::found_in(page, path))
         EXPECT_TRUE(fs::exists(root / named)) << named;
 }
 
-// Paths of sources that documents name, from the root: `grid/beam/sounding.h`.
+// Documents name sources by their paths from the root: `grid/beam/sounding.h`.
 TEST(Documents, SourcesThatTheyNameAreThere) {
     static const std::regex path(R"(`((?:[a-z_0-9]+/)+[a-z_0-9-]+\.(?:h|cpp|toml|yml|cmake))`)");
     const fs::path root = testing::source_directory();

@@ -1,6 +1,6 @@
-// Each fact stands once: names of moments and products are typed in one file, a switch over an
-// enumeration of the tables has no `default:` that lets a forgotten case compile, and the recipes
-// of CONTRIBUTING.md name files that exist, few of them.
+// Tests that each fact is written once: only one file has the names of moments and of products, no
+// switch over an enumeration of the tables has a `default:` that lets a forgotten case compile, and
+// the recipes of CONTRIBUTING.md name few files, which exist.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -33,8 +33,8 @@ struct SplitSource {
     std::vector<std::string> literals;
 };
 
-// Literals that stand side by side are one, as for the compiler. No source has raw literals with
-// names in them, so those are read like others.
+// Splits a source. Joins literals side by side, as the compiler does. Reads raw literals like
+// others, because none of them has names.
 SplitSource split_source(const std::string& text) {
     SplitSource split;
     bool goes_on = false;
@@ -66,7 +66,7 @@ SplitSource split_source(const std::string& text) {
     return split;
 }
 
-// Every source outside the tests, by its path from the root.
+// Returns every source outside the tests, by its path from the root.
 const std::map<std::string, SplitSource>& split_sources() {
     static const std::map<std::string, SplitSource> all = [] {
         std::map<std::string, SplitSource> found;
@@ -86,8 +86,8 @@ std::string without_blanks_at_end(std::string text) {
     return text;
 }
 
-// The files in which a literal is one of the names, or holds two of them side by side, as a list
-// typed by hand does.
+// Returns the files in which a literal is one of the names, or holds two of them side by side, as
+// in a list typed by hand.
 std::set<std::string> files_that_type(const std::vector<std::string>& names) {
     std::string any;
     for (const std::string& name : names)
@@ -109,14 +109,14 @@ TEST(FactsOnce, NamesOfMomentsStandInOneFile) {
     for (const level2::MomentFacts& facts : level2::moment_facts)
         names.emplace_back(facts.name);
     auto files = files_that_type(names);
-    files.erase("render/map/labels.cpp");  // SW is southwest there
+    files.erase("render/map/labels.cpp");  // "SW" is southwest there
     EXPECT_EQ(files, std::set<std::string>{"include/stormcellar/level2/moment.h"});
 }
 
 TEST(FactsOnce, NamesOfProductsStandInOneFile) {
     std::vector<std::string> names;
     for (const render::ProductFacts& facts : render::all_products()) {
-        // These two are words for other things as well, such as tables and keys of scene files.
+        // "volume" and "section" have other meanings, too, such as tables and keys of scene files.
         if (facts.name != "volume" && facts.name != "section") names.emplace_back(facts.name);
     }
     EXPECT_EQ(files_that_type(names), std::set<std::string>{"render/view/product.cpp"});
@@ -124,12 +124,12 @@ TEST(FactsOnce, NamesOfProductsStandInOneFile) {
 
 TEST(FactsOnce, NoProjectionIsListedByHand) {
     EXPECT_EQ(files_that_type({"azimuthal_equidistant", "lambert_conformal"}),
-              (std::set<std::string>{"export/cf_attributes.cpp",  // names of CF, not ours
+              (std::set<std::string>{"export/cf_attributes.cpp",  // names of the CF conventions
                                      "include/stormcellar/grid/grid_spec.h"}));
 }
 
-// Sources of the page in which two of the names are side by side, as in a list or a record that was
-// typed by hand. One name alone is fine, because facts.ts has no other words for them.
+// Returns the sources of the page with two of the names side by side, as in a list or a record
+// typed by hand. A single name is allowed, because code needs it to ask facts.ts.
 std::set<std::string> files_of_the_page_that_list(const std::string& names) {
     const std::regex listed(R"(\b()" + names + R"()\b['"`]?( ?:[^;]{0,60}?)?\s*[,|/]\s*['"`]?()" +
                             names + R"()\b)");
@@ -155,7 +155,7 @@ TEST(FactsOnce, ThePageListsNamesInItsFactsAlone) {
               std::set<std::string>{});
 }
 
-// From an opening bracket to behind the one that closes it.
+// Returns the text from an opening bracket to the closing one, both included.
 std::string in_brackets(const std::string& code, std::size_t at, char open, char close) {
     int depth = 0;
     for (std::size_t end = at; end < code.size(); ++end) {
@@ -165,7 +165,7 @@ std::string in_brackets(const std::string& code, std::size_t at, char open, char
     return code.substr(at);
 }
 
-// The bodies of all switches, without those of switches inside them.
+// Returns the bodies of all switches, without the bodies of switches inside them.
 std::vector<std::string> switches_of(const std::string& code) {
     static const std::regex keyword(R"(\bswitch\s*\()");
     std::vector<std::string> bodies;
@@ -236,7 +236,7 @@ TEST(FactsOnce, EveryEnumeratorHasARow) {
               grid::time_method_facts.size());
 }
 
-// The files of a recipe: those in the numbered list below its heading.
+// Returns the files in the numbered list below the heading of a recipe.
 std::vector<std::string> files_of_recipe(const std::string& thing) {
     const fs::path root = testing::source_directory();
     std::ifstream file(root / "CONTRIBUTING.md");

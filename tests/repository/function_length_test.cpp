@@ -1,9 +1,9 @@
-// Functions outside the tests have at most 60 lines, from the first line of their head to the brace
-// that closes them. The layout is clang-format's (the test Repository.Format), so a function at the
-// level of a namespace goes from a line without indent to a line that is "}", and one in a class
-// from a line with an indent of four to a line that is "    }". A block of a function that has this
-// indent is measured too, and can be no longer than its function. In TypeScript a function may also
-// be a constant of arrow form, which ends with "};". Shaders have the layout of C++.
+// Tests that functions outside the tests have at most 60 lines, from the first line of the head to
+// the closing brace. The test Repository.Format enforces clang-format's layout, so a function in a
+// namespace goes from a line without indent to a line "}", and a function in a class from a line
+// with an indent of four to a line "    }". Blocks in a function with this indent are measured,
+// too; they cannot be longer than the function. A TypeScript function may also be a constant, which
+// ends with "};". Shaders have the layout of C++.
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -22,12 +22,12 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_lines = 60;
 
 struct LongFunction {
-    std::size_t line, lines;  // where it begins, and its length
+    std::size_t line, lines;  // first line, and number of lines
     std::string head;
 };
 
-// Returns true if the line has text that begins just behind `indent` spaces, and that is no comment
-// and no directive.
+// Returns true if the line has exactly `indent` spaces before its text, and is neither a comment
+// nor a directive.
 bool begins_at(const std::string& line, std::size_t indent) {
     return line.find_first_not_of(' ') == indent && line[indent] != '/' && line[indent] != '#';
 }

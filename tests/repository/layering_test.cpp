@@ -1,6 +1,7 @@
-// Data flows one way: a room may include itself and the rooms named for it (docs/architecture.md).
-// The same holds for the rooms inside a room. A public header, include/stormcellar/ROOM/NAME.h,
-// lives where NAME.cpp lies; public headers include public ones alone.
+// Tests that includes run one way: a room includes only itself and the rooms allowed for it
+// (docs/architecture.md), and an inner room likewise. A public header,
+// include/stormcellar/ROOM/NAME.h, counts as part of the inner room of NAME.cpp, and includes only
+// public headers.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -47,8 +48,8 @@ const std::map<std::string, Rooms> allowed = {
       "cache", "render", "synth", "export", "pipeline", "service", "web"}},
 };
 
-// The inner rooms that each inner room may include beside itself; the lowest ones first. A room
-// that is not named here has none inside.
+// The inner rooms that each inner room may include besides itself, from the lowest up. Rooms
+// without a row here have no inner rooms.
 const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
     {"level2",
      {{"volume", {}},
@@ -119,7 +120,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"reference", {"shared"}}}},
 };
 
-// Public headers without a source of their name.
+// Inner rooms of the public headers that have no source of the same name.
 const std::map<std::string, std::string> homes_of_headers = {
     {"grid/chosen", "beam"},
     {"grid/grid", "cells"},
@@ -139,7 +140,8 @@ std::vector<fs::path> quoted_includes(const std::string& text) {
     return {found.begin(), found.end()};
 }
 
-// "grid", "fill/column.h" of grid/fill/column.h; "grid", "gridder.h" of stormcellar/grid/gridder.h.
+// A path split at its room: "grid" and "fill/column.h" for grid/fill/column.h; "grid" and
+// "gridder.h" for stormcellar/grid/gridder.h.
 struct Place {
     std::string room;
     fs::path rest;
@@ -156,7 +158,7 @@ Place place_of(const fs::path& included) {
     return place;
 }
 
-// The rooms that a source text includes, by its quoted includes.
+// Returns the rooms of a text's quoted includes.
 Rooms included_rooms(const std::string& text) {
     Rooms rooms;
     for (const fs::path& included : quoted_includes(text))
@@ -164,7 +166,7 @@ Rooms included_rooms(const std::string& text) {
     return rooms;
 }
 
-// The sources of a room and its public headers.
+// Returns the sources of a room and its public headers.
 std::vector<fs::path> all_sources_of(const std::string& room) {
     std::vector<fs::path> sources = testing::sources_below(testing::source_directory() / room);
     const fs::path headers = testing::source_directory() / "include" / "stormcellar" / room;
@@ -190,7 +192,7 @@ std::vector<std::string> violations(const std::string& room, const Rooms& may) {
     return found;
 }
 
-// The room inside its room that a file lives in; empty for one at the top, as a main.cpp.
+// Returns the inner room of a file; empty for a file directly in its room, such as a main.cpp.
 std::string inner_room_of(const Place& place) {
     if (place.rest.has_parent_path()) return place.rest.begin()->string();
     if (!place.is_public) return {};
@@ -247,7 +249,7 @@ TEST_P(Layering, PublicHeadersIncludePublicOnes) {
     }
 }
 
-// Nothing runs in a circle: each room inside a room comes before those that include it.
+// Inner rooms do not include each other in a circle: each comes before the rooms that include it.
 TEST(LayeringCheck, RoomsInsideHaveAnOrder) {
     for (const auto& [room, inside] : allowed_inside) {
         Rooms placed;
@@ -272,7 +274,7 @@ TEST(LayeringCheck, SeesIncludesInEveryForm) {
               Rooms{});
 }
 
-// Every folder with C++ in it is a room of the list, or one of those that may use all; docs has
+// Every folder with C++ is a room of the list, or a folder that may include all rooms; docs has
 // examples.
 TEST(LayeringCheck, KnowsEveryRoom) {
     const Rooms free = {"tests", "bench", "build", "docs", "include", "out"};

@@ -1,5 +1,5 @@
-// A mutex says what it guards, so that clang can check it (stormcellar/base/mutex.h,
-// scripts/check-locks).
+// Tests that annotations tell which members each mutex guards, so that clang can check it
+// (stormcellar/base/mutex.h, scripts/check-locks).
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 const std::string the_header = "include/stormcellar/base/mutex.h";
 
-// The headers and sources of the rooms, below the root.
+// Returns the headers and sources of the rooms, from the root.
 std::vector<std::string> sources_of_rooms() {
     std::vector<std::string> found;
     for (const fs::path& folder : testing::folders_of_the_product()) {
@@ -32,7 +32,7 @@ std::string code_of(const std::string& path) {
     return testing::without_comments(testing::text_of(testing::source_directory() / path));
 }
 
-// Locks of the standard library, whose uses the analysis does not see.
+// Returns the uses of standard locks, which clang's analysis does not see.
 std::vector<std::string> unseen_locks(const std::string& code) {
     std::vector<std::string> found;
     for (const char* lock :
@@ -44,7 +44,7 @@ std::vector<std::string> unseen_locks(const std::string& code) {
     return found;
 }
 
-// Mutex members that no annotation of the same file names.
+// Returns the mutex members that no annotation of the same file names.
 std::vector<std::string> silent_mutexes(const std::string& code) {
     static const std::regex member(R"(\n *(?:mutable )?(?:Shared)?Mutex (\w+);)");
     std::vector<std::string> silent;

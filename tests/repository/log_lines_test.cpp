@@ -1,4 +1,4 @@
-// The manual explains every line that the daemon logs.
+// Tests that docs/reference/log.md explains every line that the daemon logs.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -32,7 +32,7 @@ std::string between(const std::string& text, const std::string& from, const std:
     return text.substr(begin, text.find(to, begin + from.size()) - begin);
 }
 
-// The names of daemon/log/log_event.h.
+// Returns the names of events in daemon/log/log_event.h.
 std::vector<std::string> events() {
     const std::string header =
         testing::text_of(testing::source_directory() / "daemon/log/log_event.h");
@@ -46,7 +46,8 @@ std::string chapter() {
     return between(manual, "\n## What the log lines mean", "\n## ");
 }
 
-// The table's rows, each with its event: one without takes that of the row above.
+// Returns the rows of the table by event. A row without an event belongs to the event of the row
+// above.
 std::map<std::string, std::string> rows_by_event() {
     static const std::regex row(R"(\n(\|[^\n]*))");
     static const std::regex first(R"(^\| `([a-z_]+)` \|)");
@@ -74,14 +75,14 @@ TEST(LogLines, EveryEventIsLogged) {
     std::string all;
     for (const auto& [name, text] : daemon_sources())
         if (!name.starts_with("log_event")) all += text;
-    // The results of files are named by event_of().
+    // event_of() names the events for results of files.
     all += between(testing::text_of(testing::source_directory() / "daemon/log/log_event.cpp"),
                    "event_of(", "\n}");
     for (const std::string& event : events())
         EXPECT_TRUE(std::regex_search(all, std::regex("Event::" + event + R"(\b)"))) << event;
 }
 
-// Whoever went around daemon/log/log.h would be neither limited nor explained.
+// Lines that do not go through daemon/log/log.h would be neither limited nor explained.
 TEST(LogLines, NobodyLogsAnyOtherWay) {
     for (const auto& [name, text] : daemon_sources()) {
         if (name.starts_with("log.") || name == "line_limiter.h") continue;
@@ -90,8 +91,8 @@ TEST(LogLines, NobodyLogsAnyOtherWay) {
     }
 }
 
-// The text of string literals from here to the end of the statement; those that stand side by side
-// are one.
+// Returns the string literals from here to the end of the statement. Literals side by side are
+// joined.
 std::vector<std::string> literals(const std::string& text, std::size_t at) {
     std::vector<std::string> found;
     bool joins = false;
@@ -115,7 +116,7 @@ std::vector<std::string> literals(const std::string& text, std::size_t at) {
     return found;
 }
 
-// The longest piece of a format between what is put in.
+// Returns the longest piece of a format between its placeholders.
 std::string longest_piece(const std::string& format) {
     static const std::regex gap(R"(\{[^}]*\})");
     std::string longest;
@@ -129,10 +130,9 @@ std::string squeezed(const std::string& text) {
     return std::regex_replace(text, blank, " ");
 }
 
-// Each format of a log call, or of the lines that the reporter makes, is in the table with its own
-// words.
+// The table has the words of each format of a log call and of the reporter's lines.
 TEST(LogLines, TheManualHasTheirWords) {
-    constexpr std::size_t too_short = 6;  // " ({})", "SIGINT": no words of a line
+    constexpr std::size_t too_short = 6;  // " ({})", "SIGINT": too short to look for
     static const std::regex call(R"((\blog_(?:debug|info|warning|error|line|problem)\())");
     static const std::regex made(R"((\bfmt::format\())");
     const std::string manual = squeezed(chapter());

@@ -1,5 +1,5 @@
-// Options of a picture, subcommands and formats stand in one place each. These tests count where
-// their names stand, so that a second list of them is found when it is written.
+// Tests that options of a picture, subcommands and formats are each listed in one place. A second
+// list fails the test.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The code of the rooms that have a table here, by the paths of the sources.
+// Returns the code of the rooms that have such a table, by the paths of the sources.
 const std::map<std::string, std::string>& code_by_path() {
     static const auto all = [] {
         const fs::path root = testing::source_directory();
@@ -32,7 +32,7 @@ const std::map<std::string, std::string>& code_by_path() {
     return all;
 }
 
-// The sources below these folders in whose code a text stands.
+// Returns the sources below these folders whose code contains a text.
 std::set<std::string> sources_with(const std::string& text, const std::vector<std::string>& below) {
     std::set<std::string> found;
     for (const auto& [path, code] : code_by_path()) {
@@ -68,7 +68,7 @@ TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
     const std::string table = testing::text_of(testing::source_directory() / *option_table.begin());
     const auto keys = testing::found_in(table, std::regex(R"re(key = "([a-z_]+)")re"));
     ASSERT_GE(keys.size(), 28U);
-    // These are words that the metadata and the JSON of a picture have as well.
+    // These words are also keys of a picture's metadata and JSON.
     const std::set<std::string> also_facts{"product", "moment",      "width",        "height",
                                            "frames",  "azimuth_deg", "elevation_deg"};
     for (const std::string& key : keys) {
@@ -96,7 +96,7 @@ TEST(OnePlace, ASubcommandIsRegisteredOnce) {
 }
 
 TEST(OnePlace, AnEndingOfALoopOrOfAGridIsInItsRegistryAlone) {
-    // The usual ending of a loop on standard output is chosen in cli/loop/loop.cpp.
+    // ".webp" is left out: cli/loop/loop.cpp uses it for standard output.
     for (const char* ending : {".gif", ".apng", ".mp4", ".webm"}) {
         EXPECT_EQ(sources_with(quoted(ending), {"cli", "daemon", "pipeline", "render"}),
                   std::set<std::string>{"render/animation/animation.cpp"})

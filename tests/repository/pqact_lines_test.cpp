@@ -1,4 +1,4 @@
-// The lines for LDM's pqact.conf in the manual do what it says of them.
+// Tests that the lines for LDM's pqact.conf in docs/guides/ldm.md do what the page promises.
 #include <fstream>
 #include <regex>
 #include <set>
@@ -15,7 +15,7 @@ namespace {
 
 struct Entry {
     std::string pattern;
-    std::vector<std::string> action;  // by tabs: FILE or PIPE, options, the path or the command
+    std::vector<std::string> action;  // separated by tabs: FILE or PIPE, options, path or command
 };
 
 std::vector<std::string> split(const std::string& line) {
@@ -26,7 +26,7 @@ std::vector<std::string> split(const std::string& line) {
     return fields;
 }
 
-// Two lines each: feed, pattern; then, after a tab, the action.
+// Returns the entries. Each has two lines: feed and pattern, and after a tab the action.
 std::vector<Entry> entries() {
     std::ifstream file(testing::source_directory() / "docs/guides/ldm.md");
     std::vector<Entry> found;
@@ -40,7 +40,7 @@ std::vector<Entry> entries() {
     return found;
 }
 
-// Expands a text as pqact does: \1 to \9 stand for what was caught.
+// Expands a text as pqact does: \1 to \9 become the groups of the match.
 std::string expanded(const std::string& text, const std::smatch& caught) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -53,7 +53,8 @@ std::string expanded(const std::string& text, const std::smatch& caught) {
     return result;
 }
 
-// Where the product goes, by each entry that takes it. Patterns are extended regular expressions.
+// Returns the path or command of each entry whose pattern, an extended regular expression, matches
+// the product.
 std::multiset<std::string> places(const std::string& product) {
     std::multiset<std::string> found;
     for (const Entry& entry : entries()) {

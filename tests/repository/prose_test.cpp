@@ -1,4 +1,4 @@
-// Comments read as sentences: they begin with a subject and fit into the width of their language.
+// Tests that comments begin with a subject or a verb and fit the line width of their language.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 
-constexpr double most_share = 0.05;  // of a room's comment blocks may lack a subject
+constexpr double most_share = 0.05;  // share of a room's comment blocks that may lack a subject
 
 struct Comments {
     std::size_t blocks = 0;
@@ -33,7 +33,7 @@ struct Comments {
     std::vector<std::size_t> wide;  // line numbers
 };
 
-// A word that begins a subordinate clause or a fragment.
+// Returns true if the text begins with a word of a subordinate clause or a fragment.
 bool lacks_subject(std::string_view text) {
     constexpr std::array<std::string_view, 11> words = {
         "Of", "What", "Which", "Whether", "That", "As", "Those", "How", "Who", "Whose", "Whatever"};
@@ -41,7 +41,7 @@ bool lacks_subject(std::string_view text) {
     return std::ranges::find(words, first) != words.end();
 }
 
-// Looks at the comments that have lines of their own. A block of them is one text.
+// Reads the comments on lines of their own. Each block is one text.
 Comments comments_of(const std::string& text, std::size_t width) {
     Comments found;
     std::istringstream lines(text);
@@ -115,8 +115,8 @@ TEST(Prose, TheCheckSeesWhatItLooksFor) {
     EXPECT_THAT(found.wide, ElementsAre(1U));
 }
 
-// Counts the commits of the checkout. An archive of the sources has no history, so nothing is
-// counted.
+// Counts commits with long subjects. Without Git's history, as in an archive of the sources, there
+// are none.
 TEST(Prose, SubjectsOfCommitsAreShort) {
     constexpr std::size_t width = 72, allowed_before = 490;
     const std::string command =

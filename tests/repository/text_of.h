@@ -1,4 +1,4 @@
-// tests/repository/text_of.h -- files of the tree, a file as one text, and what is in a text.
+// tests/repository/text_of.h -- finds files of the tree, reads them, and searches their texts.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ namespace stormcellar::testing {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Returns what the first group of the expression matches.
+// Returns the text of the first group for each match of the expression.
 [[nodiscard]] inline std::vector<std::string> found_in(const std::string& text,
                                                        const std::regex& what) {
     std::vector<std::string> found;
@@ -51,7 +51,7 @@ namespace stormcellar::testing {
     return files;
 }
 
-// Returns the headers and sources in C++ below a folder.
+// Returns the C++ headers and sources below a folder.
 [[nodiscard]] inline std::vector<std::filesystem::path> sources_below(
     const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> sources = files_below(folder);
@@ -61,8 +61,8 @@ namespace stormcellar::testing {
     return sources;
 }
 
-// Returns the folders of the root that hold the product, its benchmarks and its documents: all but
-// the tests, builds and hidden ones.
+// Returns the folders of the root with the product, its benchmarks and its documents: all folders
+// except tests, builds and hidden ones.
 [[nodiscard]] inline std::vector<std::filesystem::path> folders_of_the_product() {
     std::vector<std::filesystem::path> folders;
     for (const auto& entry : std::filesystem::directory_iterator(source_directory())) {
@@ -74,8 +74,8 @@ namespace stormcellar::testing {
     return folders;
 }
 
-// Returns true for the unit tests of the viewer, which stand beside its sources, and for what they
-// share.
+// Returns true for the unit tests of the viewer, which are beside its sources, and for the code
+// that they share.
 [[nodiscard]] inline bool is_viewer_test(const std::filesystem::path& path) {
     return path.string().ends_with(".test.ts") || path.parent_path().filename() == "testing";
 }

@@ -1,6 +1,6 @@
-// viewer/src/facts.ts has what the page must know as C++ knows it: moments, units, projections, the
-// usual grid, ranges of options, color files and the colors of the ground. It is made here, from
-// the tables. After a change of a table write it with
+// Tests that viewer/src/facts.ts has the facts of the C++ tables that the page needs: moments,
+// units, projections, the usual grid, ranges of options, color files and the colors of the ground.
+// After a change of a table, write the file with
 //   STORMCELLAR_WRITE_FACTS=1 repository_test --gtest_filter='ViewerFacts.*'
 #include <cstdlib>
 #include <filesystem>

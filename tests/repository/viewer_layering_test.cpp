@@ -1,4 +1,4 @@
-// The folders of the viewer's source import one way, as the rooms of C++ include
+// Tests that the folders of the viewer's source import one way, as C++ rooms do
 // (layering_test.cpp).
 #include <algorithm>
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 
-// Each folder, and those that it may import: folders that stand before it alone. Of the files
-// without a folder, main.ts may import all, and all may import facts.ts. Tests may import all.
+// Each folder, and the folders that it may import, which must come before it. Besides, main.ts and
+// tests may import everything, and every file may import facts.ts.
 const std::vector<std::pair<std::string, Folders>> order = {
     {"wire", {}},
     {"camera", {}},

@@ -1,5 +1,4 @@
-// Tests wait for conditions, not for the clock. tests/testing/waiting.h has the one sleep; these
-// tests find another one when it is written.
+// Tests that no test waits for a fixed time. Only tests/testing/waiting.h may sleep.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -20,27 +19,28 @@ namespace fs = std::filesystem;
 
 constexpr const char* the_one_place = "testing/waiting.h";
 
-// Who lets time pass has a load with a rate, a simulated peer, or a kill at a random moment.
+// The files that may call pass_time(), for a load with a rate, a simulated peer, or a kill at a
+// random moment.
 const std::set<std::string> with_a_pace = {
     "cache/processes_test.cpp",         // kills a writer at a random moment
     "catalog/durability_test.cpp",      // likewise
-    "cli/loop_test.cpp",                // cuts and mends a file in turn
+    "cli/loop_test.cpp",                // truncates and restores a file in turn
     "daemon/end_to_end_test.cpp",       // appends pieces as LDM does
     "daemon/hostile_drop_test.cpp",     // swaps names
     "daemon/hostile_sizes_test.cpp",    // appends bombs
     "daemon/recovery_test.cpp",         // kills the daemon, each time a bit later
     "daemon/watch_facts_test.cpp",      // deletes files at any moment
     "fault/hostile_feed.cpp",           // feeds the pieces of volumes when they are due
-    "fault/hostile_mix.cpp",            // so many hostile files a second
-    "fault/hostile_mix_test.cpp",       // the attack lasts so long
+    "fault/hostile_mix.cpp",            // makes hostile files at a rate
+    "fault/hostile_mix_test.cpp",       // attacks for some time
     "fault/hostile_queue_test.cpp",     // brings chunks in turn
     "fault/kill_test.cpp",              // kills the daemon at a random moment
     "fault/load.cpp",                   // delivers volumes, piece by piece
-    "pipeline/living_chunks_test.cpp",  // workers come one after the other
+    "pipeline/living_chunks_test.cpp",  // starts workers one after another
 };
 
-// The code of the tests by paths below tests/, without comments. tests/bench measures times, and
-// tests/viewer is the browser's.
+// Returns the code of the tests by paths below tests/, without comments. Leaves out tests/bench,
+// which measures times, and tests/viewer, which runs in the browser.
 const std::map<std::string, std::string>& code_of_tests() {
     static const auto all = [] {
         const fs::path root = testing::source_directory() / "tests";
@@ -90,7 +90,7 @@ TEST(Waits, ASleepIsFound) {
         EXPECT_EQ(wait_in(line), "");
 }
 
-// It would be a fixed wait in disguise.
+// A condition that is never true would be a fixed wait.
 TEST(Waits, EachConditionMayComeTrue) {
     for (const auto& [name, code] : code_of_tests()) {
         const std::string call = "eventually(";

@@ -1,4 +1,4 @@
-// tests/testing/data.h -- where the real volumes are.
+// tests/testing/data.h -- finds the real volumes.
 #pragma once
 
 #include <filesystem>

@@ -8,8 +8,8 @@
 
 namespace stormcellar::testing {
 
-// Returns the choice with one effect and all that it requires on, or with it and all that requires
-// it off.
+// Returns the plan's choice, changed: if `on`, with the effect and all effects that it requires on;
+// otherwise with the effect and all effects that require it off.
 inline accuracy::Choice forced(const accuracy::Plan& plan, const accuracy::Chain& chain,
                                const std::string& effect, bool on) {
     accuracy::Choice choice = plan.choice;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int trapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
-// Pending exceptions of untrapped code must not fire when traps are turned on.
+// Sets the traps. Clears pending exceptions first, so that they do not fire now.
 int set_traps(int traps) {
     const int before = fegetexcept();
     std::feclearexcept(FE_ALL_EXCEPT);
@@ -55,7 +55,7 @@ void report(int signal, siginfo_t* info, void* /*context*/) {
     std::raise(signal);
 }
 
-// Around the body of each test, so that GoogleTest's own code is not trapped.
+// Turns traps on around the body of each test, so that GoogleTest's own code is not trapped.
 class TrapEachTest : public ::testing::EmptyTestEventListener {
   public:
     void OnTestStart(const ::testing::TestInfo& /*test*/) override {
@@ -80,7 +80,7 @@ class TrapEnvironment : public ::testing::Environment {
     }
 };
 
-// GoogleTest owns it.
+// GoogleTest owns the object.
 [[maybe_unused]] const ::testing::Environment* const environment =
     ::testing::AddGlobalTestEnvironment(new TrapEnvironment);
 

@@ -2,11 +2,11 @@
 //
 // With STORMCELLAR_FP_TRAPS=1 in the environment, each test body of every test program runs with
 // traps on: an invalid operation (0/0, a NaN in an ordering comparison, infinity to integer), a
-// division by zero or an overflow ends the program with SIGFPE, and prints what happened. Underflow
-// and inexact results are ordinary. A library must not rely on NaN or infinity to pass through
-// comparisons unnoticed; base/floating_point.h lists what is masked.
+// division by zero or an overflow prints a message and ends the program with SIGFPE. Underflow and
+// inexact results are ordinary. A library must not rely on NaN or infinity to pass through
+// comparisons unnoticed; base/floating_point.h lists the masked operations.
 //
-// Threads   Traps belong to a thread. A new thread inherits those of its starter (glibc), so
+// Threads   Traps belong to a thread. With glibc a new thread inherits the traps of its starter, so
 //           workers have them, too (tests/hard_cases/fp_traps_test.cpp).
 #pragma once
 

@@ -18,7 +18,7 @@ namespace stormcellar::testing {
     return address;
 }
 
-// Returns a connection, which is closed if nobody listens on the port.
+// Returns a connection to the port; a closed descriptor if nobody listens there.
 [[nodiscard]] inline Descriptor connection_to(int port) {
     Descriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const sockaddr_in address = loopback_address(port);

@@ -48,7 +48,7 @@ Status MeteredFileSystem::set_size(int descriptor, std::uint64_t size) {
     return weigh(real_file_system().set_size(descriptor, size));
 }
 
-// Here files last as long as the machine does.
+// Syncs nothing, because this file system does not simulate crashes.
 Status MeteredFileSystem::sync(int /*descriptor*/) {
     const std::scoped_lock lock(mutex_);
     return weigh({});

@@ -1,10 +1,10 @@
 // tests/testing/metered_file_system.h -- a file system that measures a directory after every
 // operation.
 //
-// It works on real files, one operation at a time, whichever thread calls. After each one it adds
-// up the blocks of all files below the directory, temporary ones included, and keeps the largest
-// sum. It can also be full: a write beyond `capacity` fails with no_space, and removing files makes
-// room.
+// It works on real files and does one operation at a time, for any number of threads. After each
+// one it adds up the blocks of all files below the directory, temporary ones included, and keeps
+// the largest sum. It can also be full: a write beyond `capacity` fails with no_space, and removing
+// files makes room.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments,
     for (std::string& copy : copies)
         argv.push_back(copy.data());
     argv.push_back(nullptr);
-    // Tests that run in the background of a script inherit an ignored Ctrl-C.
+    // A test in the background of a script inherits an ignored SIGINT, which its programs must not.
     sigset_t ends;
     sigemptyset(&ends);
     sigaddset(&ends, SIGINT);
@@ -43,7 +43,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments,
     return child;
 }
 
-// There is no input; the output goes to the files out and err of the directory.
+// Starts the program without input. Its output goes to the files out and err of the directory.
 pid_t start_quietly(const fs::path& program, const std::vector<std::string>& arguments,
                     const fs::path& directory) {
     posix_spawn_file_actions_t actions;

@@ -22,14 +22,14 @@ struct ProgramResult {
 [[nodiscard]] ProgramResult run_program(const fs::path& program,
                                         const std::vector<std::string>& arguments);
 
-// Starts the program, waits until `seen` returns true (at most a minute), sends it SIGINT and waits
-// for its end. Returns the number of the signal that ended it, 0 if it ended by itself. Its output
-// is that of the test.
+// Starts the program, waits at most a minute until `seen` returns true, sends SIGINT and waits for
+// the end. Returns the signal that ended the program, or 0 if it exited. The program writes to the
+// test's own output.
 [[nodiscard]] int interrupt_program(const fs::path& program,
                                     const std::vector<std::string>& arguments,
                                     const std::function<bool()>& seen);
 
-// A program that runs beside the test. Killed when the object is destroyed.
+// A program that runs beside the test. The destructor kills it.
 class RunningProgram {
   public:
     RunningProgram(const fs::path& program, const std::vector<std::string>& arguments);
@@ -41,7 +41,7 @@ class RunningProgram {
     // Returns its output so far.
     [[nodiscard]] std::string out() const;
     [[nodiscard]] std::string err() const;
-    // Checks repeatedly for at most a minute. Returns false if it does not become true.
+    // Waits at most a minute until `seen` returns true. Returns false if it never does.
     static bool wait_for(const std::function<bool()>& seen);
     // Sends the signal and waits. Returns the exit status, or minus the signal that ended it.
     int end(int signal);

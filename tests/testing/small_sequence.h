@@ -1,8 +1,8 @@
 // tests/testing/small_sequence.h -- five volumes of a simulated radar, for tests that need volumes
-// and none of their values, so that they run without the real ones.
+// but no particular values, so that they run without the real volumes.
 //
-// The radar is KBGM, which sees one storm in three sweeps. The volumes begin and end about when
-// those of the real sequence-kbgm do.
+// The radar is KBGM, which sees one storm in three sweeps. The volumes have nearly the same times
+// as the real volumes of sequence-kbgm.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline constexpr std::array small_sequence = {"KBGM20050822_024414_V06", "KBGM20
                                               "KBGM20050822_025549_V06", "KBGM20050822_030243_V06",
                                               "KBGM20050822_030830_V06"};
 
-// Writes the volume of this name, which says when it begins, to the file. Throws if that fails.
+// Writes a volume to the file. Its name gives the time of its start. Throws if that fails.
 inline void write_small_volume(const std::string& name, const std::filesystem::path& file) {
     std::string text = fmt::format(
         "[radar]\nstation = \"KBGM\"\n[volumes]\ncount = 1\nstart = \"{}-{}-{}T{}:{}:{}Z\"\n",

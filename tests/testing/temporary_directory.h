@@ -24,7 +24,7 @@ class TemporaryDirectory {
     fs::path path_;
 };
 
-// Changes to another working directory while it exists.
+// Changes to another working directory while the object exists.
 class WorkingDirectory {
   public:
     explicit WorkingDirectory(const fs::path& path) { fs::current_path(path); }

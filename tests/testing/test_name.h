@@ -6,7 +6,7 @@
 
 namespace stormcellar::testing {
 
-// Returns a file's name as GoogleTest allows names: anything but letters and digits becomes '_'.
+// Returns a file's name with '_' for everything but letters and digits, as GoogleTest requires.
 [[nodiscard]] std::string test_name(std::string_view file_name);
 
 }  // namespace stormcellar::testing

@@ -14,7 +14,7 @@
 
 namespace stormcellar::testing {
 
-// Writes two volumes of each of XSYA and XSYB, five minutes apart; those of XSYB are too weak by
+// Writes two volumes each of XSYA and XSYB, five minutes apart. XSYB's reflectivity is too weak by
 // `b_too_weak_db`. Returns them in order of time. Throws if that fails.
 inline std::vector<std::filesystem::path> write_two_radars(const std::filesystem::path& directory,
                                                            float b_too_weak_db) {

@@ -1,7 +1,7 @@
 // tests/testing/two_radars.h -- scenes of simulated radars that look at the same storms.
 //
-// Nine storms about 35 N 97 W all move in one direction at 26 m/s; the noise is 1 dB. Radars at 35
-// N, 97.6 W and 96.4 W are 110 km apart on either side. A volume takes 160 s.
+// Nine storms about 35 N 97 W all move in one direction at 26 m/s; the noise is 1 dB. The radars
+// are at 35 N, 97.6 W and 96.4 W, 110 km apart. A volume takes 160 s.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace stormcellar::testing {
 inline constexpr double storms_east_mps = 24;
 inline constexpr double storms_north_mps = 9;
 
-// See docs/scenes.md. `volumes` follow each other every five minutes from 2024-06-01T22:00:00Z.
+// Returns the scene as text (docs/scenes.md), with a volume every five minutes from
+// 2024-06-01T22:00:00Z.
 inline std::string scene_of_nine_storms(const char* station, double longitude_deg, unsigned seed,
                                         int volumes = 1) {
     std::string text = fmt::format(R"([radar]

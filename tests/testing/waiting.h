@@ -1,9 +1,9 @@
-// tests/testing/waiting.h -- the one place where tests wait.
+// tests/testing/waiting.h -- waits for conditions in tests.
 //
-// A test waits for a condition, with an end, and never for a time: a fixed wait is too long on most
-// machines, and on a slow one it proves nothing. To show that nothing happened, a test waits for
+// A test waits for a condition, with a limit, and never for a fixed time, which would be too long
+// on most machines and too short on a slow one. To show that nothing happened, a test waits for
 // something that comes later in the same queue, or for a counter of turns.
-// tests/repository/waits_test.cpp holds this: no other file of the tests sleeps.
+// tests/repository/waits_test.cpp checks that no other file of the tests sleeps.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@
 
 namespace stormcellar::testing {
 
-// Lets time pass in a load or a simulated peer: a load has a rate, a kill comes at a random moment.
-// It proves nothing, so no test may wait for somebody else this way; the repository's test lists
-// the files that call it.
+// Sleeps, for a load with a rate, a simulated peer or a kill at a random moment. A sleep proves
+// nothing, so no test may wait this way for another program or thread; waits_test.cpp lists the
+// files that may call it.
 inline void pass_time(std::chrono::nanoseconds time) {
     std::this_thread::sleep_for(time);
 }
 
-// Asks again and again, first after a millisecond and later every 10 ms, until the condition holds,
-// at most for `limit`. Returns what it said last.
+// Checks the condition repeatedly, first after a millisecond and later every 10 ms, until it is
+// true or `limit` has passed. Returns its last value.
 template <class Condition>
 [[nodiscard]] bool eventually(const Condition& holds,
                               std::chrono::nanoseconds limit = std::chrono::minutes{1}) {
