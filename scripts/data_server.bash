@@ -1,10 +1,10 @@
-# What the scripts that try a client on the data server share; they source it.
+# Functions for scripts that test a client against the data server; they source this file.
 #   skip REASON             ends the script with status 77
 #   need PROGRAM ...        skips if one of the programs is not installed
-#   need_python MODULE ...  skips if $python, which is Debian's unless PYTHON names another, has not all modules
-#   serve PROGRAM WORD ...  runs `PROGRAM serve WORD ...`; $address is then where it answers, without a slash behind
-#   take_volume             $volume is then a real volume, or one that $program simulates, and $station its station
-# $directory is empty at first. It is removed, and the server ends, when the script ends.
+#   need_python MODULE ...  skips if $python lacks a module ($PYTHON, else Debian's)
+#   serve PROGRAM WORD ...  runs `PROGRAM serve WORD ...` and sets $address, without a slash at the end
+#   take_volume             sets $volume to a real volume, or one that $program simulates, and $station to its station
+# $directory is a new directory. At the end of the script it is removed, and the server is ended.
 python=${PYTHON:-/usr/bin/python3}
 directory=$(mktemp -d)
 server=

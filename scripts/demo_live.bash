@@ -1,11 +1,11 @@
 # The live part of scripts/demo, which sources it: stormcellar-feed follows one station of the public bucket, the
-# daemon grids what comes, and the viewer shows it until Ctrl-C. Uses $build, $cellar, $output, step, fail and, from
-# the environment,
+# daemon grids its volumes, and the viewer shows them until Ctrl-C. Uses $build, $cellar, $output, step, fail and,
+# from the environment,
 #   STORMCELLAR_DEMO_BUCKET   another bucket that answers like Amazon S3
 #   https_proxy               the proxy that the feed uses, if it is set
 bucket=${STORMCELLAR_DEMO_BUCKET:-https://unidata-nexrad-level2-chunks.s3.amazonaws.com}
 
-# reach_bucket STATION: before anything is built, if curl is there
+# reach_bucket STATION: checks the bucket before anything is built, if curl is installed
 reach_bucket() {
     local answer
     command -v curl >/dev/null || return 0
@@ -28,7 +28,7 @@ bytes = "2 GB"
 TOML
 }
 
-# The value that stands at "KEY": in the feed's status file.
+# Prints the value of "KEY": in the feed's status file.
 feed_says() { sed -n "s/^ *\"$1\": *\"\{0,1\}\([^\",]*\).*/\1/p" "$cellar/feed/status.json" 2>/dev/null | head -n 1; }
 start_beside() {
     local name=$1

@@ -1,7 +1,7 @@
-# A file system shared by machines, GlusterFS, on this host; a script sources it after scripts/slurm.bash.
-#   start_share       a volume of one brick at 10.88.0.1, which must be an address of this network
-#   on_share COMMAND  runs a command on a machine of its own: with its own mount of the share, at $home/share
-#   end_share         ends what was started here; for a trap
+# Functions for a shared file system, GlusterFS, on this host; a script sources this file after scripts/slurm.bash.
+#   start_share       makes a volume of one brick at 10.88.0.1, which must be an address of this network
+#   on_share COMMAND  runs a command as on another machine, with its own mount of the share at $home/share
+#   end_share         ends the share; for a trap
 # $home must be a directory of the script's own. Packages: the group cluster of scripts/packages.
 
 share_command() { gluster --mode=script --glusterd-sock="$home/glusterd.sock" volume "$@" >>"$home/gluster.log" 2>&1; }

@@ -1,6 +1,7 @@
-# Runs the checks of tests/viewer in a browser; scripts source it.
-#   need_playwright                        ends the script with status 77 unless its programs and packages are here
-#   run_playwright BUILD PICTURES WORD ...  runs `playwright test WORD ...`, on a screen if $screen has a command for one
+# Functions that run the checks of tests/viewer in a browser; scripts source this file.
+#   need_playwright                        ends the script with status 77 unless Playwright and its programs are
+#                                          installed
+#   run_playwright BUILD PICTURES WORD ...  runs `playwright test WORD ...`, by the command in $screen if that is set
 need_playwright() {
     local name
     for name in chromium node; do

@@ -1,8 +1,8 @@
-# What a check of several programs says and waits for; a script sources it.
+# Functions for checks of several programs, which report and wait; scripts source this file.
 #   say TEXT                   prints it with the script's name and the seconds since its start
 #   fail TEXT                  prints it and ends the script
 #   skip TEXT                  prints it and ends the script with status 77
-#   wait_for WHAT COMMAND ...  until the command succeeds, at most $most_wait_s seconds; then it fails
+#   wait_for WHAT COMMAND ...  waits until the command succeeds; fails after $most_wait_s seconds
 most_wait_s=60
 
 say() { echo "${0##*/}: $1 ($SECONDS s)"; }

@@ -1,11 +1,11 @@
-# A Slurm cluster on this host; a script sources it. Its controller and each of its nodes have a network
-# of their own (namespaces, joined by a bridge), so nothing is reached outside and a node's link can be cut.
-#   in_own_network "$@"     call this first, in the root of the tree: runs the script again in a network of
-#                           its own; ends it with status 77 where that is not allowed
-#   start_slurm NODE ...    nodes of one processor each, in the partitions batch and urgent
-#   end_slurm               ends what was started here; for a trap
+# Functions for a Slurm cluster on this host; scripts source this file. Controller and nodes are in network namespaces
+# joined by a bridge, so they reach nothing outside, and a node's link can be cut.
+#   in_own_network "$@"     call this first, in the root of the tree: runs the script again in its own network; ends
+#                           it with status 77 if that is not allowed
+#   start_slurm NODE ...    starts nodes of one processor each, in the partitions batch and urgent
+#   end_slurm               ends the cluster; for a trap
 #   cut_link NODE, mend_link NODE
-#   wait_until WHAT CONDITION   at most 100 s, else it ends the script
+#   wait_until WHAT CONDITION   waits at most 100 s, then ends the script
 # $home must be a directory of the script's own. Packages: the group cluster of scripts/packages.
 host=$(hostname -s)
 
@@ -33,7 +33,7 @@ make_network() {
     ip link set sc0 up
     for node in "$@"; do
         number=$((number + 1))
-        # The namespace lives as long as this process.
+        # The namespace exists as long as this process.
         unshare --net sleep infinity &
         holder=$!
         echo $holder >"$home/network.$node.pid"
@@ -110,7 +110,7 @@ start_slurm() {
     wait_until "$# idle nodes" '[ "$(sinfo -h -o %D -t idle -p batch)" = '$#' ]'
 }
 
-# By their files of numbers; it waits until they are gone.
+# Ends the daemons by their pid files, and waits until they are gone.
 end_slurm() {
     local file process
     [ ! -s "$home/slurmctld.pid" ] || timeout 10 scancel -u root 2>/dev/null || true

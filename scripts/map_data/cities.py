@@ -1,4 +1,4 @@
-"""The list of cities, each of the United States checked against the county that it names."""
+"""Reads the list of cities, and checks each city of the United States against its county."""
 import csv
 import math
 import pathlib
@@ -27,7 +27,7 @@ def rings_of(directory):
 
 
 def km_outside(point, rings):
-    """0 inside; else the distance to the nearest segment."""
+    """Returns 0 inside; else the distance to the nearest segment."""
     inside = False
     nearest = math.inf
     east = lines.METRES_PER_DEGREE * math.cos(math.radians(point[1])) / 1000
@@ -45,7 +45,7 @@ def km_outside(point, rings):
 
 
 def read(path, us_atlas):
-    """(name, latitude, longitude, population), largest first."""
+    """Returns (name, latitude, longitude, population), largest first."""
     counties = rings_of(us_atlas)
     places = []
     with open(path, encoding="utf-8", newline="") as file:

@@ -1,4 +1,4 @@
-"""Lines of (longitude, latitude) in degrees: joined at their ends, simplified."""
+"""Joins, simplifies and cuts lines of (longitude, latitude) in degrees."""
 import collections
 import math
 
@@ -6,7 +6,7 @@ METRES_PER_DEGREE = 111320.0
 
 
 def joined(pieces):
-    """Pieces that meet two and two at a point become one line."""
+    """Joins two pieces to one line where exactly two meet at a point."""
     ends = collections.defaultdict(list)
     for index, piece in enumerate(pieces):
         ends[piece[0]].append(index)
@@ -35,7 +35,7 @@ def joined(pieces):
 
 
 def simplified(line, tolerance_m):
-    """Douglas and Peucker (1973) in metres of a local plane; ends stay."""
+    """Simplifies a line (Douglas and Peucker 1973), in meters of a local plane. Keeps both ends."""
     if len(line) < 3:
         return list(line)
     east = METRES_PER_DEGREE * math.cos(math.radians(sum(p[1] for p in line) / len(line)))
@@ -63,7 +63,7 @@ def simplified(line, tolerance_m):
 
 
 def is_speck(points, tolerance_m, units_per_degree):
-    """A line of one point, or an island that is smaller than twice the tolerance."""
+    """Returns true for a line of one point, or an island smaller than twice the tolerance."""
     if len(points) < 2:
         return True
     if points[0] != points[-1]:
@@ -76,7 +76,7 @@ def is_speck(points, tolerance_m, units_per_degree):
 
 
 def signed_area(ring):
-    """Of a closed ring; positive where it runs counterclockwise."""
+    """Returns the area of a closed ring; positive if it runs counterclockwise."""
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:])) / 2
 
 
@@ -85,13 +85,13 @@ def turned(ring, counterclockwise):
 
 
 def cut_at(points, axis, limit, keep_above):
-    """The part of an open ring on one side of a line (Sutherland and Hodgman 1974), in whole units."""
+    """Returns the part of an open ring on one side of a line (Sutherland and Hodgman 1974), in whole units."""
     kept = []
     sign = 1 if keep_above else -1
     for one, other in zip(points[-1:] + points[:-1], points):
         inside = sign * (other[axis] - limit) >= 0
         if inside != (sign * (one[axis] - limit) >= 0):
-            # Counted from the lower end, so that both sides of the line get the same point.
+            # Start from the lower end, so that both sides of the line get the same point.
             low, high = sorted((one, other), key=lambda p: p[axis])
             share = (limit - low[axis]) / (high[axis] - low[axis])
             crossing = [0, 0]

@@ -1,4 +1,4 @@
-"""The places that a user may name, from the Census' gazetteer and from the cities of the map."""
+"""Collects the places that a user may name, from the Census' gazetteer and the cities of the map."""
 import csv
 import gzip
 import math
@@ -7,11 +7,11 @@ import re
 ENTRY = re.compile(r"\[fips(\d+)\]\ncentroid = \(([-\d.]+), ([-\d.]+)\)\ndescription = (.*), (\w\w)\n")
 PLACE, SUBDIVISION = 7, 10  # digits of a code
 
-# Where towns are subdivisions of counties, and no places of the Census.
+# In these states towns are subdivisions of counties, not places of the Census.
 TOWNS = {"CT", "MA", "ME", "NH", "RI", "VT"}
 TOWNSHIPS = {"NJ"}
 
-# The Census says after a name what kind of place it is.
+# The Census adds the kind of place to its name.
 KINDS = re.compile(
     r"( metro| unified| consolidated| metropolitan| zona)?"
     r"( (city|town|village|borough|CDP|municipality|township|corporation|comunidad|urbana|"
@@ -56,7 +56,7 @@ def of_map(path):
 
 
 def read(cities, gazetteer):
-    """(name, region, latitude, longitude, thousands of people or 0), by name; the map's first."""
+    """Returns (name, region, latitude, longitude, thousands of people or 0), by name; the map's first."""
     found = {}
     for place in [*of_map(cities), *of_gazetteer(gazetteer)]:
         same = found.setdefault((folded(place[0]), place[1]), [])

@@ -1,4 +1,4 @@
-"""The layers of the map, out of the packages that hold them."""
+"""Reads the layers of the map from the packages that hold them."""
 import collections
 import json
 import math
@@ -10,14 +10,14 @@ import shapely.ops
 
 from . import lines
 
-# What US weather radars can see, and some way about it: west, south, east, north.
+# The area that US weather radars can see, and a margin: west, south, east, north.
 REGIONS = [(-180, 6, -44, 76), (166, 44, 180, 76), (138, 4, 152, 24), (114, 18, 146, 48),
            (-38, 30, -16, 46)]
 UNITED_STATES = "840"
 GREAT_LAKES = (-92.7, 41.2, -75.9, 49.2)
-INLAND_SHARE = 0.9  # a lake of which the Census' land covers so much lies within counties
-NEAR_LAKE_DEG = 0.1  # so far from a lake at 1:50 million, what is no land of the Census is still the lake
-SLIVER_DEG = 0.012  # narrower than this, water between two sources is their disagreement
+INLAND_SHARE = 0.9  # least share of a lake within the Census' land that makes it an inland lake
+NEAR_LAKE_DEG = 0.1  # within this distance of a lake at 1:50 million, an area that is not the Census' land belongs to the lake
+SLIVER_DEG = 0.012  # narrower water between two sources is only their disagreement
 LEAST_LAKE_DEG2 = 0.002
 
 
@@ -63,7 +63,7 @@ def in_box(line, box):
 
 
 def runs(line, wanted):
-    """The parts of a line whose segments are wanted."""
+    """Returns the parts of a line whose segments are wanted."""
     run = []
     for one, other in zip(line, line[1:]):
         if wanted(one, other):
@@ -84,7 +84,7 @@ def cut_to_regions(line):
 
 
 def polygons_of(path, name):
-    """(identifier, rings) for each polygon of an object; the first ring is the outline."""
+    """Returns (identifier, rings) for each polygon of an object; the first ring is the outline."""
     arcs, objects = topology(path)
     found = []
     for geometry in objects[name]["geometries"]:
@@ -116,7 +116,7 @@ def countries(directory):
 
 
 def between_seams(ring):
-    """The ring, or what it is on each side of 180 degrees, if it crosses them."""
+    """Returns the ring, or if it crosses 180 degrees, its parts on both sides."""
     unrolled = [ring[0]]
     for lon, lat in ring[1:]:
         unrolled.append((lon - 360 * round((lon - unrolled[-1][0]) / 360), lat))
@@ -133,7 +133,7 @@ def between_seams(ring):
 
 
 def land(directory):
-    """Closed rings; land is to the left of them."""
+    """Returns closed rings, with land to their left."""
     found = []
     for _, rings in polygons_of(pathlib.Path(directory) / "land-10m.json", "land"):
         for index, whole in enumerate(rings):
@@ -144,7 +144,7 @@ def land(directory):
 
 
 def united_states(directory):
-    """Counties and states."""
+    """Returns the lines of counties and states."""
     arcs, objects = topology(pathlib.Path(directory) / "counties-10m.json")
     county, state = [], []
     for arc, ids in sorted(owners(objects["counties"]).items()):
@@ -154,7 +154,7 @@ def united_states(directory):
 
 
 def polylines(path):
-    """The lines of a file NAME.L of R's package maps: longitude and latitude as floats in radians."""
+    """Returns the lines of a file NAME.L of R's package maps: longitude and latitude as floats in radians."""
     data = pathlib.Path(path).read_bytes()
     count = struct.unpack_from("<ii", data)[1]
     for index in range(count):
@@ -165,7 +165,7 @@ def polylines(path):
 
 
 def lakes_at_50m(path):
-    """The lakes of Natural Earth at 1:50 million; a ring within another is an island of it."""
+    """Returns the lakes of Natural Earth at 1:50 million. A ring within another ring is an island."""
     found = shapely.geometry.Polygon()
     for line in lines.joined(list(polylines(path))):
         if len(line) > 3 and line[0] == line[-1] and in_region(line):
@@ -178,7 +178,7 @@ def parts_of(shape):
 
 
 def lakes(options):
-    """Closed rings; water is to the left of them. Where the Census has the shore, it is the Census'."""
+    """Returns closed rings, with water to their left. Uses the Census' shore where it has one."""
     drawn = lakes_at_50m(pathlib.Path(options.r_maps) / "lakes.L")
     nation = joined_shape(polygons_of(pathlib.Path(options.us_atlas) / "nation-10m.json", "nation"))
     box = shapely.geometry.box(*GREAT_LAKES)

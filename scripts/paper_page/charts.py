@@ -44,7 +44,7 @@ class Chart:
 
 
 class LogAxis:
-    """From the power of ten below the least value to the one above the greatest."""
+    """Returns the range from the power of ten below the least value to the power above the greatest."""
     def __init__(self, values, begin, end):
         self.low = math.floor(math.log10(min(values)))
         self.high = max(math.ceil(math.log10(max(values))), self.low + 1)
@@ -70,7 +70,7 @@ def _grid_lines(chart, axis, label):
 
 
 def frame_rates(cells):
-    """cells: (volume, slices, paper, ours, best) in the order of the columns."""
+    """Draws cells: (volume, slices, paper, ours, best) in the order of the columns."""
     chart = Chart('Frames per second, 796 x 532', [('2008, Quadro FX 3500', PAPER), ('ours, the same way', OURS),
                                                    ('ours, the fastest way', BEST)])
     axis = LogAxis([v for cell in cells for v in cell[2:]] + [1.0], chart.height - BOTTOM, TOP)
@@ -92,7 +92,7 @@ def frame_rates(cells):
 
 
 def steps(cells):
-    """cells: (volume, slices, seconds to read, to prepare, to draw). One scale for each volume would hide their sizes."""
+    """Draws cells: (volume, slices, seconds to read, to prepare, to draw). All volumes share a scale, to show their sizes."""
     chart = Chart('Time of a frame by step, ours', [('read', THIRD), ('prepare', BEST), ('draw', OURS)])
     most_ms = 1000 * max(sum(cell[2:]) for cell in cells)
     unit = 10 ** math.floor(math.log10(most_ms))
@@ -121,7 +121,7 @@ def steps(cells):
 
 
 def machines(bars):
-    """bars: (name, frames per second, color), drawn from the left."""
+    """Draws bars from the left: (name, frames per second, color)."""
     height = TOP + 44 * len(bars) + 16
     chart = Chart('128x128x64, 256 slices: frames per second', [('2008', PAPER), ('ours, on its processor alone', OURS)], height)
     most = max(value for _, value, _ in bars)

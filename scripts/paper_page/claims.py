@@ -1,4 +1,4 @@
-"""The published system of 2008, claim by claim: every number of it that the page shows stands here, once.
+"""The claims of the published system of 2008, with every number of it that the page shows.
 
 A claim is judged by `how`:
   more, less   the ratio of our value to the paper's, or the other way round: more than 1.05 is beaten, 0.95 and more met
@@ -17,8 +17,8 @@ class Claim:
     text: str
     paper: str  # as the page shows it
     how: str
-    value: float | None = None  # the paper's, of more and less
-    unit: str = ''  # of ours; none where the page says it above the table
+    value: float | None = None  # the paper's number, for `more` and `less`
+    unit: str = ''  # of our number; none if the page gives it above the table
     why: str = ''
 
 

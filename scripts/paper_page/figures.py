@@ -10,12 +10,12 @@ HOURS = 5
 
 
 def known(value):
-    """A figure that a benchmark gives as null if nothing happened in its time."""
+    """Returns a figure of a benchmark, which is null if nothing happened in its time."""
     return 'unknown' if value is None else f'{value:.3g}'
 
 
 def feed(runs):
-    """The national feed; with --quick its first sites, ten times as fast, so that as much arrives in a second."""
+    """Runs the national feed; with --quick only its first sites, ten times as fast, so that as much arrives in a second."""
     words = ['--as', 'growing', '--threads', '2', '--work', runs.work / 'feed']
     if runs.quick:
         words += ['--sites', QUICK_SITES, '--speeds', '10 160', '--seconds', '10']
@@ -35,7 +35,7 @@ def feed(runs):
 
 
 def users(runs):
-    """Streams of events at the data server, which many people hold at the same time."""
+    """Measures many simultaneous streams of events at the data server."""
     words = ['--hour', '--work', runs.work / 'feed']
     if runs.quick:
         words += ['--sites', QUICK_SITES, '--seconds', '10']
@@ -50,8 +50,8 @@ def users(runs):
 
 
 def sites(runs):
-    """Figure 8. Returns results and the chart. With --quick one of the five hours runs, and the minutes are five times it; and
-    rows are left out whose numbers of the paper cannot be compared."""
+    """Runs figure 8. Returns results and the chart. With --quick it runs one of the five hours and multiplies its minutes by five, and
+    leaves out rows whose numbers cannot be compared with the paper's."""
     hours = 1 if runs.quick else HOURS
     scale = HOURS / hours
     counts = QUICK_ROWS if runs.quick else SITES
@@ -80,7 +80,7 @@ def sites(runs):
 
 
 def rates(runs):
-    """Table 1, figures 6 and 7. Returns results and the three charts."""
+    """Runs table 1 and figures 6 and 7. Returns results and the three charts."""
     rows = runs.bench('bench_render', '--threads', '2', '--runs', '1' if runs.quick else '4')
     like, best = {}, {}
     for row in rows:

@@ -1,4 +1,4 @@
-"""Does what the published system did, with the programs of the build. Each function returns results by the number of their claim."""
+"""Does the published system's operations with the programs of the build. Each function returns results by the number of their claim."""
 import gzip
 import json
 import re
@@ -18,7 +18,7 @@ OTHER_STATION = 'KTLX19990503_235621.gz'
 
 
 def access(runs):
-    """A daemon takes volumes of two stations in and keeps its cache small; then a RadarSet and the data server give them out."""
+    """Ingests volumes of two stations with a small cache, and then reads them by RadarSet and the data server."""
     root = runs.in_place('service')
     volumes = sorted((runs.data / 'sequence-kbgm').iterdir())
     other = runs.data / 'volumes' / OTHER_STATION
@@ -27,7 +27,7 @@ def access(runs):
     with Daemon(runs, root, budget_mib) as daemon:
         runs.run('stormcellar', 'replay', runs.data / 'sequence-kbgm', other, root / 'drop', '--as', 'growing',
                  '--interval', '0.1')
-        # A file whose grid is older than all that the cache keeps is not_kept; the catalog has it.
+        # A file whose grid is older than all grids of a full cache is not_kept, but cataloged.
         status = daemon.wait_for(lambda one: one['ingested'] + one['not_kept'] >= sent
                                  and one['pending']['waiting'] + one['pending']['running'] == 0)
     kept = [path for path in (root / 'cache').rglob('*.scg') if path.is_file()]
@@ -44,7 +44,7 @@ def access(runs):
 
 
 def radar_set(runs, catalog, volumes):
-    """The four operations, by docs/examples/radar_set.cpp; by the command line if it was not built."""
+    """Does the four operations by docs/examples/radar_set.cpp, or by the command line if that was not built."""
     names = [volume.name for volume in volumes]
     out = runs.in_place('files')
     runs.run('stormcellar', 'catalog', 'get', '--catalog', catalog, '--station', 'KBGM', '-o', out)
@@ -73,7 +73,7 @@ def radar_set(runs, catalog, volumes):
 
 
 def server(runs, config, volumes):
-    """The data server over the daemon's catalog and cache."""
+    """Tests the data server on the daemon's catalog and cache."""
     with Server(runs, '--config', config) as web:
         thredds = '/thredds/radarServer/nexrad/level2/IDD'
         query = urllib.parse.urlencode({'stn': 'KBGM', 'time_start': DAY[0][:-1], 'time_end': DAY[1][:-1]})
@@ -93,10 +93,10 @@ def server(runs, config, volumes):
 
 
 def grids(runs):
-    """The grid of seven neighbors, in time, and as a batch of jobs."""
+    """Makes a grid of seven neighbors, between volumes, and as a batch of jobs."""
     northeast = runs.data / 'mosaic-northeast'
     count = len(list(northeast.iterdir()))
-    # Levels that grow apart: 128 of them, up to 16 km.
+    # Use 128 levels up to 16 km, with growing distances.
     levels = ','.join(f'{16 * ((k + 1) / 128)**1.5:.3f}' for k in range(128))
     out, _ = runs.run('stormcellar', 'grid', northeast, '-o', runs.work / 'mean.nc', '--overlap', 'mean', '--extent-km',
                       '1280,1280', '--spacing-km', '5', '--levels-km', levels, '--json')
@@ -125,7 +125,7 @@ def batch(runs, northeast, count):
 
 
 def pictures(runs):
-    """Pictures in the paper's view, a day as a loop, and answers from the cache."""
+    """Draws pictures in the paper's view, a day as a loop, and answers from the cache."""
     out, _ = runs.run('stormcellar', 'frame', runs.data / 'volumes' / OTHER_STATION, '--scene', SCENE, '--zoom', '1.6',
                       '-o', runs.work / 'paper-scene.webp', '--json')
     facts = json.loads(out)
@@ -143,7 +143,7 @@ def pictures(runs):
 
 
 def day(runs):
-    """24 hours of a simulated station: a volume every five minutes, with --quick every four hours."""
+    """Simulates 24 hours of a station: a volume every five minutes, with --quick every four hours."""
     count, interval_s = (6, 14400) if runs.quick else (288, 300)
     text = Path('scenes/moving-storm.toml').read_text()
     for key, value in (('count', count), ('interval_s', interval_s), ('velocity_mps', '[1.5, 1.2]')):
@@ -157,7 +157,7 @@ def day(runs):
 
 
 def answers(runs):
-    """A picture of a raw file, and of a grid in a cache; and a grid with more cells than the paper's largest."""
+    """Draws a raw file and a cached grid, and makes a grid with more cells than the paper's largest."""
     file, cache = runs.data / 'volumes' / SITE_VOLUME, runs.work / 'answers'
     runs.run('stormcellar', 'loop', file, '--cache', cache, '-o', runs.work / 'one.webp')
     raw_s, kept_s = [], []
@@ -177,10 +177,11 @@ def answers(runs):
 
 
 def bad_files(runs):
-    """A real file whose message 5 says that -1 sweeps follow, and one that says -32768."""
+    """Reads real files whose message 5 is changed to announce -1 and -32768 sweeps."""
     name = 'KOKX20080109_141449.gz'
     raw = bytearray(gzip.decompress((runs.data / 'volumes' / name).read_bytes()))
-    # Messages of metadata fill frames of 2,432 bytes behind the header of 24: 12 bytes, then size, channel and type.
+    # After the header of 24 bytes, messages of metadata fill frames of 2,432 bytes: 12 bytes, then size, channel and
+    # type.
     frame = next((at for at in range(24, len(raw), 2432) if raw[at + 15] == 5), None)
     if frame is None:
         raise Failed(f'{name} has no message 5')
@@ -200,7 +201,7 @@ def bad_files(runs):
 
 
 def browser(runs):
-    """The page in Chromium, where it is installed; not with --quick."""
+    """Tests the page in Chromium if it is installed, except with --quick."""
     if runs.quick:
         return {'8.3': Ours(text='not with --quick; see `scripts/bench-viewer`')}
     if not (shutil.which('chromium') and shutil.which('node') and shutil.which('curl')):

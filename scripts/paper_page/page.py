@@ -1,4 +1,4 @@
-"""Writes the page from claims and what a run gave, and checks a page."""
+"""Writes the page from the claims and the results of a run, and checks a page."""
 import math
 import re
 import textwrap
@@ -13,14 +13,14 @@ WIDTH = 128
 
 @dataclass
 class Ours:
-    """What a run gave for a claim: a value for more and less, else whether it does (None: nobody tried)."""
+    """The result for a claim: a value for `more` and `less`, else True or False (None: not tried)."""
     value: float | None = None
     does: bool | None = None
     text: str = ''
 
 
 def shown(value):
-    """A number with three digits, as the page has it."""
+    """Returns a number with three digits, as on the page."""
     if abs(value) >= 1000:
         return f'{value:.0f}'
     return f'{value:.3g}'
@@ -39,13 +39,13 @@ def status_of_ratio(ratio):
 
 
 def status_of_value(claim, text):
-    """The status of a number of ours as the page has it, with its ratio."""
+    """Returns the status of our number as on the page, with its ratio."""
     ratio = shown(ratio_of(claim, float(text)))
     return f'{status_of_ratio(float(ratio))} ({ratio})'
 
 
 def cells_of(claim, ours, facts):
-    """The cells `now` and `status` of a row."""
+    """Returns the cells `now` and `status` of a row."""
     if claim.how == 'none':
         return ours.text or NOTHING, CANNOT + claim.why.format(**facts)
     if claim.how in ('more', 'less'):
@@ -72,7 +72,7 @@ def table_of(section, results, facts):
 
 
 def rows_of(text):
-    """The rows of a page: lists of cells by the number of their claim."""
+    """Returns the rows of a page: lists of cells by the number of their claim."""
     rows = {}
     for line in text.splitlines():
         if re.match(r'\| \d+\.\d+ \|', line):
@@ -82,7 +82,7 @@ def rows_of(text):
 
 
 def expected_status(claim, now):
-    """What the status must be, or begin with, by what stands in the row."""
+    """Returns the status, or its beginning, that follows from the other cells of the row."""
     if claim.how == 'none' or now == NOTHING:
         return CANNOT
     if claim.how in ('more', 'less'):
@@ -92,7 +92,7 @@ def expected_status(claim, now):
 
 
 def faults_of(text):
-    """What is wrong with a page: claims that are missing or stand twice, numbers and statuses that are false."""
+    """Returns the faults of a page: missing or repeated claims, false numbers and statuses."""
     faults = []
     rows = rows_of(text)
     for number in rows:
@@ -125,7 +125,7 @@ def counts_of(text):
 
 
 def contradictions():
-    """What in the numbers of figure 8 does not follow from each other."""
+    """Returns the numbers of figure 8 that contradict each other."""
     def value(number):
         return BY_NUMBER[number].value
     sequence, parallel = value('4.3'), value('4.4')
@@ -142,13 +142,13 @@ def paragraph(text):
 
 
 def command_lines(command):
-    """A command as a shell takes it, in lines of the page's width."""
+    """Returns a shell command in lines of the page's width."""
     lines = textwrap.wrap(command, WIDTH - 2, subsequent_indent='    ', break_long_words=False, break_on_hyphens=False)
     return [*(line + ' \\' for line in lines[:-1]), lines[-1]]
 
 
 def page(results, commands, facts, pictures, mode):
-    """The page. `commands`: as a reader types them, by section. `pictures`: the folder of the pictures, with a slash."""
+    """Returns the page. `commands`: as a reader types them, by section. `pictures`: the folder of the pictures, with a slash."""
     body = []
     for section, title in SECTIONS.items():
         introduction = [*paragraph(facts['before'][section]), ''] if section in facts['before'] else []

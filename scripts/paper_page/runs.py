@@ -1,4 +1,4 @@
-"""Runs the programs of a build and remembers what was run, for the page."""
+"""Runs the programs of a build and remembers their commands for the page."""
 import json
 import shutil
 import subprocess
@@ -7,22 +7,22 @@ import time
 from pathlib import Path
 
 
-BENCH_WORDS = ' --data ../shared/data --json'  # of every benchmark; the page says it once
+BENCH_WORDS = ' --data ../shared/data --json'  # for every benchmark; the page shows them once
 
 
 class Failed(Exception):
-    """A command did not do what it should; the page says so in the rows that needed it."""
+    """A command failed; the page reports it in the rows that need the command."""
 
 
 class Runs:
     def __init__(self, build, data, work, quick):
         self.build, self.data, self.work, self.quick = build, data, work, quick
         self.section = ''
-        self.commands = {}  # by section: as a reader types them, each once
+        self.commands = {}  # by section; as a reader types them, without repeats
         self.machine = None
 
     def program(self, name):
-        """A program of the build; none if it was not built."""
+        """Returns the path of a program of the build; None if it was not built."""
         for folder in ('cli', 'daemon', 'bench'):
             path = self.build / folder / name
             if path.is_file():
@@ -30,7 +30,7 @@ class Runs:
         return None
 
     def shown(self, words):
-        """A command as a reader types it: without the paths of this machine, and without the middle of long words."""
+        """Returns a command for a reader: without paths of this machine, and without the middle of long words."""
         places = ((f'{self.build}/cli/', ''), (f'{self.build}/daemon/', ''), (f'{self.build}/bench/', ''), (f'{self.build}', 'BUILD'),
                   (str(self.data), '../shared/data'), (f'{self.work}/', ''), (f'{Path.cwd()}/', ''))
         shown = []
@@ -43,13 +43,13 @@ class Runs:
         return ' '.join(shown)
 
     def note(self, words):
-        """Puts a command on the page."""
+        """Adds a command to the page."""
         commands, text = self.commands.setdefault(self.section, []), self.shown(words).removesuffix(BENCH_WORDS)
         if text not in commands:
             commands.append(text)
 
     def run(self, name, *words, timeout_s=7200):
-        """Returns (standard output, seconds) of a program of the build or of the system."""
+        """Runs a program of the build or of the system. Returns (standard output, seconds)."""
         program = self.program(name) or shutil.which(name)
         if not program:
             raise Failed(f'{name} is not there')
@@ -66,7 +66,7 @@ class Runs:
         return done.stdout, seconds
 
     def bench(self, name, *words):
-        """Returns the rows of a benchmark."""
+        """Runs a benchmark. Returns its rows."""
         out, _ = self.run(name, *words, '--data', self.data, '--json')
         said = json.loads(out)
         self.machine = self.machine or said['machine']

@@ -1,4 +1,4 @@
-"""The daemon and the data server, for as long as the page needs them."""
+"""Runs the daemon and the data server while the page needs them."""
 import json
 import re
 import subprocess
@@ -21,7 +21,7 @@ def stop(process):
 
 
 class Daemon:
-    """stormcellard over drop, state and cache below a directory, with a cache of so many MiB."""
+    """Runs stormcellard with drop, state and cache below a directory. `cache_mib` limits its cache."""
     def __init__(self, runs, root, cache_mib):
         self.root, self.config = root, root / 'stormcellard.toml'
         (root / 'drop').mkdir()
@@ -61,7 +61,7 @@ class Daemon:
 
 
 class Server:
-    """stormcellar serve, at a port that it chooses."""
+    """Runs stormcellar serve at a port that it chooses."""
     def __init__(self, runs, *words):
         command = [runs.program('stormcellar'), 'serve', *map(str, words), '--listen', '127.0.0.1:0']
         runs.note(command)
@@ -84,7 +84,7 @@ class Server:
         stop(self.process)
 
     def get(self, path):
-        """The bytes at a path; none if the server refuses it."""
+        """Returns the bytes at a path; None if the server refuses it."""
         try:
             with urllib.request.urlopen(self.address + path, timeout=30) as answer:
                 return answer.read()
