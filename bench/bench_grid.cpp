@@ -1,4 +1,4 @@
-// bench_grid: compares the cost of gridding with that of decompression alone.
+// bench_grid: compares the time of gridding with the time of decompression alone.
 //
 // usage: bench_grid [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
 //   (bench/request.h; every real volume in LDM records, unless files are named)

@@ -35,7 +35,7 @@ void refuse_empty(CLI::App& command) {
 }
 
 // Returns the first subcommand typed, if it can run or explain itself without the others. Setting
-// up the options of all commands takes ten times as long as those of one.
+// up all commands takes ten times as long as setting up one.
 const Subcommand* only_command(int argc, char** argv) {
     const Subcommand* const typed = argc < 2 ? nullptr : find_subcommand(argv[1]);
     return typed != find_subcommand("help") ? typed : nullptr;

@@ -20,8 +20,8 @@ using grid::SourceVolume;
 // apply_site(); not_found if the position of the radar is unknown.
 [[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
                                                const ChooseCuts& choose_cuts = {});
-// Does the same for the bytes of a file in memory; `file` is its name. If it has several volumes,
-// the one that begins at `start` is used.
+// Does the same for the bytes of a file in memory; `file` is its name. If the file has several
+// volumes, uses the volume that begins at `start`.
 [[nodiscard]] Result<SourceVolume> decode_volume(std::span<const std::byte> bytes,
                                                  const std::string& file,
                                                  const GridRequest& request, UtcTime start,

@@ -3,8 +3,8 @@
 //
 // The volume is gridded with the defaults of `stormcellar grid` and drawn with the defaults of
 // `stormcellar frame`: 796 x 532 pixels, the default view, the colors of the moment. The rows of
-// light are for a picture with all kinds of light; the other rows are for one without light. Times
-// are the smallest of the rounds; each round makes everything anew.
+// light are for a picture with all kinds of light, the other rows for a picture without light.
+// Times are the smallest of the rounds; each round makes everything anew.
 #pragma once
 
 #include <functional>

@@ -98,7 +98,7 @@ Kept kept_of_arguments(const CommandReference& command) {
     return Kept::files;
 }
 
-// What the shells offer for values that no list can name. The word is that of --complete.
+// An offer for values that no list can name. `word` is the argument of --complete.
 struct KeptOffer {
     Kept kept = Kept::nowhere;
     std::string_view word, zsh, fish;

@@ -1,4 +1,4 @@
-// cli/shared/paint.h -- color in the text of a terminal, so that trouble stands out.
+// cli/shared/paint.h -- colors trouble in text for a terminal.
 //
 // Thread contract: pure but for paint_for(), which reads the environment.
 #pragma once

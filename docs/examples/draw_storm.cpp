@@ -22,9 +22,9 @@ Result<grid::Grid> grid_file(const char* path) {
     if (!antenna) return tl::unexpected(Error{ErrorCode::not_found, "the site is not known"});
     const grid::SitePosition site{decoded->volume.station, antenna->latitude_deg,
                                   antenna->longitude_deg, antenna->altitude_m};
-    // 460 x 460 x 32 cells of 1 km about the site. Everything about the cells is in the spec.
+    // Make 460 x 460 x 32 cells of 1 km about the site. The spec describes all cells.
     const auto spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
-    // The geometry belongs to a site and a spec. Keep it: the next volume needs the same one.
+    // The geometry depends on site and spec. Keep it for the next volume.
     const auto geometry = grid::make_column_geometry(site, spec);
     if (!geometry) return tl::unexpected(geometry.error());
     return grid::make_grid(decoded->volume, site, **geometry, grid::GridderOptions{});
@@ -34,7 +34,7 @@ struct Column {
     int ix = 0, iy = 0;
 };
 
-// Every cell has one of four states, and only one of them has a value.
+// Every cell has one of four states. Only cells in the state `value` have a value.
 Column strongest_column(const grid::Grid& grid) {
     Column strongest;
     float greatest_dbz = -100;
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s\n", grid.error().message.c_str());
         return 1;
     }
-    // Pictures and grid files hold cells as codes in bricks.
+    // Pictures and grid files need the cells as codes in bricks.
     const auto bricks =
         grid::BrickGrid::from(*grid, grid::default_quantization(level2::Moment::ref));
     print_column(bricks.view(), strongest_column(*grid));

@@ -8,7 +8,7 @@ using namespace stormcellar;
 
 namespace {
 
-// buildDataList, getOldestFileName, getRadarFile and readRadar, one after another.
+// Calls buildDataList, getOldestFileName, getRadarFile and readRadar, one after another.
 Status use(const catalog::RadarSet& radar, UtcTime from, UtcTime to) {
     const auto oldest = radar.oldest_file_name();
     if (!oldest) return tl::unexpected(oldest.error());
@@ -17,7 +17,7 @@ Status use(const catalog::RadarSet& radar, UtcTime from, UtcTime to) {
     std::printf("%s  oldest file %s, in the period %zu\n", radar.station().c_str(), oldest->c_str(),
                 names->size());
     for (const std::string& name : *names) {
-        // The bytes as they arrived: compressed, if they were.
+        // These are the bytes as they arrived, compressed or not.
         const auto bytes = radar.radar_file(name);
         if (!bytes) return tl::unexpected(bytes.error());
         const auto decoded = radar.read_radar(name);
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s\n", (from ? to : from).error().message.c_str());
         return 2;
     }
-    // One object for each station.
+    // There is one object for each station.
     const auto radars = catalog::RadarSet::open_all(argv[1]);
     if (!radars) {
         std::fprintf(stderr, "%s\n", radars.error().message.c_str());

@@ -1,4 +1,4 @@
-// Reads a Level II file and says where the strongest echo of each sweep is.
+// Reads a Level II file and prints the place of the strongest echo of each sweep.
 #include <cstdio>
 
 #include <stormcellar/level2/decode.h>

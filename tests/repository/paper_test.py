@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""docs/paper.md holds each number of the published system once, with a status that its values bear out."""
+"""Tests that docs/paper.md has each number of the published system once, with a status that follows from the values."""
 import re
 import subprocess
 import sys
@@ -16,7 +16,7 @@ FACTS = {'cores': 2, 'most_gain': 100, 'machine': 'none', 'notes': [], 'charts':
 
 
 def made_page(values):
-    """A page with these values of ours; every other claim is one that nobody tried."""
+    """Returns a page with these values of ours; every other claim counts as not tried."""
     return page(values, {'1': ['command']}, FACTS, '', '')
 
 
@@ -24,7 +24,7 @@ class ThePage(unittest.TestCase):
     text = (ROOT / 'docs/paper.md').read_text()
 
     def faults_with(self, number, cell, text):
-        """What is wrong once a cell of a row says something else."""
+        """Returns the faults of the page after a cell of a row is changed."""
         row = next(line for line in self.text.splitlines() if line.startswith(f'| {number} |'))
         cells = row.split(' | ')
         cells[cell] = text
@@ -96,7 +96,7 @@ class Statuses(unittest.TestCase):
 
 
 class TheTable(unittest.TestCase):
-    """The benchmarks know some of the numbers, too."""
+    """Tests that the benchmarks have the same numbers."""
     def test_is_that_of_bench_render(self):
         text = (ROOT / 'bench/bench_render.cpp').read_text()
         for column, volume in enumerate(VOLUMES):
