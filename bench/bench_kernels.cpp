@@ -6,7 +6,7 @@
 //   group    "volume FILE" (decompresses only the LDM records, or decodes the whole file) or
 //            "columns PROJECTION" (computes the geometry of 512 x 512 columns 120 km from the site;
 //            left out if files are named)
-//   way      how
+//   way      name of the way
 //   ms       least time of the runs
 //   ratio    time of the group's first way divided by this time
 // The first way for a volume is libbz2 on one thread, one record after another. All other ways of

@@ -11,7 +11,7 @@
 //   requests_per_s  answers a second
 //   mb_per_s        bytes of the answers, with headers
 //   p50_ms, p99_ms  from the request to the end of the answer
-//   cpu_cores       of the server
+//   cpu_cores       CPU time of the server divided by wall time
 //   peak_mib        resident memory of the server since its start
 //   failed          requests without an answer or with an error
 //   of_nginx        requests_per_s divided by that of nginx in the previous row; "-" without such a

@@ -120,7 +120,7 @@ void stamp_messages(std::span<std::byte> messages, const Station& station,
 }
 
 Bytes compressed(Bytes& messages) {
-    // libbz2's own bound on the size of its output.
+    // Use libbz2's bound on the size of its output.
     Bytes stream(messages.size() + messages.size() / 100 + 600);
     auto length = static_cast<unsigned>(stream.size());
     const int code = BZ2_bzBuffToBuffCompress(reinterpret_cast<char*>(stream.data()), &length,

@@ -24,9 +24,10 @@ struct PoolJob {
     int threads = 1;
 };
 
-// Runs the tasks in their order. Once `stop` is set, no further task begins, and running ones are
-// told to end. After each task that has ended for good, `done` is called with the number of such
-// tasks. Returns the tasks that failed.
+// Runs the tasks in their order. Once `stop` is set, no further task begins; the signal that sets
+// it also sends SIGTERM to the running ones. Calls `done` with the number of ended tasks after each
+// task that is not tried again. Returns the tasks that failed, without those that did not begin.
+// After an error, running tasks go on.
 [[nodiscard]] Result<std::vector<std::size_t>> run_pool(
     const PoolJob& job, const std::vector<std::size_t>& tasks, const std::atomic<bool>& stop,
     const std::function<void(std::size_t done)>& done);

@@ -1,7 +1,7 @@
 // cli/grid/grid_notes.h -- remarks of `stormcellar grid` and `accuracy` on stderr about work that
 // succeeded.
 //
-// Each function returns a line without its line end, or none if there is nothing to report.
+// A note is a line without its line end. A function returns none if there is nothing to report.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once

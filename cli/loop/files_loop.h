@@ -1,5 +1,4 @@
-// cli/loop/files_loop.h -- makes loops of raw files: catalogs the files, so that `loop` can use the
-// catalog as that of an archive.
+// cli/loop/files_loop.h -- catalogs raw files, so that `loop` can draw them like an archive.
 //
 // The catalog is below --cache, or beside the private caches (pipeline/care/archive_plan.h). Its
 // name has a hash of the directories of the files. Files that have not changed since they were

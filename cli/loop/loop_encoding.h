@@ -30,7 +30,7 @@ class Encoding {
     Status add(render::Image frame);
     // Waits for the last frame and finishes each file. Stops before the next file if `stop` is set.
     Status finish(const std::atomic<bool>& stop);
-    // Returns the sum over the writers. Call it after finish().
+    // Returns the seconds of encoding, summed over the writers. Call it after finish().
     [[nodiscard]] double encode_s() const { return encode_s_; }
 
   private:

@@ -45,7 +45,7 @@ TEST_F(Ppi, SaysWhichSweepsThereAre) {
 
 // The sweeps and radials that a truncated file still holds are drawn.
 TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
-    // A third of the first sweep: the radials from the west to the northeast.
+    // The file has a third of the first sweep: the radials from the west to the northeast.
     const std::string begun = cut_volume("KLBB20160601_150025_V06", 400'000);
     const auto north = probe({begun, "--probe-at", "34.5,-101.8"});
     EXPECT_TRUE(north["partial"].get<bool>());

@@ -1,4 +1,4 @@
-// tests/testing/text_bytes.h -- the bytes of a text.
+// tests/testing/text_bytes.h -- converts a text to bytes.
 #pragma once
 
 #include <cstddef>
