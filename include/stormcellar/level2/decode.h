@@ -3,14 +3,15 @@
 // The decoder recognizes containers by content, never by name, and peels them in a loop: gzip,
 // bzip2 or .Z around the whole file, then a 24-byte header or none, then LDM bzip2 records, or
 // plain 2432-byte frames and messages 31. The input is hostile, so every length is bounded before
-// it is used. The decoder keeps whole parts and lists the rest in the report. It never makes up a
-// sweep and never returns half a radial.
+// it is used. The decoder keeps what is whole and lists the damage in the report. It never makes up
+// a sweep and never returns half a radial.
 //
 // Units     Those of stormcellar/level2/volume.h; limits are in bytes.
 // Threads   Pure functions. decode() may use `threads` threads of its own.
 // Errors    empty: there are no bytes. not_level2: nothing was recognized. corrupt or truncated:
 //           the input was recognized, but neither a whole radial nor metadata could be read.
-//           unsupported: a limit on the output was exceeded. exhausted: there is no more memory.
+//           unsupported: the input exceeds a limit on output, layers of compression or records.
+//           exhausted: there is no more memory.
 #pragma once
 
 #include <cstddef>
@@ -26,21 +27,21 @@
 
 namespace stormcellar::level2 {
 
-// A file whose content is compressed twice is held in memory as a whole, up to this size. No known
-// volume comes near it.
+// Largest compressed content inside another compressed layer, such as LDM records inside gzip. The
+// decoder holds it in memory as a whole. No known volume comes near this size.
 inline constexpr std::size_t most_packed_bytes = std::size_t{64} << 20;
 
 struct DecodeOptions {
     int threads = 1;
-    // Limits the decompressed messages. Only a few of them are held at a time.
+    // Limits the bytes of all decompressed messages. Memory holds only a few messages at a time.
     std::uint64_t output_limit_bytes = std::uint64_t{512} << 20;
-    // Limits the arrays that are made from the messages; 0: output_limit_bytes.
+    // Limits the arrays made from the messages; 0: the same as output_limit_bytes.
     std::uint64_t array_limit_bytes = 0;
     [[nodiscard]] std::uint64_t most_array_bytes() const {
         return array_limit_bytes == 0 ? output_limit_bytes : array_limit_bytes;
     }
-    // Limits the open sweep of a growing volume; 0: no separate limit. It is checked after each
-    // record. Beyond it, appending fails with over_budget.
+    // Limits the open sweep of a growing volume; 0: no separate limit. GrowingVolume checks it
+    // after each record and fails with over_budget beyond it.
     std::uint64_t open_sweep_limit_bytes = 0;
     // Arrays are made only for these moments and cuts. A cut that is not selected gives no sweep.
     Selection selection;
@@ -51,16 +52,16 @@ struct DecodeOptions {
 [[nodiscard]] Result<Decoded> decode(std::span<const std::byte> bytes,
                                      const DecodeOptions& options = {});
 
-// Reads and decodes a file. If the file does not name its station, the first four characters of its
-// name do, provided that the station table knows them. Error messages begin with the path. Errors:
-// those of read_file() and of decode().
+// Reads and decodes a file. If the content does not name the station, the first four characters of
+// the file name give it, provided that the station table knows them. Error messages begin with the
+// path. Errors: as for read_file() and decode().
 [[nodiscard]] Result<Decoded> decode_file(const std::filesystem::path& path,
                                           const DecodeOptions& options = {});
 
 // Splits the result for a file that holds several volumes; an ordinary file gives one element. Each
-// volume has its own sweeps; the volume block and the VCP are repeated. A further volume has its
-// own header if the file holds one. Otherwise it gets the first header with the time of its own
-// first radial, because the start time names a volume.
+// volume has its own sweeps and pattern, and a copy of the volume block. A further volume has its
+// own header if the file holds one. Otherwise it gets a copy of the first header with the time of
+// its own first radial, because the start time names a volume.
 [[nodiscard]] std::vector<Volume> split_volumes(Decoded decoded);
 
 }  // namespace stormcellar::level2

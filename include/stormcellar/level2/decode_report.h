@@ -25,16 +25,17 @@ struct Problem {
     Severity severity = Severity::warning;
     std::string code;     // short and stable, e.g. "truncated_record"
     std::string message;  // one line for a person
-    // An offset in the message stream after the 24-byte header. For a damaged container, an offset
-    // in the file.
+    // Offset in the message stream, counted after the 24-byte header; for a damaged container,
+    // offset in the file.
     std::optional<std::uint64_t> offset;
     std::optional<std::uint64_t> ldm_record;  // the bad record; counts from 1
-    // Number of messages with this problem, if it is reported once for many. Then offset and record
-    // are those of the first message. 0: the problem is reported for one place.
+    // Number of messages with this problem, if one Problem stands for many. Then `offset` and
+    // `ldm_record` belong to the first message. 0: the Problem describes one place.
     std::uint64_t count = 0;
-    std::uint64_t dropped_bytes = 0;  // by all these messages together
+    std::uint64_t dropped_bytes = 0;  // of all these messages together
 
-    // Returns the message, with the number of its record before it and the count after it.
+    // Returns `message` with the record number before it, and the dropped bytes and the count after
+    // it.
     [[nodiscard]] std::string text() const;
 };
 
@@ -49,9 +50,9 @@ struct DecodeReport {
     static constexpr std::size_t max_problems = 100;
     std::uint64_t problems_left_out = 0;
     std::uint64_t errors = 0;  // number of problems of that severity, listed or not
-    // The first place at which a message was due and none was found, as in the golden files. It is
-    // none for an undamaged stream. The bytes dropped there may begin earlier; the problem has that
-    // offset.
+    // First place where the decoder expected a message and found none; none for an undamaged
+    // stream. The golden files use the same definition. The dropped bytes may begin earlier; the
+    // Problem has the offset of the first dropped byte.
     struct Corruption {
         std::uint64_t offset = 0;
         std::string reason;
@@ -61,14 +62,16 @@ struct DecodeReport {
     // nothing is missing, and up to that radial nothing was dropped and no problem is an error.
     // Bytes after that radial do not count.
     bool complete = false;
-    bool damaged = false;               // before the last radial, something was dropped or is wrong
+    // True if a problem before the last radial is an error, a chunk is missing, or the checksum of
+    // the gzip layer is wrong.
+    bool damaged = false;
     std::uint64_t sweeps_left_out = 0;  // sweeps of cuts that are not selected
-    // records of such sweeps that were not decompressed; offsets do not count them
+    // records of such sweeps that were skipped unread; offsets do not count their bytes
     std::uint64_t records_skipped = 0;
     // The sweep indices at which further volumes begin. A volume begins at a start-of-volume radial
-    // and after a second header. If time goes on, it also begins where the elevation number falls,
-    // and where it does not rise after an end of volume. Volume 0 begins at sweep 0. If a selection
-    // leaves no sweep of a volume, that volume has the same start as the next one.
+    // and after a second header. While time goes forward, a volume also begins where the elevation
+    // number falls, and where it does not rise after an end of volume. Volume 0 begins at sweep 0.
+    // If a selection leaves no sweep of a volume, that volume has the same start as the next one.
     std::vector<std::size_t> further_volume_starts;
     // The 24-byte headers found inside the stream, each with the sweep that follows it.
     struct FurtherHeader {
@@ -77,7 +80,8 @@ struct DecodeReport {
         std::size_t start = 0;  // index of its volume in further_volume_starts
     };
     std::vector<FurtherHeader> further_headers;
-    // The pattern of each further volume, in order. The Volume itself has the pattern of the first.
+    // The pattern of each further volume, in order. The Volume itself has the pattern of the first
+    // volume.
     struct FurtherPattern {
         std::size_t sweep = 0;
         std::optional<Vcp> message;
@@ -88,7 +92,7 @@ struct DecodeReport {
     std::string message_station;  // ICAO in message 31; empty if it has none
     // for message 31: radials by compression indicator
     std::map<int, std::uint64_t> radial_compression;
-    std::optional<RdaStatus> rda_status;  // the last message 2
+    std::optional<RdaStatus> rda_status;  // from the last message 2
     double decompress_s = 0;              // CPU seconds of decompression, summed over all threads
 };
 

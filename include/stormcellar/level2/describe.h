@@ -1,10 +1,9 @@
-// stormcellar/level2/describe.h -- describes a decoded file as facts: the output of `stormcellar
-// info --json`.
+// stormcellar/level2/describe.h -- describes a decoded file as JSON, for `stormcellar info --json`.
 //
-// The names of fields are those of the reference descriptions beside the real volumes
-// (data/golden), with which tests/level2/golden_test.cpp compares the result. "problems" holds the
-// problems of the report. If moments of one name differ in geometry inside a sweep, they are
-// described together, with their codes in the order of the radials.
+// The fields have the names used in the reference descriptions of the real volumes (data/golden);
+// tests/level2/golden_test.cpp compares the two. "problems" holds the problems of the report. If
+// moments of one name differ in geometry inside a sweep, they are described together, with their
+// codes in the order of the radials.
 //
 // Threads   Pure functions.
 // Errors    None.
@@ -25,8 +24,8 @@ struct FileFacts {
     std::uint64_t size = 0;
 };
 
-// Describes a file. Strings are copied from the file as they are; the caller must expect text that
-// is not UTF-8 when it writes the JSON.
+// Describes a file. Strings are copied from the file unchanged, so they may not be UTF-8; the
+// caller must allow for that when it writes the JSON.
 [[nodiscard]] nlohmann::ordered_json describe(const Decoded& decoded, const FileFacts& file);
 
 // Describes one element of the array "sweeps".

@@ -1,27 +1,26 @@
 // stormcellar/level2/encode.h -- encodes a Volume as the bytes of a Level II file.
 //
 // encode() writes an Archive II file as the RDA would send it. A 24-byte header is followed by a
-// metadata record of 134 frames with messages 5 and 2 at their places. The frames of clutter maps
-// and adaptation data stay empty, as in files of TDWRs: a Volume does not hold these data, and they
-// are not made up. Then come LDM bzip2 records of up to 120 radials (message 1: 100), none of which
-// spans two sweeps; the last control word is negative. Sweeps of message 31 are written as message
-// 31, those of message 1 as message 1.
+// metadata record of 134 frames with messages 5 and 2 at their usual places. The frames of clutter
+// maps and adaptation data stay empty, as in files of TDWRs, because a Volume does not hold these
+// data. Then come LDM bzip2 records of up to 120 radials (message 1: 100), none of which spans two
+// sweeps; the last control word is negative. Each sweep is written as the message type that it came
+// from, 31 or 1.
 //
-// decode(encode(v)) gives v to the bit. The decoder reads each record that encode() makes, and
-// encode() refuses a volume of which anything would be lost, rounded, joined or split. The bytes do
-// not hold two facts. One is that a volume had no header: it gets one, AR2V0006.001 or
-// AR2V0001.001, with the time of the first radial. The other is the station, if there are neither
-// radials of message 31 nor an ICAO in the header. The decoder then needs the station as its
-// fallback.
+// decode(encode(v)) gives v to the bit. encode() decodes each record that it makes, and refuses a
+// volume in which anything would be lost, rounded, joined or split. There are two exceptions. A
+// volume without a header gets the header AR2V0006.001 or AR2V0001.001 with the time of the first
+// radial. A volume without radials of message 31 and without an ICAO in the header loses its
+// station; the decoder then needs it as its fallback.
 //
 // Units     Those of stormcellar/level2/volume.h.
 // Memory    A second copy of the volume.
 // Threads   Pure functions.
-// Errors    bad_argument for a volume that would not come back; the message names the part, with
-//           indices from 0. Such volumes include numbers between the steps of a field (Nyquist
-//           velocity 0.01 m/s, unambiguous range 100 m, thresholds 0.1 and 0.125 dB, elevation of a
-//           cut 180/32768 degrees), several patterns, codes beyond the gates of a row, and volumes
-//           beyond the limits of decode().
+// Errors    bad_argument for a volume that decode() would not return unchanged; the message names
+//           the part, with indices from 0. Such volumes have numbers between the steps of a field
+//           (Nyquist velocity 0.01 m/s, unambiguous range 100 m, thresholds 0.1 and 0.125 dB,
+//           elevation of a cut 180/32768 degrees), several patterns, codes beyond the gates of a
+//           row, or more data than decode() allows. bad_argument also for options out of range.
 // Source    ICD 2620002W tables II, III, IV, XI, XVII; ICD 2620010 section 7.
 #pragma once
 
@@ -51,15 +50,15 @@ struct EncodedVolume {
     std::vector<EncodedRecord> records;
 
     [[nodiscard]] std::vector<std::byte> joined() const;  // header and records: a whole file
-    // Returns the same as chunks, which are named by the start of the volume. One chunk (S) has the
-    // header and the metadata. Then there is one chunk for each record (I, the last E). There must
-    // be no more than 999.
+    // Returns the same bytes as chunks, named by `start`. The first chunk (S) holds the header and
+    // the metadata record. Each further record is one chunk (I, the last one E). The volume must
+    // have at most 999 records, because chunk numbers have three digits.
     [[nodiscard]] std::vector<EncodedChunk> chunks() const;
 };
 
 struct EncodeOptions {
-    int compression_level = 9;  // bzip2 block size, 100 kB units
-    int radials_per_record = 120;
+    int compression_level = 9;     // bzip2 block size, 100 kB units
+    int radials_per_record = 120;  // at most; message 1 has at most 100
 };
 
 [[nodiscard]] Result<EncodedVolume> encode(const Volume& volume, const EncodeOptions& options = {});

@@ -1,10 +1,8 @@
-// stormcellar/level2/fragment.h -- the content of a stretch of the message stream, decoded by
-// itself.
+// stormcellar/level2/fragment.h -- the decoded content of one stretch of the message stream.
 //
 // An LDM record, a live chunk or a run of messages becomes a Fragment without any knowledge of
-// earlier bytes. A VolumeBuilder joins fragments in their order. So several threads can decode
-// records, chunks can be decoded in the order in which they arrive, and the volume depends on
-// neither.
+// earlier bytes. A VolumeBuilder joins fragments in the order of the stream. So several threads can
+// decode records, and chunks can be decoded in any order, without changing the volume.
 //
 // Threads   Plain data.
 // Errors    See Fragment::failure.
@@ -20,7 +18,7 @@
 
 namespace stormcellar::level2 {
 
-// Facts that the stream holds between radials.
+// Facts that the message stream gives between two radials.
 struct FragmentMarks {
     std::vector<Vcp> patterns;           // messages 5 and 7, in order
     std::optional<VolumeHeader> header;  // the last 24-byte header inside the stream
@@ -31,28 +29,27 @@ struct Fragment {
     struct Piece {
         FragmentMarks before;
         Sweep sweep;            // has radials, but no vcp_elevation_deg
-        std::uint16_t vcp = 0;  // the VCP that its first radial names; 0: none
-        // True if the cut of the piece is not selected. Then the sweep holds only its first and its
-        // last radial.
+        std::uint16_t vcp = 0;  // the VCP named by the first radial; 0: none
+        // True if the cut of the piece is not selected. `sweep` then holds only the first and the
+        // last radial, without moments.
         bool left_out = false;
     };
     std::vector<Piece> pieces;
-    FragmentMarks behind;  // what follows the last piece
+    FragmentMarks behind;  // facts after the last piece
     std::string station;   // the first ICAO in a message 31
     std::optional<VolumeBlock> block;
-    std::uint16_t vcp = 0;  // the first VCP that a radial names
+    std::uint16_t vcp = 0;  // the first VCP named by a radial
     // Offsets count from the beginning of the fragment, LDM records from 1.
     DecodeReport report;
-    // The decompressed bytes, whether they are messages or not, and half of the bytes that were
-    // decompressed in vain (BzipBlocks::Block).
+    // The decompressed bytes, whether they are messages or not, and half of the bytes of failed
+    // attempts (BzipBlocks::Block).
     std::uint64_t output_bytes = 0;
     std::uint64_t array_bytes = 0;  // the bytes of radials, rows and patterns, see ArrayRoom
-    // Number of errors in the report that come after the last radial; all of them if there is no
-    // radial.
+    // Number of errors in `report` after the last radial; all errors if there is no radial.
     std::uint64_t errors_behind = 0;
     bool cut = false;  // the input ends too early
     enum class Failure : std::uint8_t { none, no_memory, too_much_output, too_large_arrays };
-    Failure failure = Failure::none;  // reason why the fragment is not whole, if there was no room
+    Failure failure = Failure::none;  // the limit that cut the fragment short
 };
 
 }  // namespace stormcellar::level2

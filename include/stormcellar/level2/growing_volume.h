@@ -6,9 +6,9 @@
 // held until the end, up to most_packed_bytes.
 //
 // finish() returns what decode() returns for the same bytes, bit for bit, also for damaged files.
-// Two kinds of input are refused instead: more than 34 MiB in which no LDM record ends, and 16 MiB
-// that hold neither a record nor a message. After a restart of the program the file is appended
-// again from its start.
+// Three kinds of input are refused instead: more than 34 MiB in which no LDM record ends, 16 MiB
+// that hold neither a record nor a message, and more than most_packed_bytes of a file that must be
+// held. After a restart of the program, the caller appends the file again from its start.
 //
 // Units     Sizes are in bytes.
 // Threads   One thread at a time.
@@ -34,16 +34,17 @@ class GrowingVolume {
     GrowingVolume& operator=(GrowingVolume&&) noexcept;
     ~GrowingVolume();
 
-    // Appends bytes. An error is final: append() then takes no more bytes, and finish() returns the
-    // error again.
+    // Appends bytes. An error is final: further calls of append() and finish() return the same
+    // error.
     [[nodiscard]] Status append(std::span<const std::byte> bytes);
-    // Returns the sweeps that have closed since the last call, in the order of the file. The status
-    // of its last radial or the next sweep closes a sweep. If a sweep continues after its last
-    // radial, it is returned again when it has grown by a quarter, and again when another sweep
-    // follows. If late radials of a sweep come, it is returned again with them. Once the sweeps
-    // exceed most_live_bytes, the next call returns the rest.
+    // Returns the sweeps that have closed since the last call, in the order of the file. A sweep
+    // closes with a radial whose status ends it, or when the next sweep begins. If radials of a
+    // sweep follow its end, the sweep is returned again when it has grown by more than a quarter,
+    // and when the next sweep begins. If late radials of an earlier sweep come, that sweep is
+    // returned again with them. Once the returned sweeps exceed most_live_bytes, the next call
+    // returns the rest. After an error, returns none.
     [[nodiscard]] std::vector<LiveSweep> take_sweeps();
-    // Returns station, position and pattern as far as they are known, without sweeps.
+    // Returns the station, position and pattern known so far, without sweeps.
     [[nodiscard]] Volume facts() const;
     // Returns true if the newest radial is marked as the last of the volume, or if there are
     // radials and the newest record has a negative control word. More bytes may still follow.
@@ -51,22 +52,23 @@ class GrowingVolume {
 
     // Returns true if the newest radial is marked as the last, whatever the control words say.
     [[nodiscard]] bool has_last_radial() const;
-    // Returns true if the file consists of LDM records, so that bytes are decoded at once and not
-    // held until the end.
+    // Returns true if the start of the file shows that it consists of LDM records. Each record is
+    // then decoded as soon as it is whole.
     [[nodiscard]] bool is_of_records() const;
     // Returns true if a further volume has begun in the file.
     [[nodiscard]] bool holds_several() const;
 
     // Returns the bytes held now: sweeps that were not dropped, an unfinished record or message,
-    // and a file that must be complete before it is read. The number is approximate, because it
-    // leaves out the overhead of the allocator.
+    // and a file that must be complete before it is read. The number leaves out the overhead of the
+    // allocator.
     [[nodiscard]] std::uint64_t held_bytes() const;
 
-    // These three functions let the caller hold less memory. Sweeps below droppable_sweeps() are
-    // closed, and take_sweeps() returned them exactly as the volume holds them. Each may be dropped
-    // once, and again after it was returned again. The caller must put it back, bit for bit, before
-    // finish(). A caller that drops sweeps also gives the function that returns a dropped sweep; it
-    // is called when late radials of that sweep come.
+    // These functions let the caller hold less memory. Sweeps with an index below
+    // droppable_sweeps() are closed, and take_sweeps() has returned them. The caller may drop such
+    // a sweep, and drop it again after take_sweeps() has returned it again. Before finish(), the
+    // caller must put each dropped sweep back, bit for bit. A caller that drops sweeps must also
+    // set the function that returns a dropped sweep; append() calls it when late radials of that
+    // sweep may have come.
     [[nodiscard]] std::size_t droppable_sweeps() const;
     void drop_sweep(std::size_t index);
     void put_back(std::size_t index, Sweep sweep);

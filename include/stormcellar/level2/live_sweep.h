@@ -14,21 +14,21 @@ namespace stormcellar::level2 {
 
 struct LiveSweep {
     Sweep sweep;
-    // The present index in the volume. It does not identify the sweep, because a late sweep moves
-    // the sweeps after it.
+    // The index in the volume at this moment. It does not identify the sweep, because a late sweep
+    // shifts the sweeps after it.
     std::size_t index = 0;
     // True if no radial is missing from the first to the last. A sweep that is not whole is
-    // returned again when the missing chunks have come.
+    // returned again when missing radials come.
     bool whole = false;
 };
 
-// Sweeps are returned until they exceed this size; the last one may exceed it.
+// One call returns sweeps until they exceed this size together.
 inline constexpr std::uint64_t most_live_bytes = std::uint64_t{64} << 20;
-// Returns the bytes of its arrays and radials, including the share of the allocator.
+// Returns the bytes of the sweep's arrays and radials, including the share of the allocator.
 [[nodiscard]] std::uint64_t bytes_of(const Sweep& sweep);
 
-// Returns true if the status of its radials marks the first and the last, and no radial in between
-// is missing or repeated.
+// Returns true if the sweep's first and last radial are marked as such by their status, and no
+// radial between them is missing or repeated.
 [[nodiscard]] bool is_whole(const Sweep& sweep);
 
 }  // namespace stormcellar::level2

@@ -1,18 +1,19 @@
 // stormcellar/level2/live_volume.h -- joins the chunks of a volume, which may arrive in any order.
 //
-// Each chunk is decoded once, when it comes. Sweeps are returned as they close, and again when a
-// late chunk completes them. finish() returns the volume of the chunks in the order of their
+// Each chunk is decoded once, when it comes. take_sweeps() returns sweeps as they close, and again
+// when a late chunk changes them. finish() returns the volume of the chunks in the order of their
 // numbers, bit for bit, in whatever order they came. For undamaged chunks this is what decode()
 // returns for the joined chunks. The report lists the chunks that are missing or bad.
 //
-// A chunk that comes twice counts once. If two chunks of one number differ, the one that holds more
-// is kept, so the result does not depend on the order either. A start chunk of another volume shows
-// that the radar has begun again. It is refused, and the present chunks can be finished. After a
-// restart of the program, the caller adds the chunks in its directory again.
+// A chunk that comes twice counts once. If two chunks of one number differ, the chunk that holds
+// more is kept, so the result does not depend on the order either. A start chunk of another volume
+// shows that the radar has begun again. add() refuses that chunk, and the caller can finish the
+// present ones. After a restart of the program, the caller adds the chunks in its directory again.
 //
-// Memory    With a depot, little more than the first and the last radial of each stretch. The sum
-//           of all chunks, and of their decompressed bytes, stays below the output limit of the
-//           decoder. A chunk that would exceed it is refused; only then does the order matter.
+// Memory    With a depot, little more than the first and the last radial of each stretch. The
+//           decompressed bytes of all chunks stay within the output limit of the decoder, and their
+//           memory within its limit for arrays. A chunk that would exceed a limit is refused; only
+//           then does the order matter.
 // Units     Sizes are in bytes.
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -40,12 +41,13 @@ class VolumeBuilder;
 
 struct LiveOptions {
     DecodeOptions decode;
-    // If no chunk comes for this long, the volume is finished as it is.
+    // If no chunk comes for this long, the volume is due without its missing chunks.
     std::chrono::seconds timeout{600};
-    // Once the end has come, the volume waits this long for late chunks.
+    // After the end has come, the volume is due this long after the newest chunk, even if chunks
+    // are missing.
     std::chrono::seconds grace{30};
-    // Store for the gates of chunks until they are needed; null: memory. It must outlive the
-    // volume.
+    // Stores the sweeps of chunks until they are needed; null: they stay in memory. The depot must
+    // outlive the volume.
     SweepDepot* depot = nullptr;
 };
 
@@ -59,43 +61,44 @@ class LiveVolume {
 
     enum class Added : std::uint8_t {
         added,
-        repeated,        // the same chunk was there already
-        replaced,        // it holds more than the chunk that was there
-        worse,           // it holds less than the present chunk
-        another_volume,  // a start chunk with another header, which is refused
+        repeated,        // the same chunk had come before
+        replaced,        // the new chunk holds more and replaces the old one
+        worse,           // the new chunk holds less and is dropped
+        another_volume,  // its header differs from the first one of this number; refused
     };
-    // Adds a chunk. `now` is the time at which it came; the latest of all counts. Errors leave the
-    // volume as it was:
+    // Adds a chunk that came at `now`. An error leaves the present chunks as they were:
     // - bad_argument for a number that is not within 1 to 999;
     // - not_level2, empty, corrupt or truncated for a chunk that holds nothing whole; finish()
     //   reports it unless a good chunk of its number comes;
-    // - unsupported beyond the limits;
+    // - unsupported if the chunk exceeds a limit;
     // - exhausted if the system has no more memory. Then nothing is known about the chunk; add
     //   it again.
     [[nodiscard]] Result<Added> add(int number, ChunkKind kind, std::span<const std::byte> bytes,
                                     Clock::time_point now);
 
-    // Returns the sweeps that have closed or changed since the last call, in the order of the
-    // volume. Once they exceed most_live_bytes, the next call returns the rest.
+    // Returns the sweeps that have closed, or changed after they closed, since the last call, in
+    // the order of the volume. Once the returned sweeps exceed most_live_bytes, the next call
+    // returns the rest. Returns none if the system has no more memory; the next call tries again.
     [[nodiscard]] std::vector<LiveSweep> take_sweeps();
-    // Returns station, position and pattern as far as they are known, without sweeps.
+    // Returns the station, position and pattern known so far, without sweeps.
     [[nodiscard]] Volume facts() const;
 
-    // Returns true if an end chunk, a radial marked as the last of the volume, or a negative
-    // control word has come.
+    // Returns true if an end chunk, a radial marked as the last of the volume, or a chunk with
+    // radials and a negative control word has come.
     [[nodiscard]] bool has_ended() const;
-    // Returns the numbers below the highest for which no chunk has come.
+    // Returns the numbers below the highest number for which no readable chunk has come.
     [[nodiscard]] std::vector<int> missing_numbers() const;
     // Returns true if no chunk is missing from the first to the end.
     [[nodiscard]] bool is_whole() const { return has_ended() && missing_numbers().empty(); }
-    // Returns true if the volume is whole, or if waiting longer is useless.
+    // Returns true if the volume is whole, or has waited for `grace` after its end, or for
+    // `timeout`. An empty volume is never due.
     [[nodiscard]] bool is_due(Clock::time_point now) const;
     [[nodiscard]] bool is_empty() const { return chunks_.empty(); }
     // Returns the memory of the decoded chunks, without the sweeps in the depot.
     [[nodiscard]] std::uint64_t held_bytes() const;
 
-    // Joins the chunks and leaves the volume empty. Errors: those of decode(); empty if no chunk
-    // came; those of the depot.
+    // Joins the chunks and leaves the volume empty. Errors: those of decode() and of the depot;
+    // empty if no chunk came; corrupt if only unreadable chunks came.
     [[nodiscard]] Result<Decoded> finish();
 
   private:
@@ -109,10 +112,10 @@ class LiveVolume {
     LiveOptions options_;
     std::map<int, LiveChunk> chunks_;
     std::map<int, VolumeHeader> headers_;  // for each number, the first header that came
-    std::map<int, std::string> refused_;  // numbers for which only bad chunks came, and the reasons
+    std::map<int, std::string> refused_;   // the reasons, for numbers of which only bad chunks came
     std::uint64_t next_serial_ = 0;
     Clock::time_point last_arrival_;
-    std::set<std::uint64_t> handed_out_;  // checksums of the pieces of sweeps
+    std::set<std::uint64_t> handed_out_;  // checksums over the pieces of each returned sweep
 };
 
 }  // namespace stormcellar::level2

@@ -1,7 +1,7 @@
 // stormcellar/level2/moment.h -- the moments that a radar measures, and the facts about each.
 //
-// This is the only list of moments. Two rooms add facts of their own in a table that has a row for
-// every moment, so that a forgotten one does not compile:
+// This is the only list of moments. Two rooms add facts in tables that have a row for every moment;
+// code with a missing row does not compile:
 //   grid    grid/cells/moment_rules.cpp   how values are stored, mixed and compared
 //   render  render/color/moment_look.cpp  title, colors, opacity
 // CONTRIBUTING.md says how to add a moment.
@@ -21,7 +21,7 @@ namespace stormcellar::level2 {
 // Grid files hold these numbers, so none changes and a new moment goes to the end.
 enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp };
 
-// The circle of values that wrap.
+// The circle on which the values of a moment wrap around.
 enum class Circle : std::uint8_t {
     none,
     nyquist,    // from -Nyquist to +Nyquist; each radial has its own Nyquist velocity
@@ -41,9 +41,10 @@ struct MomentFacts {
     std::string_view units = {};  // as CF writes them; "1" for a number without a unit
     NetcdfNames netcdf = {};
     Circle circle = Circle::none;
-    // True if pulses follow each other so fast that the unambiguous range is short by nature.
+    // True if the radar measures the moment with a high pulse rate, which makes the unambiguous
+    // range short.
     bool is_doppler = false;
-    // Codes from here on are values. If this is 2, code 0 is below threshold and code 1 range
+    // The lowest code that is a value. If this is 2, code 0 is below threshold and code 1 range
     // folded. If it is larger, all codes below it are flags (ICD 2620002, table XVII-I).
     std::uint16_t first_valid_code = 2;
 };
@@ -81,8 +82,8 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 
-// True if `rows` has one row for each moment, in the order of the enumeration. Each layer asserts
-// it.
+// Returns true if `rows` has one row for each moment, in the order of the enumeration. Each table
+// of moments asserts this.
 template <class Rows>
 [[nodiscard]] constexpr bool has_a_row_for_each_moment(const Rows& rows) {
     if (std::size(rows) != moment_facts.size()) return false;
@@ -113,8 +114,9 @@ inline constexpr std::array<Moment, moment_count> all_moments = [] {
     return facts_of(moment).circle != Circle::none;
 }
 
-[[nodiscard]] std::optional<Moment> moment_from_name(std::string_view name);  // upper case
-// Returns all names, for texts: moment_names(", ", " or ") is "REF, VEL, ... RHO or CFP".
+[[nodiscard]] std::optional<Moment> moment_from_name(
+    std::string_view name);  // `name` in upper case
+// Returns a list of all names for a text: moment_names(", ", " or ") is "REF, VEL, ... RHO or CFP".
 [[nodiscard]] std::string moment_names(std::string_view between, std::string_view before_last);
 
 }  // namespace stormcellar::level2

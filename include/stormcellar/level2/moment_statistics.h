@@ -1,5 +1,5 @@
-// stormcellar/level2/moment_statistics.h -- counts the states and codes of the gates of one moment
-// of a sweep.
+// stormcellar/level2/moment_statistics.h -- counts the gates of one moment of a sweep by state and
+// code.
 //
 // Units     Values are in the unit of the moment.
 // Threads   Plain data and a pure function.
@@ -25,17 +25,17 @@ struct MomentStatistics {
     std::uint64_t code_1 = 0;
     std::uint64_t code_2_to_7 = 0;  // flags in CFP, values elsewhere
     std::uint64_t valid = 0;
-    // min, max and mean are over the valid values; none if there are none
+    // min, max and mean of the valid values; none if there are no valid values
     std::optional<double> min;
     std::optional<double> max;
     std::optional<double> mean;
-    std::uint32_t crc32 = 0;  // over the codes, 16-bit ones big-endian, radials in file order
-    const SweepMoment* first = nullptr;  // the kind of the first radial with the moment
+    std::uint32_t crc32 = 0;  // of all codes, radial by radial; 16-bit codes are big-endian
+    const SweepMoment* first = nullptr;  // the SweepMoment of the first radial with the moment
     bool geometry_constant = true;
     bool scale_constant = true;
 };
 
-// Counts all kinds of the moment together. Returns none if the sweep lacks the moment.
+// Counts all SweepMoments of the moment together. Returns none if the sweep lacks the moment.
 [[nodiscard]] std::optional<MomentStatistics> moment_statistics(const Sweep& sweep, Moment moment);
 
 }  // namespace stormcellar::level2

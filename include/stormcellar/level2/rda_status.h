@@ -1,4 +1,4 @@
-// stormcellar/level2/rda_status.h -- the status of a radar as it reports it in message 2 (ICD
+// stormcellar/level2/rda_status.h -- the status that a radar reports about itself in message 2 (ICD
 // 2620002, table IV).
 //
 // Units     Each member names its unit.
@@ -54,7 +54,8 @@ inline constexpr std::uint16_t width = 16;
 // decoder translates it.
 enum class RdaMode : std::uint8_t { unknown, operational, maintenance, test };
 
-// One of up to 14 entries: an alarm has been raised or, if `cleared`, has ended (table IV-A).
+// An alarm that was raised or, if `cleared`, has ended (table IV-A). A message has up to 14 of
+// them.
 struct RdaAlarm {
     std::uint16_t code = 0;
     bool cleared = false;
@@ -76,17 +77,18 @@ struct RdaStatus {
     std::optional<float> build;                   // such as 22.1; none from a legacy RDA
     RdaMode mode = RdaMode::unknown;
 
-    std::optional<bool> super_resolution;            // from build 10 on
-    std::optional<bool> clutter_decision;            // CMD, from build 10 on
-    std::uint8_t clutter_decision_segments = 0;      // bit 0 is the lowest elevation segment
-    std::optional<bool> avset;                       // from build 11 on
-    std::optional<bool> elevation_correction;        // EBC, from build 18 on
-    std::optional<bool> log_data;                    // message 33 is sent; from build 19 on
-    std::optional<bool> rho_hv_test;                 // of CMD; from build 19 on
-    std::optional<bool> time_series_recording;       // from build 21 on
-    std::optional<std::uint16_t> performance_check;  // 0 none, 1 pending, 2 running; from 14 on
-    std::optional<int> downloaded_vcp;               // acknowledged; from build 23 on
-    std::optional<std::uint16_t> version;            // of the message; from build 19 on
+    std::optional<bool> super_resolution;        // from build 10 on
+    std::optional<bool> clutter_decision;        // CMD, from build 10 on
+    std::uint8_t clutter_decision_segments = 0;  // bit 0 is the lowest elevation segment
+    std::optional<bool> avset;                   // from build 11 on
+    std::optional<bool> elevation_correction;    // EBC, from build 18 on
+    std::optional<bool> log_data;                // the RDA sends message 33; from build 19 on
+    std::optional<bool> rho_hv_test;             // test of CMD; from build 19 on
+    std::optional<bool> time_series_recording;   // from build 21 on
+    std::optional<std::uint16_t>
+        performance_check;                 // 0 none, 1 pending, 2 running; from build 14 on
+    std::optional<int> downloaded_vcp;     // that the RDA acknowledged; from build 23 on
+    std::optional<std::uint16_t> version;  // of the message; from build 19 on
 
     std::optional<std::uint16_t> interference_pulses_per_s;  // legacy
     std::optional<bool> interference_suppression;            // legacy

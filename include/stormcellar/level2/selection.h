@@ -1,7 +1,7 @@
-// stormcellar/level2/selection.h -- which moments and cuts of a volume to decode.
+// stormcellar/level2/selection.h -- names the moments and cuts of a volume to decode.
 //
-// The selected parts are decoded as in a whole decode, except for the limit that record_plan.h
-// states.
+// The decoder returns the selected parts as it would return them from the whole file; record_plan.h
+// states one exception.
 //
 // Threads   Plain data.
 // Errors    None.

@@ -1,5 +1,5 @@
-// stormcellar/level2/sweep_depot.h -- an interface for storing sweeps, or parts of them, until they
-// are wanted again.
+// stormcellar/level2/sweep_depot.h -- an interface that stores sweeps, or parts of sweeps, outside
+// the decoder.
 //
 // Threads   Each implementation states its own contract.
 // Errors    See each function.
@@ -16,9 +16,10 @@ namespace stormcellar::level2 {
 
 class SweepDepot : public Interface {
   public:
-    // Stores a sweep and returns its place, or none if there is no room; the caller then keeps it.
+    // Stores a sweep and returns its place. Returns none if there is no room; the caller then keeps
+    // the sweep.
     [[nodiscard]] virtual std::optional<std::uint64_t> put(const Sweep& sweep) = 0;
-    // Returns, bit for bit, the sweep that was stored there. Errors: io, corrupt.
+    // Returns, bit for bit, the sweep that put() stored at `place`. Errors: io, corrupt.
     [[nodiscard]] virtual Result<Sweep> get(std::uint64_t place) const = 0;
 };
 

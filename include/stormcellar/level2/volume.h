@@ -1,8 +1,8 @@
-// stormcellar/level2/volume.h -- the content of a Level II file, as decoded and nothing more.
+// stormcellar/level2/volume.h -- the decoded content of a Level II file.
 //
-// Codes are kept as they came (8 or 16 bits) with their scale and offset; a value is computed on
-// demand. Arrays are contiguous, with one row for each radial. Nothing is interpreted beyond the
-// ICDs (RDA/RPG 2620002, Archive II/User 2620010).
+// Codes are kept as in the file (8 or 16 bits) with their scale and offset; value_of() computes a
+// value on demand. Arrays are contiguous, with one row for each radial. Nothing is interpreted
+// beyond the ICDs (RDA/RPG 2620002, Archive II/User 2620010).
 //
 // Units     Meters, degrees, m/s, dBZ, dB. Ranges are slant ranges to the CENTER of a gate.
 // Threads   Plain data and pure functions; any thread may read it while no thread writes it.
@@ -23,8 +23,9 @@
 
 namespace stormcellar::level2 {
 
-// The meaning of the code of a gate. Code 0 is below threshold and code 1 is range folded. For CFP,
-// codes 0 to 7 are flags and give no_data. A gate beyond the last gate of the radial is no_data.
+// The meaning of the code of a gate. Code 0 is below threshold and code 1 is range folded, except
+// in CFP, where codes 0 to 7 are flags and give no_data. A gate beyond the last gate of the radial
+// is no_data.
 enum class GateStatus : std::uint8_t { valid, below_threshold, range_folded, no_data };
 
 enum class RadialStatus : std::uint8_t {
@@ -36,8 +37,7 @@ enum class RadialStatus : std::uint8_t {
     start_of_last_elevation = 5,
 };
 
-// Returns the status of a code. Code 0 is below threshold and code 1 range folded. If a moment's
-// codes begin with flags, a flag is no_data.
+// Returns the status of a code of this moment; never no_data except for the flags of CFP.
 [[nodiscard]] GateStatus status_of_code(Moment moment, std::uint16_t code);
 
 struct Radial {
@@ -46,13 +46,13 @@ struct Radial {
     float elevation_deg = 0;  // as measured; may be negative
     float nyquist_mps = 0;    // 0 if the radar does not say (TDWR, surveillance cuts)
     float unambiguous_range_m = 0;
-    // The reflectivity at 1 km of an echo as strong as the noise, by the radar's calibration
-    // (dBZ0); none in message 1.
+    // dBZ0: the reflectivity that an echo at 1 km would have if it were as strong as the noise;
+    // none in message 1.
     std::optional<float> calibration_dbz;
     std::optional<float> horizontal_noise_dbm;
     std::optional<float> vertical_noise_dbm;
     std::uint16_t azimuth_number = 0;
-    std::uint8_t status = 1;  // a RadialStatus; other values are kept as they came
+    std::uint8_t status = 1;  // a RadialStatus, or any other value as in the file
     std::uint8_t cut_sector = 0;
     std::uint8_t spot_blanking = 0;
     std::uint8_t azimuth_indexing = 0;
@@ -63,14 +63,14 @@ struct Radial {
 };
 
 // One moment of one sweep: rows of `gate_stride` codes, one row for each radial of the sweep. If
-// the radials of a sweep differ in gate geometry, word size, scale or offset, there is one
-// SweepMoment for each kind, and gate_counts says which radials belong to it.
+// the radials of a sweep differ in gate geometry, word size, scale or offset, the sweep has one
+// SweepMoment for each of these kinds, and gate_counts is 0 for radials of another kind.
 struct SweepMoment {
     Moment moment = Moment::ref;
     std::int32_t first_gate_m = 0;  // to the center of gate 0; negative in some legacy volumes
     std::int32_t gate_spacing_m = 0;
     std::int32_t gate_stride = 0;  // codes in a row: the largest gate count of any radial
-    int word_size_bits = 8;        // 8 or 16; says which of the two code arrays is in use
+    int word_size_bits = 8;        // 8: the codes are in codes8; 16: in codes16
     float scale = 1;               // value = (code - offset) / scale; 0 means value = code
     float offset = 0;
     int control_flags = 0;                   // message 31; -1 in message 1, which has none
@@ -86,8 +86,8 @@ struct SweepMoment {
             radial * static_cast<std::size_t>(gate_stride) + static_cast<std::size_t>(gate);
         return word_size_bits == 8 ? codes8[at] : codes16[at];
     }
-    // Returns the status of a gate. Any gate number is allowed; beyond the radial's gates it is
-    // no_data.
+    // Returns the status of a gate. Any gate number is allowed; outside the radial's gates the
+    // status is no_data.
     [[nodiscard]] GateStatus status(std::size_t radial, std::int32_t gate) const;
     // Returns the physical value of a valid code.
     [[nodiscard]] float value_of(std::uint16_t code) const {
@@ -109,8 +109,9 @@ struct Sweep {
     std::vector<Radial> radials;
     std::vector<SweepMoment> moments;
 
-    [[nodiscard]] const SweepMoment* find(Moment moment) const;  // the first; null if absent
-    [[nodiscard]] double mean_elevation_deg() const;             // NaN if there are no radials
+    [[nodiscard]] const SweepMoment* find(
+        Moment moment) const;  // the first SweepMoment of `moment`; null if absent
+    [[nodiscard]] double mean_elevation_deg() const;  // NaN if there are no radials
 };
 
 // One cut of the volume coverage pattern, message 5 or 7 (ICD 2620002 table XI).
@@ -124,7 +125,7 @@ struct VcpCut {
     std::int16_t azimuth_rate_code = 0;
     std::uint16_t supplemental = 0;                      // flags: SAILS, MRLE, MPDA, base tilt
     std::array<std::int16_t, 6> thresholds_eighth_db{};  // REF VEL SW ZDR PHI RHO, dB * 8
-    std::array<std::uint8_t, 22> rest{};                 // Doppler sectors, as they came
+    std::array<std::uint8_t, 22> rest{};                 // Doppler sectors, as in the message
 
     [[nodiscard]] bool is_sails() const { return (supplemental & 0x0001U) != 0; }
     [[nodiscard]] int sails_sequence() const { return (supplemental >> 1) & 0x7; }
@@ -171,18 +172,18 @@ struct VolumeBlock {
     float initial_differential_phase_deg = 0;
     std::uint16_t vcp = 0;
     std::uint16_t processing_status = 0;
-    std::vector<std::uint8_t> rest;  // bytes beyond the 44 of the first version, as they came
+    std::vector<std::uint8_t> rest;  // bytes after the 44 of the first version, unchanged
 };
 
 // The 24 bytes before the first record.
 struct VolumeHeader {
     std::string filename;    // "AR2V0006.116", "ARCHIVE2.031"
     std::uint32_t date = 0;  // NEXRAD day number
-    std::uint32_t ms = 0;    // after midnight
+    std::uint32_t ms = 0;    // milliseconds after midnight
     std::string icao;        // empty in ARCHIVE2 files
 
     [[nodiscard]] UtcTime time() const { return time_from_nexrad(date, ms); }
-    // Returns the number after the dot, 0-999, or none.
+    // Returns the number after the last dot of `filename`, 0 to 999, or none.
     [[nodiscard]] std::optional<int> volume_number() const;
 };
 
@@ -197,42 +198,43 @@ struct Volume {
     VcpSource vcp_source = VcpSource::none;
     std::vector<Sweep> sweeps;  // file order
 
-    // Returns the start of the volume: the time of the header, or else of the first radial. A time
-    // counts only if it is plausible and other radials of the sweep confirm it. A header that is
-    // more than an hour off its radials is not believed.
+    // Returns the time of the header, if it is plausible and within an hour of the radials.
+    // Otherwise returns the time of the first radial that the other radials of its sweep confirm,
+    // or none.
     [[nodiscard]] std::optional<UtcTime> start_time() const;
     [[nodiscard]] std::size_t radial_count() const;
 };
 
-// Returns the name of the volume that starts at this time, whatever the name of its file:
-// "KTLX20220317_000842".
+// Returns the name of the volume of `station` that starts at `start`: "KTLX20220317_000842". The
+// name of its file may differ.
 [[nodiscard]] std::string volume_name(std::string_view station, UtcTime start);
 
-// Returns true if a radar can have meant this time: 1970 to 2149, the years that messages can
-// express. Day number 0 means no time.
+// Returns true if `time` is in 1970 to 2149, the years that messages can express. A message without
+// a date (day number 0) gives a time before 1970.
 [[nodiscard]] bool is_plausible(UtcTime time);
-// Returns true if a radial can have this time in a volume that starts at `start`. A volume takes
-// minutes, but a damaged radial may carry any time, or the time of another day.
+// Returns true if `time` is plausible and within 6 hours of `start`, if that is known. A volume
+// takes minutes, but a damaged radial may have any time.
 [[nodiscard]] bool is_time_of_volume(UtcTime time, std::optional<UtcTime> start);
 
-// Returns the status without its top bit, which marks bad data.
+// Returns the radial's status without the top bit, which marks bad data.
 [[nodiscard]] RadialStatus status_of(const Radial& radial);
-// Return true if the last radial is marked as the last of the volume.
+// Return true if the status of the last radial marks the end of the volume.
 [[nodiscard]] bool has_ended(const Volume& volume);
 [[nodiscard]] bool has_ended(std::span<const Sweep> sweeps);
 
-// The position of the antenna. Message 31 gives its altitude as site height + tower height, or as
-// the site height alone if the two are equal (TDWR). The station table corrects it:
-// - The radar is within 0.01 degrees of the table, but its height is more than 30 m off: the
-//   table gives the height.
-// - The radar moved by up to 1 degree: it has its own position and height.
-// - It is farther off, or the file has no position: the table gives position and height.
+// The position of the antenna. Its altitude from message 31 is site height + tower height, or the
+// site height alone if the two are equal (TDWR). The station table corrects the position from the
+// message:
+// - If it is within 0.01 degrees of the table but its altitude is more than 30 m off, the altitude
+//   comes from the table.
+// - If it is up to 1 degree off, the radar has moved, and the message is right.
+// - If it is farther off, or the file has no position, everything comes from the table.
 // antenna_position() returns none if neither the file nor the table knows the site.
 struct AntennaPosition {
     double latitude_deg = 0;
     double longitude_deg = 0;
-    double altitude_m = 0;  // above mean sea level
-    bool from_table = false;
+    double altitude_m = 0;    // above mean sea level
+    bool from_table = false;  // at least one of the numbers is from the station table
     // Set if message 31 and the table differ by more than 30 m in altitude or 0.01 degrees.
     std::optional<std::string> disagreement;
 };

@@ -1,4 +1,4 @@
-// stormcellar/level2/volume_difference.h -- compares two volumes to the bit.
+// stormcellar/level2/volume_difference.h -- finds the first difference between two volumes.
 //
 // Threads   A pure function.
 // Errors    None.
