@@ -57,7 +57,7 @@ std::uint64_t eight_bytes(std::span<const std::byte> bytes, std::size_t at) {
     return big_endian(raw);
 }
 
-// Copies whole bytes from any bit on, then the remaining bits.
+// Copies the bits from `begin` to `end`: whole bytes to `out`, and the remaining bits to `writer`.
 void copy_bits(std::span<const std::byte> bytes, std::uint64_t begin, std::uint64_t end,
                std::vector<std::byte>& out, BitWriter& writer) {
     const auto shift = static_cast<unsigned>(begin % 8);
@@ -133,7 +133,7 @@ std::optional<BzipBlocks::Mark> BzipBlocks::find_mark(std::uint64_t from_bit) co
 
 bunzip::Status BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit,
                                   std::size_t limit) {
-    // After its mark, a block has its checksum, which equals the checksum of a stream of one block.
+    // The checksum of the block follows its mark. A stream of one block has the same checksum.
     const std::uint64_t checksum_bit = begin_bit + mark_bits;
     if (end_bit < begin_bit + least_block_bits) return bunzip::Status::truncated;
     const std::uint64_t window = eight_bytes(bytes_, static_cast<std::size_t>(checksum_bit / 8));
@@ -153,7 +153,8 @@ bunzip::Status BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit
 }
 
 std::optional<BzipBlocks::Block> BzipBlocks::next(std::size_t limit) {
-    // A mark can occur inside a block by chance. Then the block ends at one of the next marks.
+    // The bits of a mark can occur inside a block by chance. In that case the block ends at a later
+    // mark, so try the next marks too.
     constexpr int most_joined = 3;
     const std::uint64_t all_bits = std::uint64_t{bytes_.size()} * 8;
     while (mark_ && mark_->end_of_stream) {

@@ -1,9 +1,9 @@
 // level2/containers/bzip2_stream.h -- finds bzip2 streams, and recovers the whole blocks of a
 // damaged stream.
 //
-// bunzip returns a block before it has checked it, so the output of a stream that fails must not be
-// used. BzipBlocks then reads the blocks of the stream one at a time and returns only those with
-// the right checksum, including those after a damaged block.
+// bunzip returns the bytes of a block before it has checked them, so the output of a stream that
+// fails must not be used. BzipBlocks then reads the blocks of the stream one at a time and returns
+// only blocks with the right checksum, also after a damaged block.
 //
 // Threads   Pure functions. A BzipBlocks may be used by one thread at a time.
 #pragma once
@@ -22,10 +22,10 @@ namespace stormcellar::level2 {
 // The bytes that identify a bzip2 stream: "BZh", a level, and the mark of a block or of the end.
 inline constexpr std::size_t bzip2_mark_bytes = 10;
 [[nodiscard]] bool is_bzip2(std::span<const std::byte> bytes);
-// Returns the first place at or after `from` where such a stream begins.
+// Returns the first place at or after `from` where a bzip2 stream begins, or none.
 [[nodiscard]] std::optional<std::size_t> find_bzip2(std::span<const std::byte> bytes,
                                                     std::size_t from);
-// Returns true if the last bytes are those of a bzip2 stream: the end mark, a checksum, and less
+// Returns true if the bytes end as a bzip2 stream does: with the end mark, a checksum, and less
 // than a byte of padding.
 [[nodiscard]] bool ends_as_bzip2(std::span<const std::byte> bytes);
 
@@ -36,16 +36,17 @@ class BzipBlocks {
     BzipBlocks(std::span<const std::byte> bytes, bunzip::Workspace& workspace);
 
     struct Block {
-        bunzip::Status status = bunzip::Status::whole;  // without output unless whole
+        bunzip::Status status = bunzip::Status::whole;  // `data` is empty unless whole
         std::span<const std::byte> data;                // valid until the next call
-        std::size_t position = 0;                       // in `bytes`, rounded down
+        std::size_t position = 0;                       // of the first byte of the block in `bytes`
         std::size_t compressed_bytes = 0;
-        // The bytes that were unpacked in vain in all tries for this block, halved, because damage
-        // costs several tries and a good block costs one. They count because they took time.
+        // Half of the bytes that failed tries for this block unpacked. They count as output because
+        // they took time, but only by half because damage costs several tries and a good block
+        // costs one.
         std::uint64_t wasted_bytes = 0;
     };
     static constexpr std::uint64_t least_try_bytes = std::uint64_t{256} << 10;
-    // Returns how much a failed try counts.
+    // Returns the bytes by which a failed try counts.
     [[nodiscard]] static std::uint64_t waste_of(std::uint64_t unpacked_bytes) {
         return std::max(unpacked_bytes, least_try_bytes) / 2;
     }

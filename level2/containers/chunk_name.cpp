@@ -54,8 +54,8 @@ int read_number(std::string_view text, std::size_t& at) {
     return number;
 }
 
-// Reads "043-I" at this place; anything may follow after a separator. The number may lack its
-// leading zeros.
+// Reads a part such as "043-I" at `number_at`; anything may follow after a separator. The number
+// may lack its leading zeros.
 std::optional<PlacedChunkName> read_chunk(std::string_view name, std::size_t number_at) {
     PlacedChunkName chunk;
     chunk.number_at = number_at;
@@ -73,8 +73,8 @@ std::optional<PlacedChunkName> read_chunk(std::string_view name, std::size_t num
     return chunk;
 }
 
-// Returns the place where the number of the chunk begins, after the volume's part of the name, if a
-// name can begin at `at`.
+// Returns the place where the number of the chunk begins, if the volume's part of a name is at
+// `at`.
 std::optional<std::size_t> number_behind_volume(std::string_view name, std::size_t at) {
     const std::string_view rest = name.substr(at);
     if (begins_as(dashed_volume, rest)) return at + dashed_volume.size();

@@ -1,8 +1,8 @@
-// level2/containers/chunk_once.h -- removes repetitions from the file of a chunk that was appended
-// again.
+// level2/containers/chunk_once.h -- removes repetitions from a file to which one chunk was appended
+// several times.
 //
-// After a crash, LDM's pqact files products again. If it appends, a file of one chunk then holds
-// the chunk twice, or a part of it and then all of it.
+// After a crash, LDM's pqact files products again. If it appends them, the file of a chunk holds
+// the chunk twice, or a part of the chunk and then the whole chunk.
 //
 // Threads   Pure function.
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace stormcellar::level2 {
 
-// Returns the part of the bytes that holds each byte of the chunk once; all bytes if nothing is
-// repeated.
+// Returns one copy of the chunk if the bytes are recognized as repetitions of it, else all bytes.
+// Content other than LDM records is returned unchanged.
 [[nodiscard]] std::span<const std::byte> chunk_once(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

@@ -59,7 +59,7 @@ void CompressStream::begin_group(int width) {
 }
 
 void CompressStream::enter(std::uint32_t prefix, std::byte last) {
-    if (next_entry_ >= prefixes_.size()) return;  // the table is full and stays as it is
+    if (next_entry_ >= prefixes_.size()) return;  // the table is full, so it does not change
     prefixes_[next_entry_] = static_cast<std::uint16_t>(prefix);
     lasts_[next_entry_] = last;
     ++next_entry_;
@@ -67,7 +67,7 @@ void CompressStream::enter(std::uint32_t prefix, std::byte last) {
 
 std::byte CompressStream::expand(std::uint32_t code) {
     const std::size_t start = output_.size();
-    // A prefix is always an earlier entry, so this ends.
+    // A prefix is always an earlier entry, so the loop ends.
     for (; code >= literals; code = prefixes_[code])
         output_.push_back(lasts_[code]);
     output_.push_back(lasts_[code]);
@@ -88,7 +88,8 @@ void CompressStream::take(std::uint32_t code) {
         return;
     }
     if (own) {
-        // This very code enters the string: the previous string and its first byte again.
+        // The code names the entry that is due now: the previous string followed by its own first
+        // byte.
         enter(*previous_, first_of_previous_);
         first_of_previous_ = expand(code);
     } else {
@@ -102,8 +103,8 @@ void CompressStream::take(std::uint32_t code) {
 std::span<const std::byte> CompressStream::next() {
     output_.clear();
     while (end_ == CompressEnd::none && output_.size() < piece_bytes) {
-        // The writer widens its codes once the table fills their width. By a quirk of compress it
-        // does so even if the largest width is 9 bits, although no code then needs the tenth.
+        // The writer widens its codes once the table fills their width. compress does so even if
+        // the largest width is 9 bits, although no code then needs the tenth bit.
         if (width_ < std::max(limit_, least_width + 1) && next_entry_ >= (1U << width_))
             begin_group(width_ + 1);
         const auto code = next_code();

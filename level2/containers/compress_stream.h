@@ -1,7 +1,7 @@
 // level2/containers/compress_stream.h -- expands Unix compress (.Z), as in archives of the 1990s,
 // piece by piece.
 //
-// Bytes expanded before the damage are returned. Damage is a state at the end and never lost.
+// next() returns the bytes before any damage; end() then reports the damage.
 //
 // Format    3 bytes (1F 9D, then the largest code width, 9 to 16, and 0x80 if code 256 clears the
 //           table). Then follow codes, low bits first, beginning with 9 bits. Codes of one width
@@ -26,8 +26,8 @@ namespace stormcellar::level2 {
 [[nodiscard]] bool is_compress(std::span<const std::byte> bytes);
 
 enum class CompressEnd : std::uint8_t {
-    none,       // not at the end yet
-    whole,      // all codes were read; see above
+    none,       // the end is not reached
+    whole,      // all codes were read; a cut between two codes is not detected
     truncated,  // shorter than its header
     corrupt     // an impossible code
 };
@@ -49,7 +49,7 @@ class CompressStream {
     static constexpr int most_width = 16;
 
     [[nodiscard]] std::optional<std::uint32_t> next_code();
-    // Skips the rest of the group of eight codes. The next group has this width.
+    // Skips the rest of the group of eight codes, and begins a group of codes of this width.
     void begin_group(int width);
     void take(std::uint32_t code);
     void enter(std::uint32_t prefix, std::byte last);
@@ -57,7 +57,7 @@ class CompressStream {
     std::byte expand(std::uint32_t code);
 
     std::span<const std::byte> bytes_;
-    std::uint64_t bit_ = 0;          // of the next code
+    std::uint64_t bit_ = 0;          // position of the next code
     std::uint64_t group_start_ = 0;  // the bit at which the codes of this width began
     int width_ = least_width;
     int limit_ = least_width;  // the largest width

@@ -35,8 +35,9 @@ bool begins_with(std::span<const std::byte> bytes, Values... values) {
     return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
 }
 
-// PNG, HDF5 and the grids of a cache begin with 89h and three letters; xz and zstd begin with bytes
-// of their own. Bytes inside them that look like a message or a record are chance.
+// Recognizes PNG, HDF5 and grid files by their line ends after 89h and three letters, and xz and
+// zstd by their first bytes. Anything inside such a file that looks like a message or a record is
+// chance.
 bool is_of_another_format(std::span<const std::byte> bytes) {
     if (begins_with(bytes, 0xFD, 0x37, 0x7A, 0x58, 0x5A, 0x00)) return true;
     if (begins_with(bytes, 0x28, 0xB5, 0x2F, 0xFD)) return true;

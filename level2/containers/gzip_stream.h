@@ -1,7 +1,6 @@
-// level2/containers/gzip_stream.h -- inflates gzip with zlib, piece by piece, with one member after
-// the other.
+// level2/containers/gzip_stream.h -- inflates all members of a gzip file with zlib, piece by piece.
 //
-// Bytes inflated before the damage are returned. Damage is a state at the end and never lost.
+// next() returns the bytes before any damage; end() then reports the damage.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -18,11 +17,11 @@ namespace stormcellar::level2 {
 [[nodiscard]] bool is_gzip(std::span<const std::byte> bytes);
 
 enum class GzipEnd : std::uint8_t {
-    none,             // not at the end yet
-    whole,            // all members, with right checksums
+    none,             // the end is not reached
+    whole,            // all members were read, with right checksums
     truncated,        // the file ends inside a member
-    corrupt,          // the data contradict themselves
-    bad_checksum,     // everything is there, but length or CRC-32 differ
+    corrupt,          // the compressed data are invalid
+    bad_checksum,     // a member was read, but its length or CRC-32 differs
     trailing_garbage  // something other than gzip follows the last member
 };
 
@@ -42,7 +41,7 @@ class GzipStream {
     [[nodiscard]] std::size_t position() const { return fed_ - stream_.avail_in; }
 
   private:
-    // Returns true if another member begins after the one that ended.
+    // Begins the next member. Returns false, and sets the end, if no member follows.
     [[nodiscard]] bool next_member();
     [[nodiscard]] GzipEnd end_of(int code) const;
 
@@ -53,8 +52,8 @@ class GzipStream {
     GzipEnd end_ = GzipEnd::none;
 };
 
-// Returns the bytes without their gzip layer, as far as it can be read; without such a layer, a
-// copy. For trusted files only, because the length is not bounded.
+// Returns the inflated bytes of a gzip file, up to any damage, or a copy of other bytes. Use it for
+// trusted files only, because nothing bounds the length.
 [[nodiscard]] std::vector<std::byte> without_gzip(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t control_word_bytes = 4;
 
-// Returns true if `rest` may follow a record with the right length; none while there are too few
-// bytes to decide.
+// Returns true if `rest`, the bytes after a record, makes the length of that record credible; none
+// while there are too few bytes to decide.
 std::optional<bool> may_begin(std::span<const std::byte> rest, bool last) {
     if (rest.size() < archive_header_bytes && !last) return std::nullopt;
-    // a remainder, or the end
+    // a short remainder, or nothing, is credible at the end of the file
     if (rest.size() < control_word_bytes + bzip2_mark_bytes) return true;
     return is_ldm_record(rest) || read_archive_header(rest) ||
            all_zero(rest.first(control_word_bytes + bzip2_mark_bytes));
@@ -34,7 +34,7 @@ void LdmStreamFramer::end_part(std::size_t bytes) {
     searched_behind_ = 0;
 }
 
-// Does the work of find_bzip2(), but continues where it stopped when there are more bytes.
+// Does the same as find_bzip2(), but a repeated search continues where the previous one stopped.
 std::optional<std::size_t> LdmStreamFramer::find_stream(std::span<const std::byte> rest,
                                                         std::size_t from) {
     const auto found = find_bzip2(rest, std::max(from, searched_));
@@ -62,7 +62,8 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
             return part;
         }
     }
-    // The length is wrong or the file is cut: the record extends to the next one or to the end.
+    // The length is wrong or the file is cut, so the record extends to the next record or to the
+    // end.
     const auto next = find_stream(rest, 2 * control_word_bytes + bzip2_mark_bytes);
     if (!next && !last) return std::nullopt;
     part.bytes = next ? rest.subspan(control_word_bytes, *next - 2 * control_word_bytes) : stream;
@@ -72,7 +73,7 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
     return part;
 }
 
-// Returns a stream whose control word has lost bytes.
+// Returns a record whose control word has lost bytes, so that its stream begins too early.
 std::optional<LdmPart> LdmStreamFramer::record_without_length(std::span<const std::byte> rest,
                                                               std::size_t stream, bool last) {
     const std::size_t from = stream + bzip2_mark_bytes + control_word_bytes;

@@ -1,7 +1,8 @@
 // level2/containers/ldm_framer.h -- cuts a file into LDM records (ICD 2620010, section 7.3.4).
 //
-// A record is a signed 4-byte length, whose sign usually marks the last record, and a bzip2 stream.
-// If a length contradicts the bytes, the framer ignores it and searches for the next stream.
+// A record is a signed 4-byte length, which is usually negative in the last record, and a bzip2
+// stream. If a length contradicts the bytes, the framer ignores it and searches for the next
+// stream.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -16,19 +17,19 @@
 
 namespace stormcellar::level2 {
 
-// The largest known volume has 12 MB. So a larger length is wrong, which is clear before that many
-// bytes have come.
+// The framer ignores a larger length at once, without waiting for so many bytes. The largest known
+// volume has 12 MB.
 inline constexpr std::size_t longest_record_bytes = std::size_t{32} << 20;
 
 struct LdmPart {
     enum class Kind : std::uint8_t {
-        record,   // `bytes` is a bzip2 stream; something may follow it
+        record,   // `bytes` is a bzip2 stream, maybe with other bytes after it
         header,   // a 24-byte volume header between records
-        padding,  // zeros up to the end
+        padding,  // zeros before the next record or the end
         garbage   // `bytes` belong to no record
     };
     Kind kind = Kind::record;
-    std::size_t position = 0;  // of the part in the file
+    std::size_t position = 0;  // of the part, counted from the first byte given to the framer
     std::span<const std::byte> bytes;
     VolumeHeader header;
     bool negative = false;    // the control word of a record is negative
@@ -36,13 +37,13 @@ struct LdmPart {
     bool bad_length = false;  // the control word contradicts the bytes
 };
 
-// Cuts a file that grows. It decides nothing that later bytes could change, with one exception: it
-// accepts a record at once if its length ends at the end mark of a bzip2 stream.
+// Cuts a file that grows. It waits for more bytes if they could change its decision, with one
+// exception: it accepts a record at once if a bzip2 stream ends where the length says.
 class LdmStreamFramer {
   public:
     // Returns the next part, or none if more bytes are needed, or at the end. `rest` holds the
-    // bytes from position() on, as far as they have come. `last` means that no more will come. The
-    // bytes of the part are inside `rest`.
+    // bytes from position() on that have come so far. `last` means that no more will come. `bytes`
+    // of the part points into `rest`.
     [[nodiscard]] std::optional<LdmPart> next(std::span<const std::byte> rest, bool last);
     [[nodiscard]] std::size_t position() const { return at_; }
 
@@ -55,8 +56,8 @@ class LdmStreamFramer {
     void end_part(std::size_t bytes);
 
     std::size_t at_ = 0;
-    std::size_t searched_ = 0;         // no stream begins in this many bytes of the next part
-    std::size_t searched_behind_ = 0;  // nor after its own stream, for a part without a length
+    std::size_t searched_ = 0;         // the next part has no stream in its first `searched_` bytes
+    std::size_t searched_behind_ = 0;  // the same, after the stream of a record without a length
 };
 
 // Cuts a file that is complete.
@@ -75,8 +76,8 @@ class LdmFramer {
 // Returns true if an LDM record begins with these bytes.
 [[nodiscard]] bool is_ldm_record(std::span<const std::byte> bytes);
 
-// Returns the bzip2 streams of a file in order, cut ones included. Returns none if the file does
-// not begin with an LDM record, with or without a volume header before it.
+// Returns the bzip2 streams of a file in order, including cut streams. Returns an empty list unless
+// the file begins with an LDM record, with or without a volume header before it.
 [[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(std::span<const std::byte> file);
 
 }  // namespace stormcellar::level2

@@ -1,12 +1,12 @@
 // level2/decode/array_room.h -- counts the memory of arrays before they are made, and enforces a
 // limit.
 //
-// For each of its radials, a sweep takes one row of each kind of a moment (kinds differ in gates,
-// scale or word size), as long as the longest row of the kind, and some bytes for each kind. The
-// count does not depend on whether radials come one by one or in pieces. The pieces of a sweep
-// never count for more than the sweep: for a piece that may continue an earlier one, the sweep
-// itself and its kinds are not counted. So a volume that exceeds its limit does so however it was
-// cut into fragments.
+// A moment of a sweep may come in several kinds, which differ in gates, scale or word size. For
+// each kind, a sweep takes one row for each radial, as long as the longest row of the kind, and
+// some fixed bytes. The count is the same if radials come one by one or in pieces. The pieces of a
+// sweep together count for no more than the sweep, because a piece that may continue a sweep does
+// not count the fixed bytes. So a volume exceeds its limit or not, however it is cut into
+// fragments.
 //
 // Units     Bytes.
 // Threads   One thread at a time.
@@ -23,40 +23,42 @@
 
 namespace stormcellar::level2 {
 
-// The largest known sweep takes 7 MB. Arrays are copied as they grow, so no sweep may be large.
+// Limit for one sweep, because growing arrays are copied. The largest known sweep takes 7 MB.
 inline constexpr std::uint64_t most_sweep_bytes = std::uint64_t{64} << 20;
-// The least size of a sweep, and of each kind in it, including the allocator's share.
+// Fixed bytes of a sweep, and of each kind in it, including the overhead of the allocator.
 inline constexpr std::uint64_t empty_sweep_bytes = 1024;
 inline constexpr std::uint64_t empty_kind_bytes = 320;
 
 [[nodiscard]] std::uint64_t bytes_of(const Vcp& vcp);
 
-// Returns the error for a system without more memory. Its code is exhausted, because the input is
-// not to blame and may be decoded after others have returned their memory.
+// Returns the error `exhausted` for a system without more memory. The input is not at fault and may
+// decode later, when there is memory again.
 [[nodiscard]] tl::unexpected<Error> no_memory();
 
 class ArrayRoom {
   public:
-    // Returns the new limit, or 0 if there is no more room. It is called once: when the first limit
-    // is reached, or when all room is requested.
+    // Returns the new limit, or 0 if there is no more room. ArrayRoom calls it at most once: when
+    // the first limit is reached, or in ask_for_more().
     using More = std::function<std::uint64_t()>;
 
     explicit ArrayRoom(std::uint64_t limit_bytes, More more = {})
         : limit_bytes_(limit_bytes), more_(std::move(more)) {}
 
-    // Each of these returns false if the limit is exceeded; counted bytes stay counted.
+    // These functions count bytes, and return false if the limit is exceeded; the bytes stay
+    // counted.
     [[nodiscard]] bool add(std::uint64_t bytes);
     [[nodiscard]] bool begin_sweep();
     // Begins a piece that may continue a sweep that was already counted.
     void continue_sweep();
     [[nodiscard]] bool add_radials(std::size_t count);
-    // Counts rows of the sweep's moment number `moment` with at least this many gates each.
+    // Counts rows of at least `gates` gates for kind number `moment` of the sweep.
     [[nodiscard]] bool widen(std::size_t moment, std::size_t gates, std::uint64_t bytes_per_code);
 
     [[nodiscard]] std::uint64_t taken_bytes() const { return closed_bytes_ + sweep_bytes(); }
     [[nodiscard]] std::uint64_t left_bytes() const;
     void set_limit(std::uint64_t limit_bytes) { limit_bytes_ = limit_bytes; }
-    // Requests all room before it is needed. Returns false if there is no more.
+    // Requests the new limit now. Returns false if there is no more room; without a `More`, returns
+    // true and changes nothing.
     bool ask_for_more();
     // Frees all room.
     void clear();
@@ -69,11 +71,11 @@ class ArrayRoom {
 
     std::uint64_t limit_bytes_;
     More more_;
-    std::uint64_t closed_bytes_ = 0;  // all but the newest sweep
+    std::uint64_t closed_bytes_ = 0;  // of everything except the newest sweep
     std::uint64_t radials_ = 0;       // of the newest sweep
     std::uint64_t row_bytes_ = sizeof(Radial);
     std::uint64_t kind_bytes_ = 0;
-    std::vector<std::size_t> gates_;  // gates of its moments
+    std::vector<std::size_t> gates_;  // gates in a row, for each kind of the newest sweep
 };
 
 }  // namespace stormcellar::level2

@@ -48,8 +48,8 @@ class Decoder {
     Result<Decoded> run(std::span<const std::byte> bytes);
 
   private:
-    // These return an error only if nothing can be kept: for limits, and for content of another
-    // kind.
+    // The read functions return an error only if nothing can be kept, because a limit is exceeded
+    // or the content is not Level II.
     Status read_layer(std::span<const std::byte> bytes, int depth);
     // Reads all pieces of a stream.
     template <class Stream>
@@ -86,8 +86,8 @@ Status Decoder::flush(LayerOutput& output) {
     return taken;
 }
 
-// Peels one layer. Its content is recognized by its bytes; for a compressed layer this function
-// calls itself.
+// Recognizes the content by its bytes and reads it. For a compressed layer, the called functions
+// call this function again with the content.
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (depth == most_layers) {
         return fail(ErrorCode::unsupported, "has more than {} layers of compression",
@@ -134,8 +134,8 @@ Status Decoder::read_messages(std::span<const std::byte> bytes) {
     return flush(output);
 }
 
-// Takes a piece of the output of a compressed layer. The first piece decides: messages are read at
-// once, piece by piece; anything else is another layer, which is collected first.
+// Takes a piece of the output of a compressed layer. If the first piece begins with messages, every
+// piece is read at once. Otherwise the output is another layer, whose pieces are collected first.
 Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piece) {
     if (Status counted = builder_.count_output(piece.size()); !counted) return counted;
     if (std::exchange(output.first, false)) {
@@ -181,8 +181,7 @@ Status Decoder::take_all(Stream& stream, LayerOutput& output) {
     }
 }
 
-// Reports a damaged container. From the reader's place on, the stream of messages is wrong or
-// missing.
+// Reports a damaged container, whose messages are wrong or missing from the reader's place on.
 void Decoder::report_container(const LayerOutput& output, Severity severity, std::string_view code,
                                std::string message, std::uint64_t position) {
     DecodeReport& report = builder_.report_data();
@@ -273,8 +272,8 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     return end_output(output, depth);
 }
 
-// Decodes the parts of the source in order. Returns false if `check` rejects one; then the builder
-// is useless except for the time that it has spent.
+// Decodes the parts of the source in order. Returns false if `check` rejects a fragment; the caller
+// must then discard the builder, except for its decompress_s.
 Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
                                  const std::function<bool(const Fragment&)>& check) {
     RecordQueue queue{source, options_.threads, options_.output_limit_bytes, options_.selection};
@@ -289,8 +288,8 @@ Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
 }
 
 // Reads a file of LDM records. If only some cuts are selected, it first tries a plan that skips the
-// records of the others. The plan works on a copy of the builder's state, which is restored if the
-// file does not follow the plan.
+// records of other cuts. If the file does not follow the plan, the state of the builder from before
+// the plan is restored.
 Status Decoder::read_ldm(std::span<const std::byte> bytes) {
     builder_.report_data().ldm_records = 0;
     builder_.report_data().negative_control_words = 0;
@@ -304,7 +303,7 @@ Status Decoder::read_ldm(std::span<const std::byte> bytes) {
                 plan->report(builder_.report_data());
                 return {};
             }
-            // The file does not follow its pattern, so nothing is skipped. The time that was spent
+            // The file does not follow its pattern, so read all of it. The time spent on the plan
             // still counts.
             const double spent_s = builder_.report_data().decompress_s;
             builder_ = before;

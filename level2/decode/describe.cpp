@@ -39,7 +39,8 @@ double rounded(double value, double step) {
     return std::round(value / step) * step;
 }
 
-// Returns a number of tenths or hundredths exactly, and not as the nearest float.
+// Rounds a float to this many decimal digits, so that the JSON shows 0.1 and not the digits of the
+// float.
 double decimal(float value, int digits) {
     const double power = std::pow(10.0, digits);
     return std::round(static_cast<double>(value) * power) / power;
@@ -199,7 +200,7 @@ Json describe_status(const std::optional<RdaStatus>& status) {
                  {"vcp", status->vcp},
                  {"build", nullptr},
                  {"troubles", rda_troubles(*status)}};
-    // The number is in hundredths, as in the ICD, because a float would show its last bits.
+    // Builds are given in hundredths, so round to hundredths; a float would show more digits.
     if (status->build) json["build"] = std::round(*status->build * 100.0) / 100.0;
     return json;
 }

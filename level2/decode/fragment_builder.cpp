@@ -44,7 +44,8 @@ bool FragmentBuilder::begins_sweep_here(const RadialMessage& message) const {
 }
 
 bool FragmentBuilder::begin_piece(const RadialMessage& message) {
-    // Whole sweeps follow each other here, so make room for the next one at once.
+    // A fragment with several pieces may hold whole sweeps, so make room for as many rows as the
+    // previous piece had.
     if (!fragment_.pieces.empty()) {
         const std::size_t newest = fragment_.pieces.back().sweep.radials.size();
         expected_rows_ = std::clamp(newest, expected_rows_, std::max(expected_rows_, most_rows));
@@ -115,7 +116,7 @@ bool FragmentBuilder::add(const RadialMessage& message) {
     note_volume_facts(message);
     Fragment::Piece& piece = fragment_.pieces.back();
     if (!piece.left_out) {
-        // Room is made with the second radial, so that a piece of one radial stays small.
+        // Make room at the second radial, so that a piece of one radial stays small.
         if (piece.sweep.radials.size() == 1) reserve_rows(piece.sweep);
         return add_rows(piece.sweep, message);
     }

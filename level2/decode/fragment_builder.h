@@ -1,4 +1,4 @@
-// level2/decode/fragment_builder.h -- puts radials, in the order of the stream, into pieces of
+// level2/decode/fragment_builder.h -- collects radials, in the order of the stream, into pieces of
 // sweeps.
 //
 // A piece ends where the elevation number or the message type changes, at a radial with status 0, 3
@@ -20,8 +20,8 @@
 
 namespace stormcellar::level2 {
 
-// Radials that are compressed inside messages may expand to at most this much in a fragment,
-// because expanding takes time.
+// Most bytes to which the radials compressed inside messages may expand in one fragment. The limit
+// bounds time.
 inline constexpr std::uint64_t most_expanded_bytes = std::uint64_t{512} << 20;
 
 // Returns true if the status of the radial begins a sweep: 0, 3 or 5.
@@ -34,24 +34,25 @@ inline constexpr std::size_t rows_of_a_record = 120;
 
 class FragmentBuilder {
   public:
-    // `expected_rows` is the number of radials in a piece for which room is made. The room and the
-    // selection must outlive the builder.
+    // The arrays of a piece get room for `expected_rows` radials at first. `room` and `selection`
+    // must outlive the builder.
     FragmentBuilder(ArrayRoom& room, std::size_t expected_rows, const Selection& selection)
         : room_(room), expected_rows_(expected_rows), selection_(selection) {}
 
     // Adds a radial. Returns false if there is not enough room.
     [[nodiscard]] bool add(const RadialMessage& message);
     [[nodiscard]] bool add_pattern(Vcp vcp);
-    // Counts the bytes to which a radial expanded. Returns false if there were too many.
+    // Counts the bytes to which a compressed radial expanded. Returns false beyond
+    // most_expanded_bytes.
     [[nodiscard]] bool add_expanded(std::uint64_t bytes);
     void further_header(const VolumeHeader& header) { marks_.header = header; }
 
-    // Returns the station that the fragment's first radials name; empty if none does.
+    // Returns the first station that a radial of the fragment names; empty if none does.
     [[nodiscard]] const std::string& station() const { return fragment_.station; }
     [[nodiscard]] ReportWriter report() { return ReportWriter{fragment_.report}; }
     [[nodiscard]] DecodeReport& report_data() { return fragment_.report; }
 
-    // Returns the fragment. The builder continues with an empty one, which takes no room.
+    // Returns the fragment, and continues with an empty fragment that takes no room.
     [[nodiscard]] Fragment take();
 
   private:
@@ -67,7 +68,7 @@ class FragmentBuilder {
     const Selection& selection_;
     Fragment fragment_;
     std::uint64_t errors_at_last_radial_ = 0;
-    // facts since the last piece began; a pattern within a sweep applies to later sweeps
+    // facts since the last piece began; they apply to later sweeps
     FragmentMarks marks_;
 };
 

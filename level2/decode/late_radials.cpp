@@ -9,7 +9,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The slowest pattern takes ten minutes for a volume, and little more than one minute for a turn.
+// The slowest pattern takes ten minutes for a volume, and little more than one minute for a turn of
+// the antenna.
 constexpr std::chrono::minutes longest_volume{15};
 constexpr std::chrono::minutes longest_turn{2};
 

@@ -1,4 +1,4 @@
-// This part of the VolumeBuilder puts late radials where they belong.
+// Defines the functions of VolumeBuilder that put late radials where they belong.
 #include <algorithm>
 #include <utility>
 
@@ -13,12 +13,12 @@
 namespace stormcellar::level2 {
 namespace {
 
-// A file that was made to take time must not succeed. So no more rows are moved, and no more sweeps
-// are searched for one radial, than the worst order of a real volume needs.
+// Limits the bytes moved, and the sweeps searched for one radial, to what the worst order of a real
+// volume needs, because a hostile file must not take much time.
 constexpr std::uint64_t most_late_bytes = std::uint64_t{4} << 30;
 constexpr std::size_t most_candidates = 8;
 
-// Returns the most bytes that the arrays of the sweep take with these rows in it.
+// Returns the most bytes that the arrays of `sweep` can take with the rows of `rows_of` inserted.
 std::uint64_t bytes_with(const Sweep& sweep, const Sweep& rows_of) {
     const std::uint64_t radials = sweep.radials.size() + rows_of.radials.size();
     std::uint64_t bytes = empty_sweep_bytes + radials * sizeof(Radial);
@@ -46,7 +46,7 @@ std::uint64_t bytes_with(const Sweep& sweep, const Sweep& rows_of) {
 
 void VolumeBuilder::drop_sweep(std::size_t index) {
     Sweep& sweep = volume_.sweeps.at(index);
-    free_array(sweep.radials);  // the numbers stay, to find the sweep of a late radial
+    free_array(sweep.radials);  // elevation number and message type stay, for find_late_place()
     free_array(sweep.moments);
 }
 
@@ -62,7 +62,7 @@ bool VolumeBuilder::header_is_repeated() const {
            own->date == pending_header_->date && own->ms == pending_header_->ms;
 }
 
-// Fetches a dropped sweep back.
+// Fetches the sweep back if it was dropped.
 Status VolumeBuilder::fetch_back(std::size_t index) {
     if (!volume_.sweeps[index].radials.empty()) return {};
     if (!dropped_) return fail(ErrorCode::internal, "a sweep that was dropped is missing");
@@ -73,7 +73,7 @@ Status VolumeBuilder::fetch_back(std::size_t index) {
     return {};
 }
 
-// Returns true if the radial may follow the late radials before it.
+// Returns true if the radial may go into the same sweep as the late radials before it.
 bool VolumeBuilder::may_follow_late(const Sweep& from, std::size_t radial) const {
     if (!late_place_ || pending_header_) return false;
     const Sweep& sweep = volume_.sweeps[late_place_->sweep];
@@ -81,7 +81,8 @@ bool VolumeBuilder::may_follow_late(const Sweep& from, std::size_t radial) const
            sweep.message_type == from.message_type && from.radials[radial].time <= previous_->time;
 }
 
-// Looks for the place of a late radial in the sweeps of the newest volume, the newest first.
+// Searches the sweeps of the newest volume, the newest first, for the place of a late radial, and
+// sets late_place_. Returns true if it found one.
 Result<bool> VolumeBuilder::find_late_place(const Sweep& from, std::size_t radial) {
     late_place_.reset();
     if (late_searches_ == most_late_searches || !is_late(from, radial)) return false;
@@ -107,8 +108,8 @@ Result<bool> VolumeBuilder::find_late_place(const Sweep& from, std::size_t radia
     return false;
 }
 
-// Takes a run of late radials, which fill a gap one after the other or repeat present radials. The
-// run ends with the first radial that does neither.
+// Takes late radials as long as each fills a gap or repeats a present radial. Returns the index of
+// the first radial that does neither.
 Result<std::size_t> VolumeBuilder::take_late(Sweep& from, std::size_t first) {
     const std::size_t count = from.radials.size();
     std::size_t at = first;
@@ -141,7 +142,7 @@ Result<std::size_t> VolumeBuilder::take_late(Sweep& from, std::size_t first) {
     return at;
 }
 
-// `before` is the previous radial that is not in the sweep yet; null: there is none.
+// `before` is the previous late radial if it is not in the sweep yet; else null.
 LateFit VolumeBuilder::fit_of_late(const Radial& radial, const Radial* before) const {
     const auto [index, at] = *late_place_;
     const Sweep& sweep = volume_.sweeps[index];
@@ -174,7 +175,7 @@ Status VolumeBuilder::insert_late(Sweep& from, std::size_t first, std::size_t en
     return {};
 }
 
-// Sorts sweeps that came in the wrong order in one record by their times.
+// Sorts the sweeps of each volume by their times. Whole sweeps may come in the wrong order.
 void VolumeBuilder::put_sweeps_in_order() {
     std::vector<std::size_t> starts = report_.further_volume_starts;
     starts.push_back(volume_.sweeps.size());

@@ -14,8 +14,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The size of a radial has 16 bits and counts halfwords. Message 29, whose size has 32 bits, has
-// never been seen.
+// The size of a radial has 16 bits and counts halfwords. Message 29 has a size of 32 bits, but no
+// known file contains one.
 constexpr std::size_t longest_radial_bytes = std::size_t{1} << 18;
 constexpr std::size_t longest_message_bytes = std::size_t{1} << 22;
 // The length of an uncompressed radial has 16 bits.
@@ -26,7 +26,8 @@ constexpr std::size_t longest_expanded_bytes = std::size_t{1} << 16;
 bool surely_follows(std::span<const std::byte> next, bool last, bool after_radial) {
     if (next.size() < message_header_bytes) return last && all_zero(next);
     if (read_archive_header(next)) return true;
-    // Zeros after a radial are more likely its neighbor's gates below threshold than a frame.
+    // Zeros after a radial are more likely gates below threshold of the next radial than a fill
+    // frame.
     if (all_zero(next.first(message_header_bytes))) return !after_radial;
     return is_surely_message(next);
 }
@@ -35,8 +36,8 @@ bool is_radial(const MessageHeader& header) {
     return header.type == 1 || header.type == 31;
 }
 
-// Returns true if these bytes can follow a message inside which no other message begins: as above,
-// or a radial however odd, or zeros.
+// Returns true if these bytes can follow a message that contains no other message: they surely
+// follow, or they are an odd radial, or zeros.
 bool plausibly_follows(std::span<const std::byte> next, bool last) {
     if (next.size() < message_header_bytes) return last && all_zero(next);
     if (all_zero(next.first(message_header_bytes)) || read_archive_header(next)) return true;
@@ -59,8 +60,8 @@ std::size_t longest(int type) {
 
 }  // namespace
 
-// Reads message by message. No message continues past the end of a block, so open damage ends there
-// and the next block begins in step.
+// Reads message by message. A message never crosses the end of a block, so open damage ends there,
+// and the next block begins with a message.
 std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     std::size_t at = 0;
     while (at < data.size() && !full()) {
@@ -77,8 +78,8 @@ std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
 }
 
 // Takes one step at the start of `rest`: a volume header, a fill frame, or a message. If none of
-// these can begin here, the reader searches for the next message. It needs enough bytes to decide,
-// and waits for more unless these are the last.
+// these can begin here, the reader searches for the next message. If there are too few bytes to
+// decide and more may come, it returns 0.
 std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
     if (!last && rest.size() < frame_bytes + sure_message_bytes) return 0;
     if (!in_sync_) return resynchronise(rest, 0, last, "bytes of the message stream are missing");
@@ -132,13 +133,13 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
     }
     if (!last && rest.size() < length + sure_message_bytes) return 0;
     const auto message = rest.first(length);
-    // A message is firm if it is a radial that agrees with its length and a sure successor follows.
-    // Nearly all messages are firm, and nothing more is checked.
+    // A message is firm if it is a radial that agrees with its header and its length, and a message
+    // surely follows. Nearly all radials are firm and need no further check.
     const bool firm = is_firm_radial(header, message) &&
                       surely_follows(rest.subspan(length), last, is_radial(header));
     if (!firm) {
-        // If another message begins inside this one, this one has lost bytes, or its header is not
-        // a header.
+        // If another message begins inside this one, then this message has lost bytes, or its
+        // header is not a header.
         const auto search = rest.first(std::min(rest.size(), length + sure_message_bytes));
         const auto next = find_message(search, message_header_bytes);
         if (next && *next < length) {
@@ -150,9 +151,9 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
             return resynchronise(rest, *next, last, {});
         }
     }
-    // No other message begins inside this one, so it lost nothing. It is framed if the next bytes
-    // are at least plausible. An unframed message must at least have a plausible header; its
-    // content is then read more strictly.
+    // No other message begins inside this one, so it has lost nothing. The message is framed if the
+    // next bytes are at least plausible. An unframed message must have a plausible header, and its
+    // content is read more strictly.
     const bool framed = firm || ((!is_radial(header) || places_its_gates(header, message)) &&
                                  plausibly_follows(rest.subspan(length), last));
     if (!framed && !is_plausible(header)) {
@@ -174,7 +175,8 @@ std::size_t MessageReader::resynchronise(std::span<const std::byte> rest, std::s
         in_sync_ = true;
     } else {
         in_sync_ = false;
-        // A message may begin in the last bytes, so they are read again with what follows.
+        // A message may begin in the last bytes, so keep them and read them again with the next
+        // bytes.
         if (!last) dropped -= std::min(rest.size(), sure_message_bytes);
     }
     open_damage_->bytes += dropped;
@@ -250,7 +252,7 @@ std::optional<std::span<const std::byte>> MessageReader::expand(std::span<const 
                                                                 std::vector<std::byte>& store) {
     const auto body = message.subspan(message_header_bytes);
     auto whole = expand_message_31(body);
-    // Expanding damaged data took time, too.
+    // Damaged data count too, because expanding them took time.
     if (!builder_.add_expanded(whole ? whole->size() : longest_expanded_bytes)) {
         failure_ = Fragment::Failure::too_much_output;
         return std::nullopt;
@@ -297,7 +299,7 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
     const int compression = is_31 ? message_31_compression(body) : 0;
     std::vector<std::byte> expanded;
     if (compression != 0) {
-        // The radial may also be plain although it claims to be compressed.
+        // A radial that claims to be compressed may still be plain.
         const bool is_plain = framing == Framing::proven && read_message_31(body).has_value();
         if (is_plain) {
             builder_.report().oddity(Severity::note, "odd_radials",

@@ -3,8 +3,8 @@
 // A message counts only if the next one begins where it ends, or if the data end there. Otherwise
 // the reader searches for the next place at which a message surely begins. If that place is inside
 // the current message, this message has lost bytes and is dropped too, so that no half radial is
-// kept. If the next message does begin at the end, a radial is kept however odd it is, unless its
-// gates cannot be read (docs/level2.md has the table). The strict rules are for searching after
+// kept. If the next message begins at the end, even a very odd radial is kept, unless its gates
+// cannot be read (docs/level2.md has the table). Strict rules apply only to the search after
 // damage.
 //
 // Threads   One thread at a time.
@@ -27,33 +27,33 @@ class MessageReader {
   public:
     explicit MessageReader(FragmentBuilder& builder) : builder_(builder) {}
 
-    // Reads messages from the start of `data`, which continues where the last call stopped, and
-    // returns how many bytes were consumed. `last` means that `data` holds the last bytes of a
-    // block; all of it is then consumed, because messages do not cross the end of an LDM record.
+    // Reads messages from `data`, which continues where the last call stopped, and returns how many
+    // bytes it consumed. `last` means that `data` holds the last bytes of a block. The reader then
+    // consumes all of `data`, because messages do not cross the end of an LDM record.
     std::size_t read(std::span<const std::byte> data, bool last);
 
     // Tells the reader that bytes of the stream are missing here, so that it searches for a message
     // before it accepts anything.
     void lose_sync() { in_sync_ = false; }
 
-    // Returns the place of the next byte in the message stream, including 24-byte headers inside
-    // it, counted from the beginning of the builder's fragment.
+    // Returns the offset of the next byte in the message stream, counted from the beginning of the
+    // builder's fragment. 24-byte headers inside the stream count.
     [[nodiscard]] std::uint64_t offset() const { return offset_; }
-    // Returns the fragment up to here, or none while damage is still open, since it might continue.
-    // After this, offsets count from here.
+    // Returns the fragment of the messages read so far. Offsets then begin at 0 again. Returns none
+    // after dropped bytes until a message follows, because the damage may continue.
     [[nodiscard]] std::optional<Fragment> take_fragment();
-    // Returns the reason why the reader stopped, if the fragment would exceed a limit; else none.
+    // Returns the limit that stopped the reader; none if it has not stopped.
     [[nodiscard]] Fragment::Failure failure() const { return failure_; }
 
   private:
-    // Returns the bytes consumed; 0 if more are needed to decide.
+    // Returns the number of bytes consumed; 0 if the reader needs more bytes to decide.
     std::size_t step(std::span<const std::byte> rest, bool last);
     std::size_t read_fill(std::span<const std::byte> rest, bool last);
     std::size_t read_message(const MessageHeader& header, std::span<const std::byte> rest,
                              bool last);
     std::size_t resynchronise(std::span<const std::byte> rest, std::size_t from, bool last,
                               std::string reason);
-    // `firm` means that the radial agrees with its header.
+    // `firm` means that is_firm_radial() holds and a message surely follows.
     void take(const MessageHeader& header, std::span<const std::byte> message, Framing framing,
               bool firm);
     [[nodiscard]] bool full() const { return failure_ != Fragment::Failure::none; }
@@ -74,20 +74,20 @@ class MessageReader {
     Fragment::Failure failure_ = Fragment::Failure::none;
     struct OpenDamage {
         std::uint64_t offset = 0;    // of the first dropped byte
-        std::uint64_t found_at = 0;  // where a message was due and none was found
+        std::uint64_t found_at = 0;  // offset where a message was expected and none found
         std::uint64_t bytes = 0;
         std::string reason;
     };
     std::optional<OpenDamage> open_damage_;
 };
 
-// Feeds a MessageReader with pieces of any size. It keeps less than one message back.
+// Feeds a MessageReader with pieces of any size, and keeps the bytes of an unfinished message.
 class MessageFeed {
   public:
     explicit MessageFeed(MessageReader& reader) : reader_(reader) {}
 
     void append(std::span<const std::byte> bytes);
-    void end();  // the bytes held back are the last of a block
+    void end();  // the block ends after the bytes appended so far
 
   private:
     MessageReader& reader_;

@@ -18,7 +18,7 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{256} << 10;
-// A record that holds far more than a record of a live volume is a file of its own.
+// A compressed record of this size holds whole sweeps; a record of a live volume is much smaller.
 constexpr std::size_t rows_of_a_sweep = 720;
 constexpr std::size_t large_record_bytes = std::size_t{512} << 10;
 
@@ -45,8 +45,8 @@ double thread_cpu_s() {
 }
 
 // Decompresses a record in pieces and reads its messages as they come. The buffer holds only the
-// bytes that the reader has not consumed yet. If the stream proves damaged, the whole result is
-// discarded, and read_blocks() reads the record again.
+// bytes that the reader has not consumed yet. Returns none if the stream is damaged; read_blocks()
+// then reads the record again.
 std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom& room,
                                                  Damage& damage) {
     const bool large = part.bytes.size() > large_record_bytes;

@@ -1,10 +1,10 @@
 // level2/decode/part_decoder.h -- makes a Fragment from an LDM record, or from the bytes between
 // two records.
 //
-// A record is decompressed and read in small pieces, so its messages are never held as a whole. If
-// its checksum then proves wrong, the result is discarded, and the record is read again block by
-// block to keep its whole blocks. A block is held as a whole and may be large, so all room is
-// requested first.
+// A record is decompressed and read in small pieces, so memory never holds all its messages. If its
+// checksum is wrong, the decoder discards the result and reads the record again, block by block, to
+// keep the intact blocks. A block is held as a whole and may be large, so the decoder first asks
+// for all the room that the fragment may get.
 //
 // Threads   One thread at a time; each thread has its own decoder.
 #pragma once
@@ -28,8 +28,8 @@ class PartDecoder {
     PartDecoder(std::uint64_t output_limit_bytes, const Selection& selection)
         : limit_bytes_(output_limit_bytes), selection_(selection) {}
 
-    // Decodes a part. The arrays of the fragment stay within the room. A lack of memory is no
-    // exception; Fragment::failure reports it.
+    // Decodes a part. The arrays of the fragment stay within `room`. Fragment::failure reports a
+    // lack of memory; the function does not throw std::bad_alloc.
     [[nodiscard]] Fragment decode(const LdmPart& part, ArrayRoom room);
     [[nodiscard]] Fragment decode(const LdmPart& part) {
         return decode(part, ArrayRoom{limit_bytes_});
@@ -39,7 +39,7 @@ class PartDecoder {
     [[nodiscard]] Fragment decode_kind(const LdmPart& part, ArrayRoom& room);
     [[nodiscard]] Fragment decode_record(const LdmPart& part, ArrayRoom& room);
     struct Damage {
-        bool is_cut = false;             // the end is missing
+        bool is_cut = false;             // the end of the record is missing
         std::uint64_t wasted_bytes = 0;  // see BzipBlocks::Block
     };
     // Returns none if the record is damaged.

@@ -1,5 +1,5 @@
-// level2/decode/problem_notes.h -- turns the problems that a decoder reports into notes for the
-// file made from its result.
+// level2/decode/problem_notes.h -- turns the problems in a report into notes for the file that is
+// made from the decoded volume.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace stormcellar::level2 {
 
-// Returns the messages of the first 20 problems, and how many more there are.
+// Returns the texts of the first 20 problems, and then a text with the number of the others, if
+// any.
 [[nodiscard]] std::vector<std::string> notes_of(const DecodeReport& report);
 
 }  // namespace stormcellar::level2

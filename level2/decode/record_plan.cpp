@@ -30,14 +30,15 @@ std::optional<Vcp> pattern_in(const LdmPart& part) {
     const Selection everything;
     PartDecoder decoder{most_metadata_bytes, everything};
     const Fragment fragment = decoder.decode(part);
-    // If there are radials among the metadata, the order of records is not known.
+    // If the metadata record holds radials, the order of the records is unknown.
     if (!fragment.pieces.empty() || fragment.behind.patterns.empty()) return std::nullopt;
     return fragment.behind.patterns.front();
 }
 
 }  // namespace
 
-// Returns the records that a whole volume has. At most 51 cuts fit into the frame of the pattern.
+// Returns the records that a whole volume of this pattern has. At most 51 cuts fit into the frame
+// of the pattern.
 std::vector<RecordPlan::Record> RecordPlan::expected(const Vcp& pattern,
                                                      const Selection& selection) {
     std::vector<Record> records(1);
@@ -74,7 +75,8 @@ std::optional<RecordPlan> RecordPlan::make(std::span<const std::byte> bytes,
     return plan;
 }
 
-// The records on either side of the wanted cuts prove that these cuts are complete.
+// Marks the records on either side of the wanted cuts as wanted, because they prove that these cuts
+// are complete.
 void RecordPlan::want_witnesses() {
     std::vector<std::size_t> witnesses;
     for (std::size_t i = 1; i < records_.size(); ++i) {
@@ -98,11 +100,11 @@ bool RecordPlan::agrees(const Fragment& fragment) {
     if (checked_ == records_.size()) return false;
     const std::size_t at = checked_++;
     const Record& record = records_[at];
-    if (fragment.failure != Fragment::Failure::none) return true;  // an error, whatever the plan
+    if (fragment.failure != Fragment::Failure::none) return true;  // fails with any plan
     if (record.cut == 0) return fragment.pieces.empty();
     if (fragment.pieces.size() != 1 || fragment.report.bytes_dropped != 0) return false;
-    // A whole decode takes the volume block, and thus the station, from its first occurrence; the
-    // pattern gives the VCP.
+    // A decode of the whole file takes the volume block and the station from the first radial that
+    // has them, so the first record must have them.
     if (at == 1 && !fragment.block) return false;
     const Fragment::Piece& piece = fragment.pieces.front();
     const bool is_first = begins_sweep(piece.sweep.radials.front());
@@ -112,7 +114,7 @@ bool RecordPlan::agrees(const Fragment& fragment) {
 }
 
 void RecordPlan::report(DecodeReport& report) const {
-    std::set<int> counted;  // cuts that were counted because one of their records was decoded
+    std::set<int> counted;  // cuts with a decoded record; the builder has counted their sweeps
     for (const Record& record : records_) {
         if (record.wanted) counted.insert(record.cut);
     }

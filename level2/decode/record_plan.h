@@ -1,20 +1,21 @@
-// level2/decode/record_plan.h -- finds the LDM records of the selected cuts from the VCP, so that
-// other records are skipped.
+// level2/decode/record_plan.h -- finds the LDM records of the selected cuts by the VCP, so that the
+// decoder can skip the others.
 //
 // The pattern of the volume (message 5 in the first record) gives the cuts and the number of
-// radials of each, and a record holds up to 120 radials of one cut. So the place of each cut's
-// records is known before they are decompressed. The decoded records must agree with the plan: the
-// first and the last record of each cut by the status of their radials, and also the records on
-// either side of a wanted cut. If they do not agree (lost, repeated or longer records, restarted
-// cuts, several volumes, metadata besides decoded radials), the plan is void.
+// radials of each, and a record holds up to 120 radials of one cut. So the plan knows the records
+// of each cut before they are decompressed. The decoded records must agree with the plan in
+// elevation number, and the first and the last record of a cut also in the status of their radials.
+// The records on either side of a wanted cut are decoded too, for this check. If a record does not
+// agree (lost, repeated or longer records, restarted cuts, several volumes, metadata beside decoded
+// radials), the plan is void.
 //
-// Limits    The content of a skipped record is not seen. If it held metadata, a message 5 would
-//           give later sweeps another vcp_elevation_deg, and a message 2 would give the report
-//           another status; but the RDA sends the pattern in the first record only. If as many
-//           records of the skipped cuts came twice as were lost, the skipped cuts may differ from
-//           the plan; sweeps_left_out is the plan's number.
+// Limits    Skipped records are not read. Metadata in a skipped record would change
+//           vcp_elevation_deg of later sweeps (message 5) or the status in the report (message 2);
+//           but the RDA sends metadata in the first record only. If among skipped records as many
+//           are repeated as lost, nobody notices; sweeps_left_out is the number from the plan.
 // Memory    As many records as the pattern has, some hundreds.
-// Threads   next() and agrees() may be called by different threads, each by one at a time.
+// Threads   One thread at a time may call next(), and one thread at a time agrees(); they may be
+//           different threads.
 #pragma once
 
 #include <cstddef>
@@ -32,15 +33,16 @@ namespace stormcellar::level2 {
 
 class RecordPlan {
   public:
-    // Makes a plan. Returns none if the pattern is not known, if there is anything other than
-    // records, or if there are more records than the pattern has. `bytes`, which begin after the
-    // 24-byte header, must outlive the plan.
+    // Makes a plan. Returns none if the first record does not give the pattern, if the file has
+    // damaged parts or parts other than records, if it has more records than the pattern, or none
+    // after the first. `bytes`, which begin after the 24-byte header, must outlive the plan.
     [[nodiscard]] static std::optional<RecordPlan> make(std::span<const std::byte> bytes,
                                                         const Selection& selection);
 
-    // Returns the records to decode, in order.
+    // Returns the next record to decode, in the order of the file, or none after the last one.
     [[nodiscard]] std::optional<LdmPart> next();
-    // Returns true if the fragment of the next record, in the same order, agrees with the plan.
+    // Returns true if `fragment` agrees with the plan. The fragments must come in the order of
+    // next().
     [[nodiscard]] bool agrees(const Fragment& fragment);
     // Adds the skipped sweeps and records to the report.
     void report(DecodeReport& report) const;

@@ -62,12 +62,12 @@ bool RecordQueue::has_turn(const Slot& slot) const {
     return turn_bytes_ && &slot == &slots_[head_];
 }
 
-// Returns the first slot that waits for work. If a slot outgrew its share, only the caller takes
-// it, once it is the head. When the caller decodes alone, this holds for every slot.
+// Returns the first slot that waits for work. Only the caller takes a slot that outgrew its share,
+// and only when the slot is the head. If alone_ is set, this holds for every slot.
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
-        // the thread that works on a slot may find that it is large, so read the state first
+        // a working thread may set `large` without the mutex, so read the state first
         if (slot.state != State::waiting) continue;
         const bool is_head = who == Who::caller && has_turn(slot);
         if (is_head || !(slot.large || alone_)) return &slot;
@@ -82,13 +82,14 @@ std::uint64_t RecordQueue::wait_for_turn(const Slot& slot) {
     return stopping_ ? 0 : std::max<std::uint64_t>(*turn_bytes_, 1);
 }
 
-// Each function holds two pointers, so that none of them allocates memory.
+// Returns the room for decoding a slot. Each function in it holds at most two pointers, so
+// std::function allocates no memory.
 ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
     if (has_turn(slot)) return ArrayRoom{*turn_bytes_};
     if (who == Who::worker && may_wait_) {
         return ArrayRoom{share_bytes_, [this, &slot] { return wait_for_turn(slot); }};
     }
-    // The caller never waits, because only the caller takes the head.
+    // The caller must not wait for its own turn, so a slot that outgrows its share becomes large.
     return ArrayRoom{share_bytes_, [&slot] {
                          slot.large = true;
                          return std::uint64_t{0};
@@ -124,8 +125,8 @@ void RecordQueue::run() {
     }
 }
 
-// Decodes the head with all the room that there is, and not with the share of a record that is
-// decoded ahead.
+// Decodes the head again with all the room that is left, and not with the share of a record decoded
+// ahead.
 void RecordQueue::decode_alone(Slot& head) {
     while (head.state == State::working)
         changed_.wait(mutex_);
@@ -133,9 +134,9 @@ void RecordQueue::decode_alone(Slot& head) {
     work(head, own_decoder_, Who::caller);
 }
 
-// Returns the head of the ring. If it is not ready, the caller decodes too: the head, or any other
-// part that waits. When less room is left than a share, parts that were decoded ahead might not
-// fit, so from then on the caller decodes everything alone.
+// Returns the fragment of the head slot. While it is not ready, the caller decodes too, the head or
+// another waiting slot. When less room is left than a share, parts that were decoded ahead might
+// not fit, so from then on the caller decodes everything alone.
 std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
     const MutexLock lock(mutex_);
     if (used_ == 0) return std::nullopt;

@@ -1,15 +1,15 @@
-// level2/decode/record_queue.h -- decodes LDM records ahead with several threads, and returns them
-// in order.
+// level2/decode/record_queue.h -- decodes LDM records ahead with several threads, and returns the
+// fragments in order.
 //
 // The caller of next() decodes too, so `threads` includes it. At most two fragments for each thread
 // are held, and each is small. A fragment that outgrows its share waits until it is the next to be
-// returned. With more than a few threads the caller instead decodes it anew at that time, because
-// the C library keeps freed memory for each thread.
+// returned. With more than most_waiting_threads, it is discarded, and the caller decodes the record
+// again at that time, because the C library keeps freed memory for each thread.
 //
-// The output does not depend on the number of threads. When less room is left than a share, no more
-// records are decoded ahead, and fragments decoded ahead are discarded.
+// The output does not depend on the number of threads. When less room is left than a share, the
+// caller alone decodes, and discards fragments that were decoded ahead.
 //
-// Threads   next() may be called by one thread.
+// Threads   One thread may call next().
 #pragma once
 
 #include <cstddef>
@@ -31,22 +31,22 @@ class RecordQueue {
     // Returns the parts in order, and none after the last one. One thread at a time calls it.
     using Source = std::function<std::optional<LdmPart>()>;
 
-    // The data of the parts and the selection must outlive the queue.
+    // The bytes of the parts and `selection` must outlive the queue.
     RecordQueue(Source source, int threads, std::uint64_t output_limit_bytes,
                 const Selection& selection);
     RecordQueue(const RecordQueue&) = delete;
     RecordQueue& operator=(const RecordQueue&) = delete;
     ~RecordQueue();
 
-    // Returns the next fragment, or none after the last one. The fragment may take `limit_bytes`;
-    // this limit never grows.
+    // Returns the next fragment, or none after the last one. The arrays of the fragment may take
+    // `limit_bytes`, which must not grow from call to call.
     [[nodiscard]] std::optional<Fragment> next(std::uint64_t limit_bytes);
 
-    // A volume has some sixty records.
+    // More threads would help little, because a volume has some sixty records.
     static constexpr int most_threads = 32;
     static constexpr int most_waiting_threads = 4;
-    // The share of each fragment that is decoded ahead. Records of a live volume take 1 MB; the
-    // largest known records, of whole sweeps, take 5 MB.
+    // Largest share of memory for a fragment that is decoded ahead. Records of a live volume take 1
+    // MB; the largest known records, which hold whole sweeps, take 5 MB.
     static constexpr std::uint64_t most_share_bytes = std::uint64_t{8} << 20;
     static constexpr std::uint64_t all_shares_bytes = std::uint64_t{128} << 20;
 
@@ -55,7 +55,7 @@ class RecordQueue {
     enum class Who : std::uint8_t { caller, worker };
     struct Slot {
         State state = State::empty;
-        bool large = false;  // outgrew its share; it is decoded again when it is next
+        bool large = false;  // outgrew its share; the caller decodes it again at its turn
         LdmPart part;
         Fragment fragment;
     };
@@ -76,14 +76,14 @@ class RecordQueue {
     Source source_ STORMCELLAR_GUARDED_BY(mutex_);
     std::vector<Slot> slots_ STORMCELLAR_GUARDED_BY(mutex_);  // a ring
     std::uint64_t share_bytes_ STORMCELLAR_GUARDED_BY(mutex_);
-    // Threads wait with a fragment that outgrows its share.
+    // True if a worker waits with a fragment that outgrows its share.
     bool may_wait_ STORMCELLAR_GUARDED_BY(mutex_);
     bool alone_ STORMCELLAR_GUARDED_BY(mutex_) = false;    // the caller decodes everything
-    std::size_t head_ STORMCELLAR_GUARDED_BY(mutex_) = 0;  // the slot that is handed out next
+    std::size_t head_ STORMCELLAR_GUARDED_BY(mutex_) = 0;  // the slot that next() returns next
     std::size_t used_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
     bool source_ended_ STORMCELLAR_GUARDED_BY(mutex_) = false;
-    // The caller waits for the head slot, which may take this much. Until then the caller holds the
-    // last fragment.
+    // Set while the caller is in next(): the bytes that the fragment of the head may take. At other
+    // times the caller may still hold the last fragment.
     std::optional<std::uint64_t> turn_bytes_ STORMCELLAR_GUARDED_BY(mutex_);
     bool stopping_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     std::vector<std::thread> workers_;

@@ -39,7 +39,7 @@ void ReportWriter::add(Problem problem) {
     const auto many = std::count_if(problems.begin(), problems.end(), of_one_place);
     if (static_cast<std::size_t>(many) >= DecodeReport::max_problems) {
         ++report_.problems_left_out;
-        // Removes the last of the least severe problems to make room.
+        // Remove the last of the least severe problems to make room.
         auto least = problems.end();
         for (auto p = problems.begin(); p != problems.end(); ++p) {
             if (of_one_place(*p) && (least == problems.end() || p->severity <= least->severity)) {
@@ -52,7 +52,8 @@ void ReportWriter::add(Problem problem) {
     problems.push_back(std::move(problem));
 }
 
-// There are few kinds of counted problems, whatever the input.
+// Adds a problem with a count, without a limit, because there are few kinds of them whatever the
+// input.
 void ReportWriter::add_counted(Problem problem) {
     if (problem.severity == Severity::error) report_.errors += problem.count;
     const auto same = [&](const Problem& other) {

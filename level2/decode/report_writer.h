@@ -16,28 +16,28 @@ class ReportWriter {
   public:
     explicit ReportWriter(DecodeReport& report) : report_(report) {}
 
-    // Adds a problem. Beyond DecodeReport::max_problems, the last of the least severe problems are
-    // only counted.
+    // Adds a problem. Beyond DecodeReport::max_problems, drops the last of the least severe
+    // problems and counts it in problems_left_out.
     void add(Problem problem);
     void add(Severity severity, std::string_view code, std::string message,
              std::optional<std::uint64_t> offset = std::nullopt);
-    // Reports bytes that hold nothing usable. This is an error; the first such error is the
-    // stream's corruption. `stream_offset` counts in the message stream; `found_at`, if it differs,
-    // is the place at which the damage became visible.
+    // Reports bytes that hold nothing usable, as an error. The first such error becomes
+    // DecodeReport::corruption. `stream_offset` counts in the message stream; `found_at` is the
+    // offset at which the damage was noticed, if that is a different one.
     void damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
                 std::uint64_t dropped, std::optional<std::uint64_t> found_at = std::nullopt);
-    // Reports something odd about a message that costs no data. Each kind is one problem with a
-    // count.
+    // Reports something odd about a message that loses no data. Equal oddities become one problem
+    // with a count.
     void oddity(Severity severity, std::string_view code, std::string_view message,
                 std::uint64_t stream_offset);
-    // Does the same as damage() for a message, or a part of one, for a reason that many messages
-    // may share. Each reason is one problem with a count.
+    // Does the same as damage() for a message or a part of a message. Calls with the same reason
+    // become one problem with a count.
     void refuse(std::string_view code, std::string_view reason, std::uint64_t stream_offset,
                 std::uint64_t dropped);
-    // Appends the report of the next part of the stream. Counts are added, and offsets and record
-    // numbers continue.
+    // Appends the report of the next part of the stream: adds its counts, and shifts its offsets
+    // and record numbers behind the present ones.
     void append(DecodeReport next);
-    // Reports how many problems are not listed.
+    // Adds a note with the number of problems that are not listed, if there are any.
     void finish();
 
   private:

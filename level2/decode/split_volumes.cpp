@@ -6,7 +6,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// One of the volumes: its sweeps, and its part of the report.
+// The sweeps of one of the volumes, and its index in the report.
 struct Share {
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -14,8 +14,8 @@ struct Share {
     std::optional<std::size_t> start;
 };
 
-// Returns the volumes that have sweeps. If several begin at the same sweep, only the last of them
-// has any.
+// Returns the volumes that have sweeps, at least one. If several volumes begin at the same sweep,
+// only the last of them has sweeps.
 std::vector<Share> shares_of(const DecodeReport& report, std::size_t sweeps) {
     std::vector<Share> shares(1);
     const std::vector<std::size_t>& starts = report.further_volume_starts;

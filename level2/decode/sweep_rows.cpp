@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t reserve_limit_bytes = std::size_t{4} << 20;
 
-// Calls the function with the array of codes that is in use.
+// Calls the function with codes8 or codes16, by the word size of the moment.
 template <class Function>
 void with_codes(SweepMoment& moment, Function function) {
     if (moment.word_size_bits == 8) {
@@ -44,7 +44,7 @@ void append_rows(std::vector<Code>& codes, std::size_t stride, const std::vector
     }
 }
 
-// Frees memory that was reserved and is not in use.
+// Shortens rows that are longer than needed, and frees most of the unused memory.
 void release_unused(SweepMoment& moment) {
     const auto largest = *std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
     if (largest < moment.gate_stride) set_stride(moment, largest);
@@ -61,7 +61,7 @@ std::uint16_t native_from_big_endian(std::uint16_t number) {
     return static_cast<std::uint16_t>((number >> 8) | (number << 8));
 }
 
-// Blocks and moments name the members that describe their gates alike.
+// A template, because MomentBlock and SweepMoment use the same names for these members.
 template <class Described>
 bool is_same_kind(const SweepMoment& a, const Described& b) {
     return a.moment == b.moment && a.first_gate_m == b.first_gate_m &&
@@ -174,7 +174,8 @@ void append(SweepMoment& moment, const SweepMoment& from) {
 
 namespace {
 
-// Returns the first row with gates, counted from `first`; the number of rows if there is none.
+// Returns the first row with gates in [first, end), counted from `first`; end - first if there is
+// none.
 std::size_t first_row_with_gates(const SweepMoment& moment, std::size_t first, std::size_t end) {
     const auto begin = moment.gate_counts.begin() + static_cast<std::ptrdiff_t>(first);
     const auto stop = moment.gate_counts.begin() + static_cast<std::ptrdiff_t>(end);
@@ -223,7 +224,8 @@ Sweep part_of(Sweep& sweep, std::size_t first, std::size_t end) {
                 codes = rows_of(moment->codes16, first, end, stride);
             }
         });
-        // Shorten the rows to the longest one of the part, as if the part had come by itself.
+        // Shorten the rows to the longest row of the part, as in a sweep that consists of these
+        // rows.
         const auto longest = *std::max_element(own.gate_counts.begin(), own.gate_counts.end());
         if (longest < own.gate_stride) set_stride(own, longest);
     }

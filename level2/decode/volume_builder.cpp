@@ -16,11 +16,11 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Rows to make room for, so that the arrays of an ordinary sweep are never moved and never too
-// large.
+// Rows reserved at first, so that the arrays of an ordinary sweep never grow and waste little
+// memory.
 constexpr std::size_t radials_half_degree = 720;
 constexpr std::size_t radials_one_degree = 368;
-// A volume has some hundreds.
+// A real volume has at most some hundreds of records.
 constexpr std::uint64_t most_records = 100'000;
 
 VcpSource source_of(const Vcp& vcp) {
@@ -39,14 +39,14 @@ std::uint64_t held_by(const Sweep& sweep) {
     return bytes;
 }
 
-// Returns true if a radial of a piece may be late after the previous radial.
+// Returns true if this radial of a piece may be late, judged by the radial before it.
 bool falls_back(const Sweep& sweep, std::size_t radial) {
     const Radial& before = sweep.radials[radial - 1];
     const Radial& own = sweep.radials[radial];
     return own.azimuth_number <= before.azimuth_number && goes_back(own, before.time);
 }
 
-// Notes the end of a volume. It is valid until a radial comes that is not older.
+// Sets `end` if the radial ends the volume, and resets it if the radial is not older than the end.
 void note_end_of_volume(std::optional<UtcTime>& end, const Radial& radial) {
     if (end && *end <= radial.time) end.reset();
     if (status_of(radial) == RadialStatus::end_of_volume) end = radial.time;
@@ -77,7 +77,7 @@ void VolumeBuilder::set_pattern(Vcp vcp) {
     }
 }
 
-// Returns the fixed angle of the sweep's cut by the current pattern.
+// Returns the fixed angle that the current pattern gives for the sweep's cut.
 std::optional<float> VolumeBuilder::elevation_of_cut(const Sweep& sweep) const {
     const auto cut = static_cast<std::size_t>(sweep.elevation_number) - 1;
     if (sweep.elevation_number < 1 || !current_vcp_ || cut >= current_vcp_->cuts.size()) return {};
@@ -94,7 +94,7 @@ bool VolumeBuilder::note_marks(FragmentMarks marks) {
 }
 
 // If the first header comes after the first radials but is not newer than they are, it is the late
-// header of their volume. A copy of the volume's own header begins no other volume.
+// header of their volume. Every other header is pending until the next radial.
 void VolumeBuilder::note_header(VolumeHeader header) {
     constexpr std::chrono::seconds apart{15};  // of the header and the first radial
     const bool is_first = !volume_.header && report_.further_volume_starts.empty();
@@ -127,8 +127,8 @@ void VolumeBuilder::note_volume_facts(const Fragment& fragment) {
     }
 }
 
-// Returns the known facts about the pattern of a volume that begins with this piece. An old message
-// 5 counts only while the radials name its pattern.
+// Returns the pattern of a further volume that begins with this piece. A message 5 from before its
+// first sweep counts only if the radials name the same pattern.
 DecodeReport::FurtherPattern VolumeBuilder::pattern_of(const Fragment::Piece& piece) {
     if (current_vcp_ && !vcp_is_new_ && piece.vcp != 0 &&
         piece.vcp != current_vcp_->pattern_number) {
@@ -154,8 +154,8 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
     if (!previous_) return false;
     const Radial& first = piece.sweep.radials.front();
     if (pending_header_) return true;
-    // Records in the wrong order make the numbers fall too, but then time goes back. In that case
-    // only a second start begins another volume.
+    // If records come in the wrong order, elevation numbers fall too, but time goes back. In that
+    // case only a second start of a volume begins another one.
     const bool marked = status_of(first) == RadialStatus::start_of_volume;
     if (goes_back(first, previous_->time)) return marked && start_has_come_;
     if (marked) return true;
@@ -186,7 +186,7 @@ bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
     return true;
 }
 
-// Begins a sweep with what it has in common with the piece, and with the fixed angle of its cut.
+// Begins a sweep that has the facts of the piece and the fixed angle of its cut, but no radials.
 Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
     Sweep& sweep = volume_.sweeps.emplace_back();
     sweep.elevation_number = from.elevation_number;
@@ -206,7 +206,8 @@ void VolumeBuilder::end_sweep() {
     sweep_is_open_ = false;
 }
 
-// Counts the bytes of the open sweep together with these radials.
+// Counts the bytes that the open sweep takes with the radials of `from`. Returns false if they
+// exceed a limit.
 bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
     std::size_t next = sweep.moments.size();
     for (const SweepMoment& moment : from.moments) {
@@ -221,8 +222,8 @@ bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
     return room_.add_radials(from.radials.size());
 }
 
-// Appends the rows of a piece to the open sweep. Each moment of the piece finds the rows of the
-// same kind, or begins a new kind. Rows are widened if the piece has more gates, and padded for
+// Appends the rows of a piece to the open sweep. The rows of each moment go to the moment of the
+// same kind, or begin a new one. Rows are widened if the piece has more gates, and padded for
 // radials that lack the kind.
 void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     const std::size_t before = sweep.radials.size();
@@ -279,7 +280,7 @@ bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
     Sweep& sweep = begins ? begin_sweep(from) : volume_.sweeps.back();
     if (!make_room_for(sweep, from)) return false;
     if (begins && 2 * from.radials.size() >= expected_radials(from.azimuth_spacing_deg)) {
-        // The piece is nearly the whole sweep, so its arrays are taken over unchanged.
+        // The piece has at least half of the sweep, so take over its arrays without a copy.
         sweep.radials = std::move(from.radials);
         sweep.moments = std::move(from.moments);
     } else {
@@ -288,9 +289,9 @@ bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
     return true;
 }
 
-// Returns true if a radial is older than the previous one and does not continue its sweep: its
-// number does not rise, or it belongs to another sweep. The answer does not depend on where
-// fragments end.
+// Returns true if a radial is older than the previous radial and does not continue its sweep,
+// because its azimuth number does not rise or it belongs to another sweep. The answer does not
+// depend on where fragments end.
 bool VolumeBuilder::is_late(const Sweep& sweep, std::size_t radial) const {
     const Radial& own = sweep.radials[radial];
     if (!previous_ || !goes_back(own, previous_->time)) return false;
@@ -393,7 +394,7 @@ Status VolumeBuilder::hold(std::uint64_t bytes) {
 
 // Returns false if the arrays exceed their limit.
 bool VolumeBuilder::append_all(Fragment& fragment) {
-    // A fragment never takes more than its share of the volume.
+    // Check the bytes of the whole fragment before its pieces are joined.
     if (fragment.array_bytes > arrays_left()) return false;
     for (Fragment::Piece& piece : fragment.pieces) {
         if (!append_piece(std::move(piece))) return false;
@@ -402,7 +403,8 @@ bool VolumeBuilder::append_all(Fragment& fragment) {
     return note_marks(std::move(fragment.behind));
 }
 
-// Errors after the last radial of a volume do not make it incomplete.
+// Counts the errors before and after the last radial separately, because later errors do not damage
+// the volume.
 void VolumeBuilder::count_errors(const Fragment& fragment) {
     if (fragment.pieces.empty()) {
         errors_behind_ += fragment.report.errors;

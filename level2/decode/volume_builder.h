@@ -4,14 +4,14 @@
 // radial has status 0, 3 or 5, or there is a 24-byte header in between.
 //
 // Records may come in another order than the radar sent them, for example in a file to which LDM
-// appends. A radial that is older than the previous one is put into the gap that it left in its
-// sweep, and a repeated radial is left out, so the volume is that of the right order. A volume
-// begins at a radial marked as its start, after a further header, or where the elevation number
-// falls while time goes on.
+// appends. The builder puts a radial that is older than the previous one into the gap that it left
+// in its sweep, and drops a repeated radial. So the volume is the same as from records in the right
+// order. A further volume begins at a radial marked as a start, after a further header, or where
+// the elevation number falls while time goes forward.
 //
-// Limits    Neither the decompressed bytes nor the arrays exceed the given limits. Beyond them
-//           append() returns unsupported, and the builder must not be used any more. The arrays of
-//           one sweep do not exceed most_sweep_bytes.
+// Limits    Neither the decompressed bytes nor the arrays exceed the given limits. If append()
+//           returns an error (unsupported beyond a limit), the builder must not be used any more.
+//           The arrays of one sweep do not exceed most_sweep_bytes.
 // Threads   One thread at a time.
 #pragma once
 
@@ -33,13 +33,13 @@
 
 namespace stormcellar::level2 {
 
-// Messages are read, and their radials passed on, in stretches of this size, so that few of them
-// are held.
+// Messages that are not in LDM records are read in stretches of this size, so that memory holds few
+// of them.
 inline constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
-// Largest number of searches for places of late radials in a file. A file of known records needs
-// fewer, however they are ordered, and a file that was made to take time cannot take much.
+// Largest number of searches for the places of late radials in a file. Real files need fewer in any
+// order of their records; the limit keeps a hostile file from taking much time.
 inline constexpr std::size_t most_late_searches = 500;
-inline constexpr std::size_t rows_of_a_stretch = 128;  // radials for which room is made
+inline constexpr std::size_t rows_of_a_stretch = 128;  // rows reserved for a piece in a stretch
 
 // Returns true if a piece continues the sweep of the previous piece, provided that no header is
 // between them.
@@ -55,18 +55,20 @@ class VolumeBuilder {
           room_(array_limit_bytes) {}
 
     [[nodiscard]] Status append(Fragment fragment);
-    // Takes station, position and pattern, but no radials.
+    // Takes station, position and pattern from the fragment, but no radials.
     void note_facts(const Fragment& fragment);
-    // Counts bytes that are decompressed before they become a fragment.
+    // Counts decompressed bytes that are not counted in a fragment. Errors: unsupported beyond the
+    // limit.
     [[nodiscard]] Status count_output(std::uint64_t bytes);
     [[nodiscard]] Status too_much_output() const;
     [[nodiscard]] std::uint64_t output_left() const { return limit_bytes_ - output_bytes_; }
-    // Counts memory besides the arrays that is held until the end.
+    // Counts memory other than arrays that is held until the end. Errors: unsupported beyond the
+    // limit.
     [[nodiscard]] Status hold(std::uint64_t bytes);
     // Returns how many bytes the arrays of the next fragment may take.
     [[nodiscard]] std::uint64_t arrays_left() const { return room_.left_bytes(); }
-    // Takes the first bytes of a stream of messages or LDM records, and returns the bytes after the
-    // 24-byte header, if there is one.
+    // Takes the volume header from the start of a stream of messages or LDM records, and returns
+    // the bytes after it; all bytes if there is no header.
     [[nodiscard]] std::span<const std::byte> begin_stream(std::span<const std::byte> bytes);
     void set_header(VolumeHeader header) { volume_.header = std::move(header); }
 
@@ -74,35 +76,36 @@ class VolumeBuilder {
     [[nodiscard]] DecodeReport& report_data() { return report_; }
     void set_cut() { cut_ = true; }  // the input ends too early
     [[nodiscard]] bool is_cut() const { return cut_; }
-    // Notes that something in the volume is missing or wrong.
+    // Marks the volume as damaged.
     void set_incomplete() { incomplete_ = true; }
-    // Returns the volume up to now. Its last sweep may continue, and may have too few or too long
-    // rows.
+    // Returns the volume up to now. Its last sweep may continue, and its moments may have missing
+    // or too long rows.
     [[nodiscard]] const Volume& so_far() const { return volume_; }
     [[nodiscard]] bool so_far_holds_one() const { return report_.further_volume_starts.empty(); }
-    // Returns a sweep of so_far() with complete rows.
+    // Returns a copy of a sweep of so_far() with complete rows.
     [[nodiscard]] Sweep whole_sweep(std::size_t index) const;
     // Returns the number of sweeps that later radials have closed.
     [[nodiscard]] std::size_t closed_sweeps() const;
-    // Frees the arrays of a closed sweep that is not the last. Before finish(), an equal sweep must
-    // be put back in its place.
+    // Frees the arrays of a closed sweep that is not the last one. The caller must put an equal
+    // sweep back before finish().
     void drop_sweep(std::size_t index);
-    // Sets the function that returns a dropped sweep, for late radials of that sweep.
+    // Sets the function that returns a dropped sweep. append() calls it to search the sweep for the
+    // place of late radials.
     using DroppedSweeps = std::function<Result<Sweep>(std::size_t)>;
     void set_dropped_sweeps(DroppedSweeps dropped) { dropped_ = std::move(dropped); }
-    // Returns the closed sweeps that got late radials since the last call, and those that were
-    // fetched back unchanged.
+    // Returns the closed sweeps that got late radials since the last call, and the dropped sweeps
+    // that were fetched back but not changed.
     struct Touched {
         std::set<std::size_t> changed, fetched;
     };
     [[nodiscard]] Touched take_touched() { return std::exchange(touched_, {}); }
-    // Puts a dropped sweep back. Does nothing if the sweep was fetched back before.
+    // Puts a dropped sweep back. Does nothing if the sweep is not dropped.
     void put_back(std::size_t index, Sweep sweep);
     // Returns the bytes of the arrays of all sweeps that were not dropped.
     [[nodiscard]] std::uint64_t held_bytes() const;
     // Returns the part of held_bytes() that the open sweep takes.
     [[nodiscard]] std::uint64_t open_sweep_bytes() const;
-    // Returns true if the open sweep has had its last radial by its status. More radials may still
+    // Returns true if the status of the newest radial ends the open sweep. More radials may still
     // follow.
     [[nodiscard]] bool last_has_ended() const { return sweep_is_open_ && previous_->ended_sweep; }
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }
@@ -111,22 +114,23 @@ class VolumeBuilder {
     [[nodiscard]] bool volume_has_ended() const { return previous_ && previous_->end_of_volume; }
 
     // Returns the volume with its report, which lists missing parts and contradictions. The builder
-    // is empty afterward. The station is the fallback if the file does not name it. Errors:
-    // truncated or corrupt if nothing is whole, neither a radial nor metadata.
+    // must not be used afterward. If the file does not name its station, the fallback is the
+    // station. Errors: truncated or corrupt if neither a radial nor metadata is whole.
     [[nodiscard]] Result<Decoded> finish(const std::string& fallback_station);
 
   private:
-    // Facts of the newest piece, even if it is left out.
+    // Facts of the newest piece, even if its cut is not selected.
     struct Previous {
         int elevation_number = 0;
         int message_type = 0;
         bool ended_sweep = false;  // its last radial had status 2 or 4
-        // The time of the volume's last radial (status 4), if it has come and no newer radial has.
+        // The time of the last radial of the volume (status 4), if it has come and no newer radial
+        // has come.
         std::optional<UtcTime> end_of_volume;
         UtcTime time;
         std::uint16_t azimuth_number = 0;
     };
-    // The place of late radials: the next one goes before the radial `at` of the sweep.
+    // The place of late radials: the next late radial goes before radial number `at` of the sweep.
     struct LatePlace {
         std::size_t sweep = 0;
         std::size_t at = 0;
@@ -147,7 +151,7 @@ class VolumeBuilder {
     [[nodiscard]] bool may_follow_late(const Sweep& from, std::size_t radial) const;
     [[nodiscard]] LateFit fit_of_late(const Radial& radial, const Radial* before) const;
     [[nodiscard]] Result<bool> find_late_place(const Sweep& from, std::size_t radial);
-    // Takes the late radials from `first` on, and returns the end of their run.
+    // Takes the late radials from `first` on, and returns the index after the last one.
     [[nodiscard]] Result<std::size_t> take_late(Sweep& from, std::size_t first);
     [[nodiscard]] Status insert_late(Sweep& from, std::size_t first, std::size_t end);
     void put_sweeps_in_order();
@@ -167,22 +171,22 @@ class VolumeBuilder {
     std::uint64_t output_bytes_ = 0;
     bool cut_ = false;
     bool incomplete_ = false;
-    std::uint64_t errors_within_ = 0;  // before the last radial
+    std::uint64_t errors_within_ = 0;  // errors before the last radial
     std::uint64_t errors_behind_ = 0;
     Volume volume_;
     DecodeReport report_;
     std::optional<Previous> previous_;
     bool sweep_is_open_ = false;  // the last sweep of volume_ belongs to the newest piece
     std::optional<Vcp> current_vcp_;
-    bool vcp_is_new_ = false;  // came after the newest sweep began
+    bool vcp_is_new_ = false;  // current_vcp_ came after the newest sweep began
     std::optional<VolumeHeader> pending_header_;
     std::optional<UtcTime> first_time_;  // of the first radial
-    // True if the first header came after radials of its volume.
+    // True if the header of the first volume came after radials of that volume.
     bool header_is_late_ = false;
     bool start_has_come_ = false;  // the newest volume has a radial that is marked as its first
     std::optional<LatePlace> late_place_;
     std::size_t late_searches_ = 0;
-    std::uint64_t late_bytes_ = 0;  // moved to make room for late radials
+    std::uint64_t late_bytes_ = 0;  // bytes moved to insert late radials
     std::uint64_t late_radials_ = 0, repeated_radials_ = 0;
     bool is_disordered_ = false;  // a sweep is older than the sweep before it
     Status late_failure_;

@@ -13,7 +13,7 @@ namespace {
 
 using Sweeps = std::span<const Sweep>;
 
-// more than the 720 that an ICD allows, and more than test radars are known to send
+// more than the 720 of the ICD, and more than known test radars send
 constexpr int greatest_azimuth_number = 1000;
 
 void check_position(const Volume& volume, ReportWriter& report) {
@@ -36,12 +36,12 @@ void check_time(const Volume& volume, ReportWriter& report) {
                                  : "impossible, and no radial has a better one"));
 }
 
-// Sweeps without all their radials are listed one by one up to this number, as many as a person
-// would read.
+// At most this many sweeps are listed one by one in a report.
 constexpr int most_named_sweeps = 8;
 
-// Checks for sweeps that lost their last radials, except the last sweep, which has a problem of its
-// own. If a cut begins again, the radar gave up its first pass.
+// Reports sweeps that lost their last radials, and returns true if there are any. The last sweep
+// does not count, because its missing end is another problem. A sweep before a new pass of its cut
+// does not count, because the radar gave it up.
 bool check_ends(Sweeps all, bool last_is_newest, ReportWriter& report) {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -61,7 +61,7 @@ bool check_ends(Sweeps all, bool last_is_newest, ReportWriter& report) {
     return true;
 }
 
-// Returns how many radials are missing.
+// Reports missing radials, and returns their number.
 std::int64_t check_missing(Sweeps all, const std::vector<RadialGaps>& gaps, ReportWriter& report) {
     std::int64_t missing = 0;
     int sweeps = 0;
@@ -86,7 +86,8 @@ std::int64_t check_missing(Sweeps all, const std::vector<RadialGaps>& gaps, Repo
     return missing;
 }
 
-// Checks for volumes inside the file that stop before their end and precede another volume.
+// Reports volumes that stop before their end although another volume follows. Returns true if there
+// are any.
 bool check_given_up(Sweeps all, const std::vector<std::size_t>& volume_starts,
                     ReportWriter& report) {
     std::vector<std::size_t> numbers;
@@ -107,7 +108,8 @@ bool check_given_up(Sweeps all, const std::vector<std::size_t>& volume_starts,
     return true;
 }
 
-// Checks for sweeps in which the time runs back so far that one of two times must be wrong.
+// Reports sweeps in which the time goes back by an hour or more from one radial to the next, so
+// that one of the times must be wrong.
 void check_clock(Sweeps all, ReportWriter& report) {
     constexpr std::chrono::hours most{1};
     std::size_t sweeps = 0;
@@ -131,7 +133,8 @@ void check_clock(Sweeps all, ReportWriter& report) {
                                 : fmt::format("{} sweeps, first in sweep {}", sweeps, first)));
 }
 
-// Checks that cuts are numbered from 1 and count upward by one. A volume may end at any cut.
+// Reports missing cuts, and returns true if there are any. In each volume, cuts must count upward
+// from 1 by one; a volume may end at any cut.
 bool check_cuts(Sweeps all, const std::vector<std::size_t>& volume_starts, ReportWriter& report) {
     int gaps = 0;
     int previous = 0;
@@ -173,7 +176,7 @@ void check_repeated(Sweeps all, const std::vector<RadialGaps>& gaps, ReportWrite
                fmt::format("the radials' numbers go back inside {}", where));
 }
 
-// Reports numbers that no radar sends; they say nothing about missing radials.
+// Reports azimuth numbers that no radar sends. They do not count as missing radials.
 void check_numbers(Sweeps all, ReportWriter& report) {
     std::size_t odd = 0;
     for (const Sweep& sweep : all) {
@@ -219,7 +222,7 @@ RadialGaps gaps_of(const Sweep& sweep) {
 
 bool check_volume(const Volume& volume, const VolumeFacts& facts, ReportWriter report) {
     const bool missing_radials = check_radials(volume.sweeps, facts.last_sweep_is_newest, report);
-    // If only some cuts were selected, others must be missing.
+    // If cuts were left out by the selection, gaps between cuts are no fault.
     const bool missing_cuts =
         facts.all_cuts && check_cuts(volume.sweeps, facts.volume_starts, report);
     const bool given_up =

@@ -1,5 +1,5 @@
-// level2/decode/volume_checks.h -- finds the missing parts and the contradictions of a whole
-// volume.
+// level2/decode/volume_checks.h -- reports the missing parts of a volume and the contradictions in
+// it.
 //
 // Threads   Pure functions.
 #pragma once
@@ -27,32 +27,32 @@ struct VolumeFacts {
     std::optional<RdaStatus> status = {};
 };
 
-// Reports a missing position or one that disagrees with the station table, a header whose time the
-// radials contradict, radials that are missing or come twice, missing cuts, a volume without its
-// end, and the faults that the radar reports about itself. Returns true if radials or cuts are
-// missing.
+// Reports what is wrong in a volume: a position that is missing or disagrees with the station
+// table, times that contradict each other, radials that are missing or repeated, missing cuts, a
+// volume without its end, and the faults that the radar reports about itself. Returns true if
+// radials or cuts are missing, or if a volume stops before its end and another one follows.
 [[nodiscard]] bool check_volume(const Volume& volume, const VolumeFacts& facts,
                                 ReportWriter report);
 
-// Returns true if nothing of this one volume is missing from its first cut to its last radial, as
-// far as the radials show. Dropped bytes that leave no gap in the numbers are only in the report.
+// Returns true if the volume has its end, and its radials and cuts are numbered without a gap. The
+// argument must be one volume. Dropped bytes that leave no gap in the numbers do not count.
 [[nodiscard]] bool is_complete(const Volume& volume);
 [[nodiscard]] bool is_complete(std::span<const Sweep> sweeps);
 
 // Returns true if a sweep of the volume has the moment.
 [[nodiscard]] bool holds(const Volume& volume, Moment moment);
 
-// One of the volumes that a file holds.
+// One of the volumes in a file.
 struct VolumePart {
     std::size_t first_sweep = 0;
     std::size_t sweeps = 0;
-    bool complete = false;  // nothing of it is missing, and nothing of the file is damaged
+    bool complete = false;  // is_complete(), and the report is not `damaged`
 };
 // Returns the volumes in the order of the file, at least one.
 [[nodiscard]] std::vector<VolumePart> volumes_in(const Decoded& decoded);
 
-// The gaps in the radials of a sweep, which are numbered from 1. The number 0, and numbers above
-// 1000, do not count.
+// Gaps in the azimuth numbers of a sweep, which begin at 1. The number 0, and numbers above 1000,
+// do not count.
 struct RadialGaps {
     std::int64_t missing = 0;
     int first_missing = 0;

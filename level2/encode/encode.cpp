@@ -34,7 +34,7 @@ std::vector<std::byte> encode_header(const Volume& volume) {
     return out.take();
 }
 
-// Compresses messages into one LDM record: the size of its bzip2 stream, then the stream.
+// Compresses messages into one LDM record. The caller fills in the control word at its start.
 Result<EncodedRecord> compress(std::span<const std::byte> messages, int level) {
     // This is the bound that libbz2's manual gives for BZ2_bzBuffToBuffCompress.
     const std::size_t bound = messages.size() + messages.size() / 100 + 600;
@@ -44,7 +44,7 @@ Result<EncodedRecord> compress(std::span<const std::byte> messages, int level) {
     EncodedRecord record;
     record.bytes.resize(4 + bound);
     auto size = static_cast<unsigned int>(bound);
-    // libbz2 takes its input as char*, but only reads it.
+    // libbz2 takes its input as char* but does not write to it.
     char* source = const_cast<char*>(reinterpret_cast<const char*>(messages.data()));
     char* target = reinterpret_cast<char*>(record.bytes.data() + 4);
     const int code = BZ2_bzBuffToBuffCompress(
@@ -63,7 +63,7 @@ void set_control_word(EncodedRecord& record, bool last) {
     std::copy(word.bytes().begin(), word.bytes().end(), record.bytes.begin());
 }
 
-// Some radials of a sweep.
+// The radials [first, end) of a sweep.
 struct Stretch {
     std::size_t sweep = 0;
     std::size_t first = 0;
@@ -97,7 +97,8 @@ Status RecordMaker::add_record(EncodedVolume& encoded, std::span<const std::byte
 }
 
 Status RecordMaker::add_metadata(EncodedVolume& encoded) {
-    // Some dates are not accepted, and a Volume does not keep the date of its metadata.
+    // The decoder accepts no later dates, and a Volume does not keep the date of its metadata, so
+    // any date will do.
     const bool is_dated = nexrad_from_time(encoded.start).day <= latest_day;
     ByteWriter messages;
     Status written = append_metadata(messages, volume_, is_dated ? encoded.start : UtcTime{}, run_);

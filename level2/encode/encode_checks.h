@@ -1,5 +1,4 @@
-// level2/encode/encode_checks.h -- checks whether a volume can be written at all; internal to the
-// writer.
+// level2/encode/encode_checks.h -- checks that a volume can be written; internal to the writer.
 //
 // Threads   Pure functions.
 #pragma once
@@ -15,9 +14,9 @@ tl::unexpected<Error> refuse(fmt::format_string<Args...> format, Args&&... args)
                 fmt::format(format, std::forward<Args>(args)...));
 }
 
-// Checks that the arrays have their stated sizes, that the radials separate the sweeps, and that
-// message 31 gets the station and the block that it needs. read_back.h checks whether messages keep
-// the numbers.
+// Checks that the arrays have their stated sizes, that the decoder can tell the sweeps apart, and
+// that the volume has the station and the volume block if message 31 needs them. ReadBack checks
+// that messages keep the numbers.
 [[nodiscard]] Status check_encodable(const Volume& volume);
 
 }  // namespace stormcellar::level2

@@ -10,7 +10,7 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::uint8_t legacy_channel = 0;
-constexpr std::size_t data_at = 100;  // of the first gate, after the header
+constexpr std::size_t data_at = 100;  // offset of the first gate, after the message header
 constexpr std::size_t body_bytes = frame_bytes - message_header_bytes;
 constexpr double code_per_degree = 32768.0 / 180.0;
 
@@ -19,7 +19,7 @@ std::uint16_t angle_code(float angle_deg) {
     return static_cast<std::uint16_t>(static_cast<unsigned long>(code) & 0xFFFFU);
 }
 
-// The moments of one radial; null if it lacks one.
+// The moments of a radial; null for a moment that the radial lacks.
 struct Gates {
     const SweepMoment* ref = nullptr;
     const SweepMoment* vel = nullptr;

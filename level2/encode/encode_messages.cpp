@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t communications_header_bytes = 12;
 constexpr std::size_t frame_body_bytes = 2400;  // 1,208 halfwords with the header
 constexpr std::uint8_t orda_channel = 8;        // single channel, Open RDA
-// Replaces a number that the radar does not know, in a block that it does send.
+// Stands in a block for a number that the radial lacks.
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 std::int16_t to_i16(double number) {
@@ -75,8 +75,8 @@ Status append_vcp(ByteWriter& out, const Vcp& vcp, UtcTime time, MessageRun& run
     return {};
 }
 
-// Returns the first build that sends such radials, in hundredths (ICD 2620002, tables XVII by
-// build).
+// Returns the first build, in hundredths, that sends the blocks and moments of this volume (ICD
+// 2620002, tables XVII of each build).
 std::uint16_t build_of(const Volume& volume) {
     constexpr std::uint16_t build_13 = 1300, build_17 = 1700, build_19 = 1900, build_20 = 2000;
     const auto has_cfp = [](const Sweep& sweep) { return sweep.find(Moment::cfp) != nullptr; };
@@ -159,7 +159,7 @@ bool has_radial_block(const Radial& radial) {
            radial.unambiguous_range_m != 0 || radial.radial_flags != 0;
 }
 
-// Writes the radial data block, ICD table XVII-H. It has 20 bytes in the form without calibration.
+// Writes the radial data block, ICD table XVII-H. Without calibration, the block has only 20 bytes.
 void append_radial_block(ByteWriter& out, const Radial& radial) {
     out.text("RRAD", 4);
     out.u16(has_calibration(radial) ? 28 : 20);
@@ -177,7 +177,7 @@ void append_radial_block(ByteWriter& out, const Radial& radial) {
 void append_moment(ByteWriter& out, const SweepMoment& moment, std::size_t radial) {
     const std::size_t gates = moment.gate_counts[radial];
     const std::size_t row = radial * static_cast<std::size_t>(moment.gate_stride);
-    // Names such as "SW" are filled with blanks, as the RDA does.
+    // The RDA fills names such as "SW" with blanks.
     out.text("D", 1);
     std::string name{moment_name(moment.moment)};
     name.resize(3, ' ');
@@ -209,7 +209,7 @@ std::uint8_t azimuth_spacing_code(float spacing_deg) {
 // Writes the blocks of one radial and the table of pointers to them.
 class BlockTable {
   public:
-    // Pointers count from `start`. The table is at the end of the bytes written so far.
+    // Appends an empty table of `slots` pointers to `out`. Pointers count from `start`.
     BlockTable(ByteWriter& out, std::size_t start, std::size_t slots)
         : out_(out), start_(start), next_(out.size()) {
         out_.zeros(4 * slots);
@@ -249,7 +249,7 @@ void end_message(ByteWriter& out, std::size_t size_position) {
     out.set_u16(size_position, static_cast<std::uint16_t>(halfwords));
 }
 
-// Builds that send CFP (19 and later) have room for ten pointers, earlier ones for nine.
+// Builds that send CFP (19 and later) have room for ten pointers, earlier builds for nine.
 MessageRun::MessageRun(const Volume& volume) {
     const auto has_cfp = [](const Sweep& sweep) { return sweep.find(Moment::cfp) != nullptr; };
     const bool late = std::any_of(volume.sweeps.begin(), volume.sweeps.end(), has_cfp);
@@ -257,7 +257,8 @@ MessageRun::MessageRun(const Volume& volume) {
 }
 
 Status append_metadata(ByteWriter& out, const Volume& volume, UtcTime time, MessageRun& run) {
-    // An RDA before the Open RDA has another message 2, whose content a Volume does not hold.
+    // Leave out message 2 of an RDA before the Open RDA, because a Volume does not hold its
+    // content.
     const bool legacy = !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
     const std::size_t used_frames = (volume.vcp_message ? 1U : 0U) + (legacy ? 0U : 1U);
     out.zeros((metadata_frames - used_frames) * frame_bytes);

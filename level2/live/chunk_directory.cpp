@@ -17,15 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns true for a file that its sender has not finished.
+// Returns true if the name shows that its sender has not finished the file.
 bool is_temporary(const fs::path& path) {
     const std::string name = path.filename().string();
     return name.starts_with('.') || name.ends_with(".part") || name.ends_with(".tmp") ||
            name.ends_with('~');
 }
 
-// Returns the digits of a name. Names of both forms begin with the time, with a separator or
-// without.
+// Returns the digits of a name. Names of both forms begin with the time, so the digits sort by
+// time.
 std::string digits_of(const std::string& text) {
     std::string digits;
     std::ranges::copy_if(text, std::back_inserter(digits),
@@ -54,7 +54,8 @@ Result<std::vector<ChunkSet>> chunk_sets(const fs::path& directory) {
             error == std::errc::permission_denied ? ErrorCode::permission : ErrorCode::not_found,
             "{}: {}", directory.string(), error.message());
     }
-    // The chunks by time and by number. If a number comes twice, LiveVolume takes the better chunk.
+    // The chunks of each volume, sorted by time and number. Of two chunks with one number,
+    // LiveVolume keeps the better.
     std::map<std::pair<std::string, std::string>, std::multimap<int, fs::path>> found;
     for (; entry != fs::directory_iterator{}; entry.increment(error)) {
         std::error_code ignored;
@@ -62,7 +63,7 @@ Result<std::vector<ChunkSet>> chunk_sets(const fs::path& directory) {
         if (!name || is_temporary(entry->path()) || !entry->is_regular_file(ignored)) continue;
         found[{digits_of(name->volume), name->volume}].emplace(name->number, entry->path());
     }
-    // The loop also ends after an error.
+    // The loop ends at the last entry or after an error.
     if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
     if (found.empty()) {
         return fail(ErrorCode::not_found,
@@ -97,7 +98,7 @@ Result<Decoded> decode_chunks(const std::vector<fs::path>& chunks, const DecodeO
         if (!added && added.error().code == ErrorCode::exhausted) {
             return fail(ErrorCode::exhausted, "{}: {}", path.string(), added.error().message);
         }
-        // the volume's report lists a chunk that is not accepted
+        // the report of the volume lists a chunk that add() refused
     }
     auto decoded = volume.finish();
     if (!decoded) {

@@ -15,14 +15,13 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Enough bytes to tell LDM records and compressed files from other files, and messages from
-// anything else.
+// Bytes needed to recognize LDM records and compressed files, and to recognize messages.
 constexpr std::size_t decide_container_bytes = archive_header_bytes + 16;
 constexpr std::size_t decide_messages_bytes =
     archive_header_bytes + frame_bytes + sure_message_bytes;
-// The longest record, plus the bytes that are appended at once.
+// The longest record, plus two stretches.
 constexpr std::size_t most_unframed_bytes = longest_record_bytes + (std::size_t{2} << 20);
-// Bytes that are searched if the start holds nothing known.
+// Bytes held before they are searched, if the start of the file is unknown.
 constexpr std::size_t most_unknown_bytes = std::size_t{16} << 20;
 constexpr std::size_t kept_bytes = std::size_t{16} << 10;
 
@@ -66,7 +65,7 @@ class GrowingVolume::Reader {
 
     DecodeOptions options_;
     Kind kind_ = Kind::undecided;
-    bool is_unknown_ = false;  // bytes are held, and the start holds nothing known
+    bool is_unknown_ = false;  // the start of the held bytes is of no known content
     Status failed_;
     std::vector<std::byte> held_;  // bytes that are not consumed yet
     VolumeBuilder volume_{options_.output_limit_bytes, options_.most_array_bytes()};
@@ -77,7 +76,7 @@ class GrowingVolume::Reader {
     MessageReader reader_{fragment_};
     MessageFeed feed_{reader_};
     std::size_t next_sweep_ = 0;      // sweeps below this one are closed and were returned
-    std::size_t radials_handed_ = 0;  // radials of that sweep
+    std::size_t radials_handed_ = 0;  // radials of sweep next_sweep_ when it was last returned
     std::set<std::size_t> changed_;   // sweeps that got late radials since the last take_sweeps()
 };
 
@@ -104,7 +103,7 @@ void GrowingVolume::Reader::decide() {
 }
 
 Status GrowingVolume::Reader::read_records(bool last) {
-    PartDecoder parts{options_.output_limit_bytes, options_.selection};  // has a buffer of its own
+    PartDecoder parts{options_.output_limit_bytes, options_.selection};
     std::size_t done = 0;
     while (const auto part = framer_.next(std::span{held_}.subspan(done), last)) {
         done += framer_.position() - part->position;
@@ -116,9 +115,8 @@ Status GrowingVolume::Reader::read_records(bool last) {
             return fail(ErrorCode::over_budget, "a sweep takes more than {} bytes", limit);
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
-    // Many volumes grow at once, and each has a record of half a megabyte for each sweep. An
-    // unfinished record keeps its room, because moving it with each stretch would take quadratic
-    // time.
+    // Free unused memory, because many volumes grow at once. But keep the room of an unfinished
+    // record, because moving it with each stretch would take quadratic time.
     if (held_.capacity() > kept_bytes + 2 * held_.size()) held_.shrink_to_fit();
     return {};
 }
@@ -184,7 +182,8 @@ Status GrowingVolume::Reader::append(std::span<const std::byte> bytes) {
     return failed_;
 }
 
-// Sweeps that were fetched only for a search are dropped again.
+// Drops sweeps again that were fetched only for a search, and notes the sweeps that got late
+// radials.
 void GrowingVolume::Reader::note_late_radials() {
     VolumeBuilder::Touched touched = volume_.take_touched();
     for (const std::size_t index : touched.fetched) {
@@ -208,7 +207,7 @@ std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
     const auto& sweeps = volume_.so_far().sweeps;
     while (!changed_.empty() && bytes < most_live_bytes) {
         const std::size_t index = changed_.extract(changed_.begin()).value();
-        if (index >= next_sweep_) continue;  // the loop below returns it anyway
+        if (index >= next_sweep_) continue;  // the loop below returns this sweep anyway
         const std::size_t handed = radials_handed_;
         hand_out(index);
         radials_handed_ = handed;
@@ -224,7 +223,7 @@ std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
     return taken;
 }
 
-// The next piece reads the last sweep, whether it is closed or not.
+// The last sweep is not droppable even if it is closed, because the next piece may read it.
 std::size_t GrowingVolume::Reader::droppable_sweeps() const {
     const std::size_t count = volume_.so_far().sweeps.size();
     return std::min(next_sweep_, count == 0 ? 0 : count - 1);

@@ -20,9 +20,8 @@ constexpr std::size_t rows_of_a_chunk = 120;
 constexpr std::size_t most_records = 1000;
 constexpr std::uint64_t bytes_of_a_problem = 256;
 
-// Returns the bytes of a fragment that is held by itself. The fragment's own count leaves out its
-// first piece except for the rows, because that piece may continue a sweep; here the piece is
-// counted fully.
+// Returns the bytes of a fragment in memory. array_bytes counts only the rows of the first piece,
+// because that piece may continue a sweep; this function adds the rest of the piece.
 std::uint64_t held_bytes(const Fragment& fragment) {
     std::uint64_t bytes = fragment.array_bytes + sizeof(Fragment) +
                           fragment.report.problems.size() * bytes_of_a_problem;
@@ -38,7 +37,7 @@ bool holds_messages(const DecodeReport& report) {
                        [](const auto& count) { return count.first != 0; });
 }
 
-// Decodes the fragments of one chunk.
+// Decodes the fragments of one chunk within the given room.
 class ChunkReader {
   public:
     ChunkReader(const DecodeOptions& options, LiveRoom room) : options_(options), room_(room) {}
@@ -145,7 +144,8 @@ Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes, const Decode
     const Content content = content_anywhere(bytes);
     auto header = read_archive_header(bytes);
     const auto body = bytes.subspan(header ? archive_header_bytes : 0);
-    // A header with the first bytes of a record identifies its volume.
+    // Unknown content after a header may be the first bytes of a record. The header alone
+    // identifies its volume.
     const bool has_records = content == Content::ldm || (content == Content::unknown && header);
     if (!has_records && content != Content::messages) {
         return fail(ErrorCode::not_level2, "not a chunk of a Level II volume");

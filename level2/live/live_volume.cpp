@@ -56,7 +56,7 @@ Result<LiveVolume::Added> LiveVolume::keep_better(int number, LiveChunk chunk,
         return Added::added;
     }
     LiveChunk& old = there->second;
-    // If one name marks the chunk as the last, it is the last, whatever another name says.
+    // The chunk is the last one if any of its names says so.
     if (chunk.kind == ChunkKind::end) old.kind = ChunkKind::end;
     if (old.bytes == chunk.bytes && old.checksum == chunk.checksum) return Added::repeated;
     const auto worth = [](const LiveChunk& c) { return std::tie(c.radials, c.bytes, c.checksum); };
@@ -88,7 +88,7 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
             return kept;
         }
         if (chunk.error().cause() == Cause::data && !chunks_.contains(number)) {
-            // If there are several reasons, the same one is kept in any order.
+            // Keep the alphabetically first reason, so that the order of arrival does not matter.
             std::string& reason = refused_[number];
             if (reason.empty() || chunk.error().message < reason) reason = chunk.error().message;
         }
@@ -101,8 +101,8 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
 bool LiveVolume::has_ended() const {
     return std::any_of(chunks_.begin(), chunks_.end(), [](const auto& entry) {
         const LiveChunk& chunk = entry.second;
-        // In a start chunk alone, a negative control word does not count, because its record is the
-        // last of the metadata.
+        // A negative control word counts only with radials, because in a start chunk it marks the
+        // last record of the metadata.
         return chunk.kind == ChunkKind::end || chunk.ended_volume ||
                (chunk.negative && chunk.radials > 0);
     });
@@ -153,7 +153,8 @@ std::vector<LiveSweep> LiveVolume::changed_sweeps() {
         if (!sweeps[i].closed || handed_out_.contains(pieces)) continue;
         handed_out.insert(pieces);
         Result<Sweep> sweep = join(sweeps[i], options_.decode.most_array_bytes(), options_.depot);
-        // The pieces exceed the limit when joined, or cannot be read back; finish() says so.
+        // Skip pieces that exceed the limit when joined, or that the depot cannot return. finish()
+        // reports the error.
         if (!sweep || sweep->radials.empty()) continue;
         bytes += bytes_of(*sweep);
         const bool whole = level2::is_whole(*sweep);
@@ -167,7 +168,7 @@ std::vector<LiveSweep> LiveVolume::take_sweeps() {
     try {
         return changed_sweeps();
     } catch (const std::bad_alloc&) {
-        return {};  // they are returned when there is memory
+        return {};  // the next call tries again
     }
 }
 

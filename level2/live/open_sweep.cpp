@@ -6,7 +6,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Goes from piece to piece, in order.
+// Groups pieces, which must be added in order, into sweeps.
 class Grouper {
   public:
     void begin_chunk(const LiveChunk& chunk) {
@@ -43,7 +43,7 @@ class Grouper {
   private:
     std::vector<OpenSweep> sweeps_;
     const Vcp* pattern_ = nullptr;
-    OpenSweep::PieceId pattern_id_{};  // the chunk that gave the pattern, if there is one
+    OpenSweep::PieceId pattern_id_{};  // the chunk that gave `pattern_`; 0: no pattern
     const Fragment::Piece* previous_ = nullptr;
     bool header_between_ = false;
     bool first_chunk_ = true;

@@ -1,4 +1,4 @@
-// level2/live/open_sweep.h -- finds the pieces in a live volume's chunks that make up a sweep.
+// level2/live/open_sweep.h -- groups the pieces in a live volume's chunks into sweeps.
 //
 // Threads   Pure functions.
 #pragma once
@@ -14,29 +14,29 @@
 
 namespace stormcellar::level2 {
 
-// A sweep by its pieces. It refers to the chunks from which it was made.
+// The pieces that make up a sweep. They point into the chunks, which must outlive the OpenSweep.
 struct OpenSweep {
-    // The serial number of the chunk of a piece, and the index of the piece in the chunk.
+    // Identifies a piece: the serial number of its chunk, and its index in that chunk.
     using PieceId = std::pair<std::uint64_t, std::size_t>;
 
     struct OpenPiece {
         const Fragment::Piece* piece = nullptr;
         const LiveChunk* chunk = nullptr;
-        std::size_t place = 0;  // index in the chunk
+        std::size_t place = 0;  // index of the piece in the chunk
     };
     std::vector<OpenPiece> pieces;
     std::vector<PieceId>
-        ids;  // after the ID of the chunk that gave the pattern, which counts from 1
+        ids;  // first the serial number + 1 of the chunk that gave the pattern, then the pieces
     const Vcp* pattern = nullptr;
     bool closed = false;  // closed by the status of its last radial, or by what follows
 };
 
-// Groups the pieces by the rule of the VolumeBuilder, over the chunks in the order of their
-// numbers.
+// Groups the pieces of all chunks, in the order of the chunk numbers, by the same rule as
+// VolumeBuilder.
 [[nodiscard]] std::vector<OpenSweep> sweeps_of(const std::map<int, LiveChunk>& chunks);
 
-// Joins the pieces in the same way as the VolumeBuilder. Returns a sweep without radials if that
-// exceeds the limit. Errors: those of the depot (null: no sweep is in a depot).
+// Joins the pieces in the same way as VolumeBuilder. Returns a sweep without radials if it exceeds
+// the limit. `depot` may be null if no sweep is in a depot. Errors: those of the depot.
 [[nodiscard]] Result<Sweep> join(const OpenSweep& sweep, std::uint64_t limit_bytes,
                                  const SweepDepot* depot);
 

@@ -1,5 +1,5 @@
-// level2/messages/byte_writer.h -- writes big-endian numbers into a growing row of bytes: the
-// opposite of ByteReader.
+// level2/messages/byte_writer.h -- appends big-endian numbers to bytes, as the counterpart of
+// ByteReader.
 //
 // Threads   A writer is a plain value; do not share one between threads.
 #pragma once
@@ -32,7 +32,7 @@ class ByteWriter {
     void raw(std::span<const std::byte> part) {
         bytes_.insert(bytes_.end(), part.begin(), part.end());
     }
-    // Writes exactly `width` bytes: the text, cut or followed by NULs.
+    // Writes exactly `width` bytes: the text, cut or filled with NULs.
     void text(std::string_view text, std::size_t width) {
         const auto part = std::as_bytes(std::span(text.substr(0, width)));
         raw(part);

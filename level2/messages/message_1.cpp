@@ -7,7 +7,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The ranges that all moments of one kind of waveform share.
+// The gates of the surveillance or of the Doppler waveform, which its moments share.
 struct Gates {
     std::int32_t first_m = 0;
     std::int32_t spacing_m = 0;
@@ -22,7 +22,8 @@ struct Extent {
     std::size_t end = 0;
 };
 
-// Adds one moment. Returns false if it does not fit, or reaches into the gates of another.
+// Adds a moment, if the radial has it. Returns false if its gates are not within the data, or if
+// another moment begins among them.
 bool add_moment(RadialMessage& message, MomentBlock block, const Gates& gates,
                 const std::array<Extent, 3>& extents, std::size_t own,
                 std::span<const std::byte> body) {
@@ -41,7 +42,8 @@ bool add_moment(RadialMessage& message, MomentBlock block, const Gates& gates,
     return !reader.failed() && message.add(block);
 }
 
-// Returns the coding of REF, VEL and SW. Velocity has steps of 0.5 m/s (resolution 2) or 1 m/s (4).
+// Returns blocks for REF, VEL and SW with their scale, offset and threshold. Velocity has steps of
+// 0.5 m/s (resolution 2) or 1 m/s (4).
 std::array<MomentBlock, 3> moment_blocks(std::uint16_t velocity_resolution, float threshold_db) {
     std::array<MomentBlock, 3> blocks;
     blocks[0].moment = Moment::ref;
@@ -107,7 +109,7 @@ RadialResult read_message_1(std::span<const std::byte> body, Framing framing) {
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         const Gates& gates = i == 0 ? surveillance : doppler;
         if (add_moment(message, blocks.at(i), gates, extents, i, body)) continue;
-        constexpr std::string_view reason = "gates do not lie in message 1, or in one another";
+        constexpr std::string_view reason = "gates reach beyond message 1 or into other gates";
         if (framing == Framing::unproven) return tl::unexpected(reason);
         message.lost_moments.push_back({reason, gates.count});
     }

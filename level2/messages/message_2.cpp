@@ -12,9 +12,9 @@ constexpr std::size_t header_halfwords = 8;  // included in the size of the head
 constexpr std::size_t least_halfwords = 40;
 constexpr std::size_t most_halfwords = 60;
 constexpr std::uint8_t open_rda_channel = 8;
-constexpr std::uint16_t after_legacy_day = 13'515;  // 2007-01-01; the last one was replaced in 2006
+constexpr std::uint16_t after_legacy_day = 13'515;  // 2007-01-01; the last was replaced in 2006
 
-// The halfwords by the numbers of the ICD, which begin at 1. Missing halfwords are 0.
+// The halfwords of the message. Their numbers begin at 1, as in the ICD; missing halfwords are 0.
 class Halfwords {
   public:
     explicit Halfwords(std::span<const std::byte> bytes) {
@@ -35,8 +35,8 @@ class Halfwords {
     std::array<std::uint16_t, most_halfwords> numbers_{};
 };
 
-// Returns the build. The number is in hundredths since build 11.2 and in tenths before; note (6) of
-// table IV tells them apart.
+// Returns the build from its number, which is in hundredths since build 11.2 and was in tenths
+// before; note (6) of table IV tells the two apart.
 float build_from(std::uint16_t number) {
     const auto build = static_cast<float>(number);
     return number > 200 ? build / 100 : build / 10;
@@ -87,7 +87,7 @@ void read_open_fields(RdaStatus& status, const Halfwords& halfword) {
         status.clutter_decision_segments = static_cast<std::uint8_t>((halfword[13] >> 1) & 0x1F);
     }
     if (build >= 11) status.avset = halfword.bit(14, 1);
-    // The halfword is spare in the ICD of build 13, but that build sends it anyway.
+    // The ICD of build 13 calls this halfword spare, but the build sends the number.
     if (build >= 13)
         status.vertical_correction_db = static_cast<float>(halfword.as_signed(23)) / 100;
     if (build >= 14) status.performance_check = halfword[26];
@@ -96,8 +96,8 @@ void read_open_fields(RdaStatus& status, const Halfwords& halfword) {
     if (build >= 21) status.time_series_recording = halfword.bit(14, 5);
 }
 
-// Reads halfwords 41 to 60. Builds without them give zeros. Build 18 also gives zeros, because they
-// are spare there.
+// Reads halfwords 41 to 60. They are zero in build 18, where they are spare, and in builds without
+// them.
 void read_late_fields(RdaStatus& status, const Halfwords& halfword) {
     if (halfword[60] == 0) return;
     status.version = halfword[60];

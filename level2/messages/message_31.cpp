@@ -15,14 +15,14 @@ constexpr std::size_t volume_block_bytes = 44;        // of the first version
 constexpr std::size_t radial_block_short_bytes = 20;  // without calibration
 constexpr std::size_t radial_block_full_bytes = 28;
 constexpr std::uint16_t most_blocks = 32;  // the known maximum is 10
-// The bytes after the gates of a moment; TDWRs leave up to 7.
+// Most bytes after the gates of a moment; TDWRs leave up to 7.
 constexpr std::size_t most_padding_bytes = 16;
 
 std::optional<float> finite(float number) {
     return std::isfinite(number) ? std::optional{number} : std::nullopt;
 }
 
-// Each reader of a block returns the reason for a fault, or nothing.
+// The reason for a fault in a block, or none. The functions that read blocks return it.
 using Reason = std::optional<std::string_view>;
 
 Reason read_radial_block(Radial& radial, std::span<const std::byte> block) {
@@ -58,7 +58,7 @@ Reason read_elevation_block(Radial& radial, std::span<const std::byte> block) {
     return std::nullopt;
 }
 
-// Reads a moment's block, whose bytes end where the next block begins.
+// Reads the block of a moment. `bytes` ends where the next block begins.
 Reason read_moment_block(RadialMessage& message, Moment moment, std::span<const std::byte> bytes) {
     ByteReader reader{bytes};
     reader.skip(8);
@@ -82,7 +82,7 @@ Reason read_moment_block(RadialMessage& message, Moment moment, std::span<const 
     const std::size_t wide = std::size_t{2} * block.gates;
     if (block.word_size_bits == 8 && reader.remaining() >= wide &&
         reader.remaining() <= wide + most_padding_bytes) {
-        return "gates have twice the bits that it says";
+        return "gates have 16 bits, but their block says 8";
     }
     block.codes = reader.bytes(block.word_size_bits == 8 ? wide / 2 : wide);
     if (reader.failed()) return "gates reach beyond the end of their block";
@@ -93,7 +93,7 @@ Reason read_moment_block(RadialMessage& message, Moment moment, std::span<const 
     return std::nullopt;
 }
 
-// The part of a radial that a fault in a block costs.
+// The part of a radial that is lost by a fault in a block.
 enum class Loss : std::uint8_t { nothing, moment, radial };
 
 struct Fault {
@@ -136,16 +136,16 @@ BlockFault read_block(RadialMessage& message, std::span<const std::byte> block) 
     if (name.front() == 'D' && known) {
         return fault_of(Loss::moment, read_moment_block(message, *known, block));
     }
-    // A name that is in no ICD belongs to a later build, unless it is not even text; then a pointer
-    // is wrong.
+    // A later build may have blocks with unknown names. If the name is not even text, a pointer is
+    // wrong.
     for (const char c : name) {
-        if (c < ' ' || c > '~') return Fault{Loss::radial, "a block has no name"};
+        if (c < ' ' || c > '~') return Fault{Loss::radial, "a block's name is not text"};
     }
     ++message.unknown_blocks;
     return std::nullopt;
 }
 
-// The starts of the blocks, in the order of the message, and then the end of the message.
+// The pointers of a message 31, and the size of its body.
 struct BlockPlaces {
     std::array<std::uint32_t, most_blocks> pointers{};
     std::size_t count = 0;
@@ -164,7 +164,7 @@ struct BlockPlaces {
 tl::expected<BlockPlaces, std::string_view> read_places(ByteReader& reader, std::uint16_t blocks,
                                                         std::size_t body_bytes) {
     if (blocks > most_blocks) {
-        return tl::unexpected(std::string_view{"counts more blocks than are known"});
+        return tl::unexpected(std::string_view{"message 31 counts more than 32 blocks"});
     }
     BlockPlaces places;
     places.body_bytes = body_bytes;
@@ -203,7 +203,7 @@ RadialResult read_message_31(std::span<const std::byte> body, Framing framing) {
     radial.azimuth_indexing = reader.u8();
     const std::uint16_t blocks = reader.u16();
     if (reader.failed()) return tl::unexpected(std::string_view{"message 31 is too short"});
-    // The comparison is written so that a NaN fails.
+    // is_within() is false for NaN.
     const bool angles_possible = is_within(radial.azimuth_deg, 0.0F, 360.0F) &&
                                  is_within(radial.elevation_deg, -90.0F, 90.0F);
     if (!angles_possible) return tl::unexpected(std::string_view{"angles are impossible"});

@@ -31,7 +31,7 @@ std::optional<Vcp> read_vcp(int message_type, std::span<const std::byte> body) {
     ByteReader reader{body};
     Vcp vcp;
     vcp.message_type = message_type;
-    reader.skip(2);  // the size, which the header has given
+    reader.skip(2);  // the size, which the message header gives too
     vcp.pattern_type = reader.u16();
     vcp.pattern_number = reader.u16();
     const std::uint16_t cuts = reader.u16();

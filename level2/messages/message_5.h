@@ -12,12 +12,11 @@
 
 namespace stormcellar::level2 {
 
-// Type, number and the count of cuts take this many bytes. Frames of old builds that hold no
-// pattern have zeros there.
+// Bytes of a pattern before its cuts. Frames of old builds without a pattern have zeros there.
 inline constexpr std::size_t vcp_header_bytes = 22;
 
-// Reads a pattern. `body` is the message after its 28 bytes of header. Returns none if it holds no
-// pattern, or fewer cuts than it counts.
+// Reads a pattern. `body` is the message after its 28 bytes of header. Returns none if `body` holds
+// no pattern, or fewer cuts than it counts.
 [[nodiscard]] std::optional<Vcp> read_vcp(int message_type, std::span<const std::byte> body);
 
 }  // namespace stormcellar::level2

@@ -30,7 +30,7 @@ struct Start1 {
 constexpr std::uint16_t most_surveillance_gates = 460;
 constexpr std::uint16_t most_doppler_gates = 920;
 constexpr std::size_t gate_counts_at = 26;  // of message 1, after its header
-constexpr std::size_t start_1_bytes = 100;  // in all known messages its gates come after these
+constexpr std::size_t start_1_bytes = 100;  // before the gates, in all known messages
 constexpr std::size_t frame_body_bytes = frame_bytes - message_header_bytes;
 
 std::optional<Start1> read_start_1(std::span<const std::byte> body) {
@@ -90,7 +90,7 @@ bool are_near(std::uint16_t day, std::uint16_t other) {
     return std::abs(static_cast<int>(day) - static_cast<int>(other)) <= 1;
 }
 
-// A field in which a radial agrees with its header, or that has a range of its own.
+// One check of a field: it must agree with the message header or be within its range.
 struct Check {
     bool holds = true;
     std::string_view oddity;
@@ -121,7 +121,7 @@ std::array<Check, 6> checks_of_31(const MessageHeader& header, const Start31& st
         {is_within(start.azimuth_deg, 0.0F, 360.0F), "radials have an impossible azimuth"},
         {is_within(start.elevation_deg, -90.0F, 90.0F), "radials have an impossible elevation"},
         {start.blocks >= 1 && start.blocks <= most_known_blocks,
-         "radials count more blocks than are known"},
+         "radials have a number of blocks that is not within 1 and 32"},
     }};
 }
 
@@ -144,7 +144,7 @@ bool agrees_with_message_1(const MessageHeader& header, std::span<const std::byt
     return start && all_hold(checks_of_1(header, *start));
 }
 
-// Does the same, but does not count zeros as gates, because zeros agree with many things.
+// Does the same, but also refuses gate counts of zero, because zeros occur in many places.
 bool is_surely_message_1(const MessageHeader& header, std::span<const std::byte> body) {
     return agrees_with_message_1(header, body) && !all_zero(body.subspan(gate_counts_at, 4));
 }
@@ -161,7 +161,7 @@ bool places_gates_of_1(const MessageHeader& header, std::span<const std::byte> b
         start->doppler_gates > most_doppler_gates) {
         return false;
     }
-    // The moments follow one another directly, or begin at an even byte.
+    // Each moment begins where the previous one ends, or at the next even byte.
     std::size_t end = start_1_bytes;
     for (std::size_t i = 0; i < start->pointers.size(); ++i) {
         const std::size_t pointer = start->pointers.at(i);
@@ -184,7 +184,7 @@ bool places_gates_of_31(const MessageHeader& header, std::span<const std::byte> 
     bool any = false;
     for (std::uint16_t i = 0; i < start->blocks; ++i) {
         const std::uint32_t pointer = reader.u32();
-        if (reader.failed()) break;  // the bytes at hand end here
+        if (reader.failed()) break;  // `bytes` may end before the pointers do
         if (pointer == 0) continue;
         if (pointer < least || pointer >= end) return false;
         any = true;
@@ -192,7 +192,8 @@ bool places_gates_of_31(const MessageHeader& header, std::span<const std::byte> 
     return any;
 }
 
-// Checks a frame of another type. Nothing in its body is fixed, so its header must be beyond doubt.
+// Checks a frame that is no radial by stricter rules for its header, because nothing in its body is
+// fixed.
 bool is_surely_other_message(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool one_of_the_archived = header.type == 2 || header.type == 3 || header.type == 5 ||
                                      header.type == 13 || header.type == 15 || header.type == 18 ||
@@ -201,9 +202,9 @@ bool is_surely_other_message(const MessageHeader& header, std::span<const std::b
            header.segments <= 100 && header.size_halfwords >= 40;
 }
 
-// Recognizes a clutter map or adaptation data as some radars of 2006 sent them: whole frames
-// without a date. No radial looks like this: zeros except for size, type and the numbers of the
-// segments.
+// Recognizes a frame of a clutter map or adaptation data without a date, as some radars sent them
+// in 2006. Its header is zero except for size, type, sequence and segments, which no header of a
+// radial is.
 bool is_undated_frame(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool mapped = header.type == 13 || header.type == 15 || header.type == 18;
     return mapped && header.date == 0 && header.ms == 0 && header.segments >= 2 &&
@@ -248,7 +249,7 @@ bool is_plausible(const MessageHeader& header) {
     }
     if (header.has_own_length()) return true;
     if (header.size_halfwords > (frame_bytes - terminal_manager_bytes) / 2) return false;
-    // Frames that fill up a group of segments count beyond its end.
+    // Fill frames may have a segment number beyond the number of segments.
     if (header.type == 0) return true;
     return header.segment >= 1 && header.segment <= header.segments;
 }

@@ -1,9 +1,9 @@
-// level2/messages/message_header.h -- reads the 28 bytes at the head of every message, and checks
-// whether bytes can be such a header.
+// level2/messages/message_header.h -- reads the 28 bytes at the head of every message, and
+// recognizes such headers.
 //
-// A message has 12 bytes of a channel terminal manager, which are not interpreted, then the header
-// of ICD 2620002 table II. Message 31 (and 29) has the length that its header says. Every other
-// message takes a frame of 2432 bytes.
+// A message begins with 12 bytes of the channel terminal manager, which are not interpreted, and
+// the 16-byte header of ICD 2620002 table II. Messages 31 and 29 have the length that their header
+// says. Every other message takes a frame of 2432 bytes.
 //
 // Threads   Plain values and pure functions.
 #pragma once
@@ -20,7 +20,7 @@ namespace stormcellar::level2 {
 inline constexpr std::size_t terminal_manager_bytes = 12;
 inline constexpr std::size_t message_header_bytes = 28;  // including the terminal manager's 12
 inline constexpr std::size_t frame_bytes = 2432;
-// A message is not believed to be from a later day than this, which is in 2079.
+// Largest day number in a plausible header; it is in 2079.
 inline constexpr std::uint16_t latest_day = 40'000;
 
 struct MessageHeader {
@@ -45,31 +45,32 @@ struct MessageHeader {
 [[nodiscard]] bool is_known_message_type(int type);
 
 // Returns true if the fields are within their ranges. This holds for every header in a good stream,
-// but also for about one in a million random ones, so it proves little if the place is not known.
+// but also for about one in a million random headers, so it proves little at an arbitrary place.
 [[nodiscard]] bool is_plausible(const MessageHeader& header);
 
-// Returns true if a message surely begins at the start of `bytes`: a plausible header, and a body
-// whose own fields agree with it. It is used after damage, where the place is not known.
-inline constexpr std::size_t sure_message_bytes = 128;  // it reads no farther than this
+// Returns true if a message surely begins at the start of `bytes`: the header is plausible, and the
+// body or further rules confirm it. The reader uses this to find messages after damage.
+inline constexpr std::size_t sure_message_bytes = 128;  // is_surely_message() reads no more
 [[nodiscard]] bool is_surely_message(std::span<const std::byte> bytes);
 
-// Returns true if the body of a radial (message 1 or 31) agrees with its header in time and its
-// numbers are within their ranges.
+// Returns true if the body of a radial (message 1 or 31) has the date of its header, give or take a
+// day, and its numbers are within their ranges.
 [[nodiscard]] bool is_credible_radial(const MessageHeader& header, std::span<const std::byte> body);
-// Returns the oddities of a radial that is not credible, each in a few words.
+// Returns the reasons why a radial is not credible or its header not plausible, each in a few
+// words.
 [[nodiscard]] std::vector<std::string_view> oddities_of(const MessageHeader& header,
                                                         std::span<const std::byte> body);
 
-// Returns true if the message at the start of `bytes` is a radial that gives the places of its
-// gates in a way that chance does not: for message 31 its pointers are inside it, for message 1
-// counts and pointers fit into its frame. Name, date, time, numbers and angles do not count.
+// Returns true if the message at the start of `bytes` is a radial whose pointers and gate counts
+// fit into it so well that this is no chance. Name, date, time, numbers and angles do not matter.
 [[nodiscard]] bool places_its_gates(const MessageHeader& header, std::span<const std::byte> bytes);
-// Does the same, but the length must also be beyond doubt: it is the length of a frame, or the
-// length that message 31 itself gives (as all known ones do). `message` is as long as the header
-// says.
+// Returns true if `message`, which is as long as its header says, is a credible radial of certain
+// length: message 1 with gate counts in its frame, or a message 31 whose body gives the same
+// length, as all known ones do.
 [[nodiscard]] bool is_firm_radial(const MessageHeader& header, std::span<const std::byte> message);
 
-// Returns the first place at or after `from` where a message surely begins.
+// Returns the first place at or after `from` where a message of type 1 to 31 surely begins, or
+// none.
 [[nodiscard]] std::optional<std::size_t> find_message(std::span<const std::byte> bytes,
                                                       std::size_t from);
 

@@ -18,7 +18,7 @@ constexpr std::size_t pointers_at = 32;
 constexpr int bzip2_indicator = 1;
 constexpr int zlib_indicator = 2;
 
-// Returns the end of the plain header, or 0 if the pointers cannot be right.
+// Returns the size of the data header block, or 0 if the pointers are impossible.
 std::size_t header_bytes(std::span<const std::byte> body) {
     ByteReader reader{body};
     reader.seek(block_count_at);
@@ -34,7 +34,7 @@ std::size_t header_bytes(std::span<const std::byte> body) {
     return least;
 }
 
-// Fills `out` exactly, from a zlib or a gzip stream.
+// Inflates a zlib or gzip stream into `out`. Returns false unless it fills `out` exactly.
 bool inflate_all(std::span<const std::byte> from, std::span<std::byte> out) {
     constexpr int zlib_or_gzip = 15 + 32;
     z_stream stream{};

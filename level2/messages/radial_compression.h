@@ -3,9 +3,9 @@
 //
 // By ICD 2620002 table XVII-A, the compression indicator (byte 16) is 0 for none, 1 for bzip2 and 2
 // for zlib. The data header block, which is the table and its pointers, is never compressed. The
-// radial length (bytes 18-19) and the pointers are those of the whole radial, uncompressed. No
-// field says where the header ends: it ends where the first block begins, which is at the least
-// pointer. No archived volume is known to use this.
+// radial length (bytes 18-19) and the pointers are for the uncompressed radial. No field gives the
+// end of the data header block; it ends at the least pointer, where the first block begins. No
+// archived volume is known to use compression.
 //
 // Threads   Pure functions.
 #pragma once
@@ -23,7 +23,7 @@ namespace stormcellar::level2 {
 // header: 0 for none.
 [[nodiscard]] int message_31_compression(std::span<const std::byte> body);
 
-// Returns the uncompressed body, or the reason, in a few words, why there is none.
+// Returns the uncompressed body, or the reason, in a few words, why the body cannot be expanded.
 [[nodiscard]] tl::expected<std::vector<std::byte>, std::string_view> expand_message_31(
     std::span<const std::byte> body);
 

@@ -1,8 +1,8 @@
-// level2/messages/radial_message.h -- one radial from a message: message 31, or the old message 1.
+// level2/messages/radial_message.h -- reads one radial from message 31 or from the old message 1.
 //
 // The codes are views into the message, so a RadialMessage must not outlive the message's bytes.
-// Every length, pointer and count has been checked against the message and against the neighboring
-// blocks, and every angle is finite.
+// The readers check every length, pointer and count against the message and against the neighboring
+// blocks. Every angle is finite.
 //
 // Threads   Plain values and pure functions.
 #pragma once
@@ -43,25 +43,26 @@ struct RadialMessage {
     int elevation_number = 0;
     float azimuth_spacing_deg = 0;
     std::string_view icao;                    // from message 31, unchanged
-    std::optional<std::uint16_t> vcp;         // none if the message does not say
-    std::span<const std::byte> volume_block;  // "RVOL" and what follows; empty if absent
+    std::optional<std::uint16_t> vcp;         // none if the message does not give it
+    std::span<const std::byte> volume_block;  // from "RVOL" to the next block; empty if absent
     int unknown_blocks = 0;                   // blocks with an unknown name, which were skipped
 
-    // A moment that the radial names, but whose gates cannot be read.
+    // A moment in the message whose gates cannot be read.
     struct LostMoment {
         std::string_view reason;
         std::size_t bytes = 0;
     };
     // Both are empty in a radial that follows the ICD.
     std::vector<LostMoment> lost_moments;
-    std::vector<std::string_view> oddities;  // these cost no gate; each is a few words
+    std::vector<std::string_view> oddities;  // no gate is lost by them; each is a few words
 
     [[nodiscard]] std::span<const MomentBlock> moments() const {
         return {moment_store.data(), moment_count};
     }
-    // Returns true if the gates of none of its moments can be read.
+    // Returns true if the radial has lost moments and no others.
     [[nodiscard]] bool has_lost_all() const { return moment_count == 0 && !lost_moments.empty(); }
-    // Returns false and does nothing if there is no room or the moment is there already.
+    // Adds a moment. Returns false and does nothing if there is no room or the radial already has
+    // it.
     bool add(const MomentBlock& block);
 
     std::array<MomentBlock, max_moments> moment_store;
@@ -71,12 +72,12 @@ struct RadialMessage {
 // The reason, in a few words, why a message holds no usable radial.
 using RadialResult = tl::expected<RadialMessage, std::string_view>;
 
-// Proven if the surroundings of a message show where it begins and ends. If unproven, a fault in
-// any of its blocks may mean that bytes are lost inside it.
+// Proven: the bytes around a message show where it begins and ends. Unproven: a fault in any of its
+// blocks may mean that it has lost bytes.
 enum class Framing : std::uint8_t { unproven, proven };
 
-// `body` is the message after its 28 bytes of header. With unproven framing, no moment is lost by
-// itself: the first fault refuses the whole radial.
+// Read a radial. `body` is the message after its 28 bytes of header. With unproven framing, the
+// first fault in a block refuses the whole radial, so no single moments are lost.
 [[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body,
                                           Framing framing = Framing::unproven);
 [[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body,
@@ -85,8 +86,8 @@ enum class Framing : std::uint8_t { unproven, proven };
 // Reads the volume data block, from its "RVOL" on. Returns none if it is too short.
 [[nodiscard]] std::optional<VolumeBlock> read_volume_block(std::span<const std::byte> block);
 
-// Converts angles in units of 180/32768 degree, as in messages 1 and 5; those above 180 are
-// negative.
+// Convert codes in units of 180/32768 degree, as in messages 1 and 5, to degrees. Elevations above
+// 180 are returned as negative angles.
 [[nodiscard]] float elevation_from_code(std::uint16_t code);
 [[nodiscard]] float azimuth_from_code(std::uint16_t code);
 

@@ -10,7 +10,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The number of times that each code occurs in one kind of the moment.
+// Counts of each code in one SweepMoment.
 using Histogram = std::vector<std::uint64_t>;
 
 void count_codes(const SweepMoment& moment, std::size_t radial, Histogram& histogram) {
@@ -56,7 +56,7 @@ void note_kind(MomentStatistics& statistics, const SweepMoment& kind) {
     }
 }
 
-// Adds the counts of one kind, whose scale and offset turn its codes into values. Returns the sum.
+// Adds the counts of one SweepMoment to the statistics, and returns the sum of its valid values.
 double add_histogram(MomentStatistics& statistics, const SweepMoment& kind,
                      const Histogram& histogram) {
     const std::size_t first_valid = facts_of(kind.moment).first_valid_code;

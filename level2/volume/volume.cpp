@@ -12,14 +12,14 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The time of the header differs from the radials' by up to 10 s in sound volumes, and by more if
-// the first records are lost.
+// In sound volumes, the header and the radials differ by up to 10 s; they differ by more if the
+// first records are lost.
 constexpr std::chrono::hours header_tolerance{1};
 
 constexpr double altitude_tolerance_m = 30;
 constexpr double position_tolerance_deg = 0.01;
-// Sites have moved by some kilometers, so the radar is believed within this distance. A radar that
-// claims to be farther from its site is wrong.
+// Within this distance, the position from the radar is taken, because sites have moved by some
+// kilometers. A position farther off is wrong.
 constexpr double position_limit_deg = 1;
 
 std::optional<AntennaPosition> position_of_block(const VolumeBlock& block) {
@@ -69,7 +69,7 @@ AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) 
     return position;
 }
 
-// Returns the middle one of the possible times of the sweep's radials.
+// Returns the median of the plausible times of the sweep's radials.
 std::optional<UtcTime> middle_of(const Sweep& sweep) {
     std::vector<UtcTime> times;
     for (const Radial& radial : sweep.radials) {
@@ -81,8 +81,8 @@ std::optional<UtcTime> middle_of(const Sweep& sweep) {
     return *middle;
 }
 
-// Returns the time of the first radial that other radials of its sweep confirm, because a single
-// radial may have any time.
+// Returns the time of the first radial that is within an hour of the median of its sweep, because a
+// single damaged radial may have any time.
 std::optional<UtcTime> first_of(const std::vector<Sweep>& sweeps) {
     for (const Sweep& sweep : sweeps) {
         const auto middle = middle_of(sweep);

@@ -28,7 +28,7 @@ struct Field {
 template <class Part, class Value>
 Field(std::string_view name, Value Part::*value) -> Field<Part, Value>;
 
-// The fields that must be the same, in the order in which a difference is looked for.
+// The fields of all parts, in the order in which they are compared.
 constexpr std::tuple fields = {
     Field{"time", &Radial::time},
     Field{"azimuth", &Radial::azimuth_deg},
@@ -107,7 +107,8 @@ constexpr std::tuple fields = {
     Field{"source of the VCP number", &Volume::vcp_source},
 };
 
-// Sets `name` if no name is set, and the field is one of these parts and differs.
+// Sets `name` to the name of the field if the field differs and no name is set. The overload below
+// does nothing for fields of other parts.
 template <class Part, class Value>
 void note(const Field<Part, Value>& field, const Part& a, const Part& b, std::string_view& name) {
     if (name.empty() && !same(a.*field.value, b.*field.value)) name = field.name;
@@ -131,7 +132,8 @@ std::string other_part(std::string_view name, const std::optional<T>& a,
     return field.empty() ? std::string{} : fmt::format("{}: {}", name, field);
 }
 
-// Returns the first difference between two rows of parts, counting a part that the other row lacks.
+// Returns the first difference between two lists of parts. A part that only one list has is a
+// difference too.
 template <class T>
 std::string other_of(std::string_view name, const std::vector<T>& a, const std::vector<T>& b) {
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {

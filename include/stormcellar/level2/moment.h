@@ -114,8 +114,8 @@ inline constexpr std::array<Moment, moment_count> all_moments = [] {
     return facts_of(moment).circle != Circle::none;
 }
 
-[[nodiscard]] std::optional<Moment> moment_from_name(
-    std::string_view name);  // `name` in upper case
+// Finds a moment by its name in upper case.
+[[nodiscard]] std::optional<Moment> moment_from_name(std::string_view name);
 // Returns a list of all names for a text: moment_names(", ", " or ") is "REF, VEL, ... RHO or CFP".
 [[nodiscard]] std::string moment_names(std::string_view between, std::string_view before_last);
 

@@ -85,8 +85,8 @@ struct RdaStatus {
     std::optional<bool> log_data;                // the RDA sends message 33; from build 19 on
     std::optional<bool> rho_hv_test;             // test of CMD; from build 19 on
     std::optional<bool> time_series_recording;   // from build 21 on
-    std::optional<std::uint16_t>
-        performance_check;                 // 0 none, 1 pending, 2 running; from build 14 on
+    // 0 none, 1 pending, 2 running; from build 14 on
+    std::optional<std::uint16_t> performance_check;
     std::optional<int> downloaded_vcp;     // that the RDA acknowledged; from build 23 on
     std::optional<std::uint16_t> version;  // of the message; from build 19 on
 
@@ -106,8 +106,8 @@ struct RdaStatus {
     std::uint16_t rms_control = 0;       // 0 no RMS, 2 RMS, 4 RDA
 };
 
-// Returns the faults in short phrases, the worst first: "standby", "maintenance required", "alarm
-// 206". The result is empty for a radar that operates without trouble.
+// Returns the faults in short phrases, state and operability first: "standby", "maintenance
+// required", "alarm 206". The result is empty for a radar that operates without trouble.
 [[nodiscard]] std::vector<std::string> rda_troubles(const RdaStatus& status);
 
 }  // namespace stormcellar::level2

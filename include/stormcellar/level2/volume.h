@@ -109,8 +109,8 @@ struct Sweep {
     std::vector<Radial> radials;
     std::vector<SweepMoment> moments;
 
-    [[nodiscard]] const SweepMoment* find(
-        Moment moment) const;  // the first SweepMoment of `moment`; null if absent
+    // Returns the first SweepMoment of this moment, or null.
+    [[nodiscard]] const SweepMoment* find(Moment moment) const;
     [[nodiscard]] double mean_elevation_deg() const;  // NaN if there are no radials
 };
 
