@@ -1,6 +1,6 @@
 // bunzip/bit_reader.h -- reads the bits of a span, the highest bit of a byte first.
 //
-// It never reads outside the span. If fewer bits are left than requested, it takes none.
+// A BitReader never reads outside the span.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -31,13 +31,13 @@ class BitReader {
     [[nodiscard]] std::uint64_t bits_left() const {
         return std::uint64_t{bytes_.size()} * 8 - bit_;
     }
-    // Returns the number of bytes that were begun.
+    // Returns the number of bytes of which bits were taken.
     [[nodiscard]] std::size_t bytes_taken() const {
         return static_cast<std::size_t>((bit_ + 7) / 8);
     }
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
-    // Returns at least the next 57 bits, the first one highest, with zeros beyond the end.
+    // Returns at least the next 57 bits, the first bit highest, with zeros beyond the end.
     [[nodiscard]] std::uint64_t peek() const {
         const auto at = static_cast<std::size_t>(bit_ / 8);
         const std::size_t left = bytes_.size() - at;
@@ -50,7 +50,7 @@ class BitReader {
     void skip(std::uint64_t bits) { bit_ += bits; }
     void move_to(std::uint64_t position) { bit_ = position; }
 
-    // Reads 1 to 32 bits. Returns none if there are not enough.
+    // Reads 1 to 32 bits. Returns none, and takes no bits, if there are not enough.
     [[nodiscard]] std::optional<std::uint32_t> read(unsigned bits) {
         if (bits_left() < bits) return std::nullopt;
         const auto value = static_cast<std::uint32_t>(peek() >> (64 - bits));

@@ -6,7 +6,8 @@ namespace stormcellar::bunzip {
 
 namespace {
 
-// Every run but the first has a byte, and a batch is checked only after all of it has been decoded.
+// A block has one empty run and runs of one or more bytes. The size is checked after each batch, so
+// a batch may make more runs than a block can have.
 constexpr std::size_t most_runs = most_rows + 2 + SymbolReader::batch_symbols;
 constexpr std::size_t most_links = most_rows + 1 + link_slack;
 
@@ -25,7 +26,7 @@ Found BlockDecoder::read_runs(BitReader& reader, std::uint32_t most_bytes, Path 
     while (!symbols.ended()) {
         const auto batch = symbols.next_batch();
         run_count_ += make_runs(maker_, batch, runs_.get() + run_count_);
-        // The byte of the last move is already counted, but its repetitions are not.
+        // `bytes` leaves out the run that continues, of which `times` counts the first byte.
         if (maker_.bytes + maker_.times > most_bytes) return Found::bad;
         if (symbols.found() != Found::good) return symbols.found();
     }

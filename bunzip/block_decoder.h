@@ -22,11 +22,11 @@ namespace stormcellar::bunzip {
 class BlockDecoder {
   public:
     BlockDecoder();
-    // Reads a block, beginning after its mark and its checksum. `most_bytes` limits its rows. If
-    // the block is not good, the reader's position has no meaning. If it is cut or bad, nothing
-    // earlier in the stream was wrong.
+    // Reads a block from the place after its mark and checksum. It may have `most_bytes` rows. If
+    // the result is not good, the reader's position has no meaning.
     [[nodiscard]] Found read(BitReader& reader, std::uint32_t most_bytes, Path path);
-    // Returns the bytes of the last block, if it was good, and one more byte; see RunExpander.
+    // Returns the bytes of the last block and one more byte, for RunExpander::begin(). Empty if the
+    // block was not good.
     [[nodiscard]] std::span<const std::uint8_t> bytes_and_one_more() const { return bytes_; }
 
   private:

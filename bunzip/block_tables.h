@@ -1,11 +1,11 @@
-// bunzip/block_tables.h -- reads the tables before the symbols of a block: the bytes that occur in
-// it, the code that each group of symbols uses, and the codes.
+// bunzip/block_tables.h -- reads the tables of a block: the bytes that occur in it, the code of
+// each group of symbols, and the codes.
 //
-//   16 bits, and 16 more for each of them that is set: the bytes that occur
-//   3 bits: number of codes, 2 to 6; 15 bits: number of selectors, at least 1
-//   selectors: the code of each group, by move-to-front, as ones that end with a zero
-//   codes: for each, 5 bits of the first length; then for each symbol 10 (longer) or 11 (shorter)
-//          as often as needed, and 0
+//   bytes      16 bits for ranges of 16 bytes; for each set bit, 16 bits for the bytes of its range
+//   counts     3 bits: number of codes, 2 to 6; 15 bits: number of selectors, at least 1
+//   selectors  for each group, the place of its code in a move-to-front list, as ones and a zero
+//   codes      for each code, 5 bits: first length; then for each symbol its changes to the length
+//              of the symbol before, 10 (one longer) or 11 (one shorter), and a 0
 //
 // Threads   One thread at a time.
 #pragma once
@@ -25,12 +25,12 @@ struct BlockTables {
     unsigned byte_count = 0;
     unsigned code_count = 0;
     std::array<PrefixCode, most_codes> codes;
-    std::vector<std::uint8_t> selectors;  // for each group
+    std::vector<std::uint8_t> selectors;  // the code of each group
 
     [[nodiscard]] std::uint16_t end_symbol() const {
         return static_cast<std::uint16_t>(byte_count + 1);
     }
-    // Reads the tables. It finds errors in the same order as libbz2.
+    // Reads the tables, and finds errors in the same order as libbz2.
     [[nodiscard]] Found read(BitReader& reader);
 
   private:

@@ -23,7 +23,8 @@ Status status_of(Found found) {
     return found == Found::cut ? Status::truncated : Status::corrupt;
 }
 
-// Compares byte by byte, as libbz2 does, so that a contradiction is found before missing bytes.
+// Compares the next `count` bytes with `bytes`, one by one as libbz2 does, so that a wrong byte is
+// reported before missing bytes.
 Found expect_bytes(BitReader& reader, std::uint64_t bytes, unsigned count) {
     for (unsigned i = count; i > 0; --i) {
         const auto byte = reader.read(8);
@@ -65,7 +66,7 @@ struct Reader::State {
     RunExpander expander;
     std::uint32_t block_checksum = 0, stated_checksum = 0, all_checksums = 0;
     std::uint64_t made = 0;
-    std::optional<LibraryStream> library;  // once it is set, it reads the stream
+    std::optional<LibraryStream> library;  // reads the stream if it is set
     bool ended = false;
     Status status = Status::whole;
 };
@@ -149,8 +150,8 @@ Reader::~Reader() = default;
 std::size_t Reader::read(std::span<std::byte> out) {
     State& state = *state_;
     std::size_t count = 0;
-    // A block ends with its last byte, and the bytes after it are read at once, even if there is no
-    // room left. So a stream ends with its last byte.
+    // After the last byte of a block, read the next mark at once, even if there is no room left. So
+    // the call that returns the last byte of a stream also ends it.
     while (!state.ended && !out.empty() && !state.library) {
         if (!state.in_block) {
             state.read_mark();
@@ -187,13 +188,13 @@ Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& bu
     if (buffer.empty()) buffer.resize(std::min(limit, first_buffer_bytes));
     std::size_t made = 0;
     for (;;) {
-        // The buffer may be larger than the limit, because of an earlier stream.
+        // An earlier stream may have made the buffer larger than the limit.
         const std::size_t room = std::min(buffer.size(), limit);
         made += reader.read(std::span{buffer}.first(room).subspan(made));
         if (reader.ended()) return {reader.status(), made, reader.input_bytes()};
         if (made >= limit) {
-            // libbz2 stops when the room is full, and reads nothing if the limit is 0. One byte
-            // more tells whether the output is longer.
+            // libbz2 stops when the room is full, and a reader without room reads nothing. So read
+            // one byte more to see if the output is longer or the stream ends.
             std::byte surplus{};
             const bool is_longer = reader.read({&surplus, 1}) > 0;
             return {is_longer ? Status::too_large : reader.status(), made, reader.input_bytes()};

@@ -1,20 +1,20 @@
-// bunzip/bunzip.h -- decompresses bzip2 fast: a stream piece by piece, or as a whole.
+// bunzip/bunzip.h -- decompresses bzip2 streams, piece by piece or as a whole.
 //
 //   bunzip::Workspace workspace;             // keep it, one for each thread
 //   bunzip::Reader reader(stream, workspace);
 //   while (!reader.ended()) use(buffer, reader.read(buffer));
 //   if (reader.status() != bunzip::Status::whole) ...
 //
-// Results   The same as those of libbz2: the same bytes, and the same Status for a stream that is
-//           not valid. Checksums of blocks and of the stream are always checked. libbz2 itself
-//           reads randomized blocks, and everything with Path::libbz2.
-// Safety    Nothing is read outside `stream` or written outside `out`, whatever the stream holds.
-//           Bytes that were returned before the end may still turn out to be corrupt. The caller's
-//           room bounds the output, because one byte of input can make about 2 MB.
+// Results   The same bytes as from libbz2, and the same Status for a stream that is not valid.
+//           Checksums of blocks and of the stream are always checked. libbz2 itself reads streams
+//           with randomized blocks, and with Path::libbz2 all streams.
+// Safety    Nothing is read outside `stream` or written outside `out`, whatever the stream holds. A
+//           Reader may find only later that bytes which it has returned are corrupt. The caller
+//           must bound the output, because one byte of input can make about 2 MB.
 // Memory    A Workspace takes 10.2 MB at most, for blocks of 900,000 bytes. While libbz2 reads a
-//           randomized stream, it takes 3.7 MB more. Without enough memory, std::bad_alloc is
-//           thrown; a Reader that has thrown must not be used any more.
-// Speed     docs/performance.md has the figures, docs/bunzip.md explains how it works.
+//           stream, its Reader takes 3.7 MB more. Without enough memory, the functions throw
+//           std::bad_alloc; a Reader that has thrown must not be used any more.
+// Speed     docs/performance.md has the figures; docs/bunzip.md explains the method.
 // Threads   A Workspace and its Reader may be used by one thread at a time.
 // Errors    A Status, as below.
 #pragma once
@@ -33,7 +33,7 @@ enum class Status : std::uint8_t {
     whole,
     truncated,  // the bytes end inside the stream
     corrupt,    // the bytes contradict the format or a checksum
-    too_large,  // more output than the limit
+    too_large,  // the output is longer than the limit; a Reader never returns this
 };
 
 class BlockDecoder;
@@ -54,21 +54,21 @@ class Workspace {
 // Reads one stream, and nothing after it.
 class Reader {
   public:
-    // Both arguments must outlive the reader. A workspace may serve one reader at a time. This
-    // machine must support the path.
+    // `stream` and `workspace` must outlive the reader. A workspace may serve one reader at a time.
+    // This machine must support `path`.
     Reader(std::span<const std::byte> stream, Workspace& workspace, Path path = usual_path());
     Reader(Reader&&) noexcept;
     Reader& operator=(Reader&&) noexcept;
     ~Reader();
 
-    // Fills `out` as far as the stream reaches and returns the number of bytes. They are fewer than
-    // `out` holds only at the end.
+    // Writes the next bytes to `out` and returns their number. It fills `out` unless the stream
+    // ends.
     [[nodiscard]] std::size_t read(std::span<std::byte> out);
     [[nodiscard]] bool ended() const;
-    // Returns how the stream ended: whole, truncated or corrupt. Before the end it returns whole.
+    // Returns whole, truncated or corrupt, depending on how the stream ended; whole before the end.
     [[nodiscard]] Status status() const;
-    // Returns the number of bytes read from the stream so far; all its bytes once it has ended
-    // whole.
+    // Returns the number of bytes read from `stream` so far. If the stream ended whole, the next
+    // stream may begin after them.
     [[nodiscard]] std::size_t input_bytes() const;
 
   private:
@@ -78,24 +78,25 @@ class Reader {
 
 struct Outcome {
     Status status = Status::whole;
-    std::size_t output_bytes = 0;  // at the start of the buffer
+    std::size_t output_bytes = 0;  // written to the start of the buffer
     std::size_t input_bytes = 0;
 };
 
-// Decompresses one stream into `buffer`, which grows as needed up to `limit` and never shrinks.
+// Decompresses one stream to the start of `buffer`, which grows as needed up to `limit` and never
+// shrinks. Returns too_large if the output is longer than `limit`.
 [[nodiscard]] Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& buffer,
                                  std::size_t limit, Workspace& workspace, Path path = usual_path());
 
 // One of many streams to decompress.
 struct Job {
     std::span<const std::byte> stream;
-    std::vector<std::byte> output;  // grows as needed and never shrinks
+    std::vector<std::byte> output;  // as `buffer` of decompress()
     Outcome outcome = {};
 };
-// Does each job in the same way as decompress(), with one thread for each workspace, the caller's
-// included, or with fewer threads if the system has no more. Without any workspace the caller does
-// all jobs in its own. Throws std::bad_alloc if a job could not be done for lack of memory; then no
-// outcome counts.
+// Does each job in the same way as decompress(). Each workspace gets a thread, and the caller is
+// one of them; if the system has too few threads, fewer do the work. Without workspaces, the caller
+// does all jobs alone. Throws std::bad_alloc if memory was too little for a job; the outcomes are
+// then invalid.
 void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace> workspaces,
                     Path path = usual_path());
 

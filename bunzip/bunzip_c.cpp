@@ -31,7 +31,8 @@ bunzip_status bunzip_decompress(bunzip_workspace* workspace, const void* in, std
     if (workspace == nullptr) return BUNZIP_NO_MEMORY;
     try {
         Reader reader({static_cast<const std::byte*>(in), in_bytes}, workspace->workspace);
-        // An empty stream needs no room, but a reader only reads if there is some.
+        // A reader without room reads nothing. So read one byte more to see if the output is longer
+        // or the stream ends.
         std::byte surplus{};
         const std::span room{static_cast<std::byte*>(out), out_bytes};
         *made = reader.read(room);

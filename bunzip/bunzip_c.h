@@ -1,4 +1,4 @@
-/* bunzip/bunzip_c.h -- bunzip.h for C, and for whatever calls C.
+/* bunzip/bunzip_c.h -- the functions of bunzip.h for C and for languages that call C.
  *
  *   bunzip_workspace *workspace = bunzip_workspace_new();
  *   size_t made, taken;
@@ -6,8 +6,8 @@
  *       ...
  *   bunzip_workspace_free(workspace);
  *
- * What bunzip.h promises holds here. No function throws. A workspace belongs to one thread at a
- * time.
+ * The results, safety and memory are as in bunzip.h. No function throws. One thread at a time may
+ * use a workspace.
  */
 #ifndef STORMCELLAR_BUNZIP_C_H
 #define STORMCELLAR_BUNZIP_C_H
@@ -21,29 +21,30 @@ extern "C" {
 enum bunzip_status {
     BUNZIP_WHOLE = 0,
     BUNZIP_TRUNCATED = 1, /* the bytes end inside the stream */
-    BUNZIP_CORRUPT = 2,   /* they contradict the format or a checksum */
-    BUNZIP_TOO_LARGE = 3, /* `out` is full and the stream goes on */
-    BUNZIP_NO_MEMORY = 4  /* or `workspace` is NULL, since there was none for it */
+    BUNZIP_CORRUPT = 2,   /* the bytes contradict the format or a checksum */
+    BUNZIP_TOO_LARGE = 3, /* the output is longer than `out` */
+    BUNZIP_NO_MEMORY = 4  /* too little memory, or `workspace` is NULL */
 };
 
 typedef struct bunzip_workspace bunzip_workspace;
 
-/* NULL where there is no memory. It takes its memory when it is first used. */
+/* Returns an empty workspace, or NULL without memory. It gets its memory when it is first used. */
 bunzip_workspace* bunzip_workspace_new(void);
-/* NULL is nothing. */
+/* Frees a workspace; does nothing with NULL. */
 void bunzip_workspace_free(bunzip_workspace* workspace);
 
-/* One stream. Both counts are always set: the bytes written to `out`, which are the stream's only
- * where the result is BUNZIP_WHOLE (or its first where it is BUNZIP_TOO_LARGE), and those of `in`
- * that it took; neither may be NULL. `in` and `out` may be NULL where their size is 0. What is in
- * `out` behind the bytes written may change. */
+/* Decompresses one stream from `in` to `out`. Sets `*made` to the number of bytes written to `out`
+ * and `*taken` to the number of bytes read from `in`; neither pointer may be NULL. The bytes are
+ * the content of the stream if the result is BUNZIP_WHOLE, and its beginning if the result is
+ * BUNZIP_TOO_LARGE; do not use them otherwise. `in` and `out` may be NULL if their size is 0. Bytes
+ * of `out` after the first `*made` may change too. */
 enum bunzip_status bunzip_decompress(bunzip_workspace* workspace, const void* in, size_t in_bytes,
                                      void* out, size_t out_bytes, size_t* made, size_t* taken);
 
-/* "libbz2", "plain", "avx2" or "avx512": what is used from now on, by all threads. 0 where there is
- * no such path here, and then nothing is changed. */
+/* Makes all threads use the path named "libbz2", "plain", "avx2" or "avx512" from now on. Returns
+ * 1, or 0 without a change if this machine has no such path. */
 int bunzip_use_path(const char* name);
-/* That is used now. */
+/* Returns the name of the path in use. */
 const char* bunzip_path(void);
 
 #ifdef __cplusplus

@@ -18,11 +18,11 @@
 #define STORMCELLAR_BUNZIP_BYTE_RUNS_ONCE
 namespace stormcellar::bunzip {
 
-// This is larger than any block, so the caller finds the block bad.
+// A number of bytes larger than any block. It makes the caller find the block bad.
 constexpr std::uint64_t too_many_bytes = std::uint64_t{1} << 62;
 
-// Row k is the permutation that moves the byte at place k to the front, and each byte before it one
-// place back.
+// Makes a table of permutations. Row k moves the byte at place k to the front, and each byte before
+// it back by one place.
 template <std::size_t Size>
 constexpr auto make_patterns() {
     std::array<std::array<std::uint8_t, Size>, Size> patterns{};
@@ -112,7 +112,7 @@ class FrontList {
     __m512i part_[4];
 };
 
-// Masks of 64 symbols: which are moves, and which are the digit 1 (run_b).
+// Masks over 64 symbols: bits of the moves, and bits of the symbol 1 (run_b).
 struct SymbolMasks {
     std::uint64_t moves, ones;
 };
@@ -129,8 +129,8 @@ HWY_INLINE SymbolMasks masks_of(const std::uint16_t* symbols) {
 
 #else
 
-// The first 16 bytes are in a register, the others in memory. A move within the first 16 places is
-// one shuffle.
+// The list of 256 bytes: the first 16 are in a register, the others in memory. A move within the
+// first 16 places is one shuffle.
 class FrontList {
   public:
     explicit HWY_INLINE FrontList(const std::uint8_t* list)
@@ -158,8 +158,8 @@ class FrontList {
     static HWY_INLINE __m128i pattern(std::uint32_t place) {
         return _mm_loadu_si128(reinterpret_cast<const __m128i*>(patterns[place].data()));
     }
-    // The bytes before it move back by one place, in pieces of 32 from the end; the last piece also
-    // reads from the slack.
+    // Moves the bytes before the moved one back by one place, in pieces of 32 from the end. The
+    // last piece also reads bytes of the slack.
     HWY_INLINE void move_far(std::uint32_t place) {
         std::uint8_t* const rest = rest_ + slack;
         const std::uint8_t found = rest[place];
@@ -202,16 +202,16 @@ HWY_INLINE SymbolMasks masks_of(const std::uint16_t* symbols) {
 #endif
 
 // Makes runs from 64 symbols, or fewer at the end. Returns false if a run has too many digits. The
-// loop visits only the moves, by the bits of a mask. The symbols between two moves are digits, and
-// the mask of the digits gives the length of the run at once, without a branch on each symbol,
-// because these branches cannot be predicted.
+// loop visits only the moves, along the bits of a mask. The symbols between two moves are digits,
+// and their mask gives the length of the run at once. A branch on each symbol would be slow,
+// because it cannot be predicted.
 HWY_INLINE bool take_symbols(RunMaker& maker, FrontList& list, const std::uint16_t* symbols,
                              unsigned there, ByteRun*& to) {
     SymbolMasks masks = masks_of(symbols);
     const std::uint64_t valid = ~std::uint64_t{0} >> (64 - there);
     std::uint64_t moves = masks.moves & valid;
     const std::uint64_t ones = masks.ones & valid;
-    // Without a move, all symbols are digits of the run that continues.
+    // If there is no move, all symbols are digits of the run that continues.
     if (moves == 0) {
         maker.digit_bits |= static_cast<std::uint32_t>(ones << std::min(maker.digits, 32U));
         maker.digits += there;
@@ -274,7 +274,7 @@ HWY_AFTER_NAMESPACE();
 namespace stormcellar::bunzip {
 namespace {
 
-// The first eight bytes are in a number, the others in memory.
+// The list of 256 bytes: the first eight are in a number, the others in memory.
 class PlainList {
   public:
     explicit PlainList(std::uint8_t* list) : list_(list) {
@@ -306,7 +306,7 @@ class PlainList {
     std::uint64_t front_ = 0;
 };
 
-// Does the same on any machine, symbol by symbol.
+// Makes runs on any machine, symbol by symbol.
 std::size_t make_runs_plainly(RunMaker& maker, std::span<const std::uint16_t> symbols,
                               ByteRun* to) {
     const ByteRun* const begin = to;

@@ -31,7 +31,8 @@ constexpr std::uint32_t power_of_x(unsigned exponent) {
     return remainder;
 }
 
-// tables[k][b] is the change that byte b makes to the state if k more bytes follow it.
+// Makes tables in which tables[k][b] is the change to the state by a byte b that k more bytes
+// follow.
 constexpr auto make_tables() {
     std::array<std::array<std::uint32_t, 256>, 16> tables{};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {
@@ -74,9 +75,9 @@ HWY_INLINE __m128i load_reversed(const std::uint8_t* from) {
     return _mm_shuffle_epi8(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)), order);
 }
 
-// Moves a remainder of 128 bits forward by the distance of `powers`: its high half times
-// x^(distance + 64) plus its low half times x^distance. The products have at most 96 bits, so they
-// fit. Modulo the polynomial they equal the moved remainder, which is sufficient.
+// Multiplies a remainder of 128 bits by x^distance, modulo the polynomial. `powers` holds
+// x^(distance + 64) for its high half and x^distance for its low half. The products have at most 96
+// bits, so they fit.
 HWY_INLINE __m128i fold(__m128i sum, __m128i powers) {
     return _mm_xor_si128(_mm_clmulepi64_si128(sum, powers, 0x11),
                          _mm_clmulepi64_si128(sum, powers, 0x00));
@@ -107,7 +108,7 @@ std::uint32_t checksum(std::uint32_t state, std::span<const std::uint8_t> bytes)
     __m128i sum = sums[0];
     for (int k = 1; k < 4; ++k)
         sum = _mm_xor_si128(fold(sum, near), sums[k]);
-    // The remaining sum is a message of 16 bytes with the same remainder.
+    // The sum is a message of 16 bytes that has the same remainder as all folded bytes.
     std::uint8_t message[16];
     const __m128i order = _mm_setr_epi8(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(message), _mm_shuffle_epi8(sum, order));

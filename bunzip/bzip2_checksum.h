@@ -1,5 +1,5 @@
 // bunzip/bzip2_checksum.h -- the checksum of bzip2: CRC-32 with the polynomial 04C11DB7, the
-// highest bit first. It begins with FFFFFFFF and is combined with FFFFFFFF at the end.
+// highest bit first. The state begins as FFFFFFFF, and all bits are inverted at the end.
 //
 // Threads   Pure functions.
 #pragma once
@@ -13,7 +13,8 @@
 namespace stormcellar::bunzip {
 
 inline constexpr std::uint32_t checksum_begin = 0xFFFFFFFF;
-// Continues from `state`. The checksum is the complement of the state.
+// Returns the state after `bytes`, continuing from `state`. The checksum is the complement of the
+// last state.
 using Checksum = std::uint32_t (*)(std::uint32_t state, std::span<const std::uint8_t> bytes);
 [[nodiscard]] Checksum checksum_by(Path path);
 

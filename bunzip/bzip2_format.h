@@ -1,4 +1,5 @@
-// bunzip/bzip2_format.h -- the numbers of the bzip2 format, and how a part of a stream can end.
+// bunzip/bzip2_format.h -- constants of the bzip2 format, and the results of reading a part of a
+// stream.
 //
 // A stream has "BZh", a digit d (blocks have at most d times 100,000 bytes), blocks, and an end. A
 // block has a mark (48 bits), a checksum (32), a flag for randomized blocks (1), the origin (24),
@@ -20,7 +21,7 @@ inline constexpr std::uint32_t most_rows = 9 * block_unit;
 
 inline constexpr unsigned most_code_bits = 20;
 inline constexpr unsigned least_codes = 2, most_codes = 6;
-inline constexpr std::size_t group_symbols = 50;      // symbols that use one code
+inline constexpr std::size_t group_symbols = 50;      // symbols in a group; a group uses one code
 inline constexpr std::uint32_t most_groups = 18'002;  // further selectors are read and dropped
 inline constexpr std::uint16_t run_a = 0, run_b = 1;  // symbols; 2 and more are moves to the front
 inline constexpr std::size_t most_symbols = 258;      // two for runs, 255 moves, the end
@@ -32,7 +33,7 @@ enum class Found : std::uint8_t {
     good,
     cut,         // the bytes end inside the part
     bad,         // the bytes contradict the format
-    randomised,  // made by bzip2 before 0.9.5; libbz2 reads it
+    randomised,  // a block as made by bzip2 before 0.9.5; only libbz2 reads it
 };
 
 }  // namespace stormcellar::bunzip

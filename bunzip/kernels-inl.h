@@ -9,7 +9,8 @@
 
 #include "bunzip/paths.h"
 
-// The kernel of this name as compiled for AVX2 or AVX-512; null if it was not compiled.
+// Expands to the kernel of this name compiled for AVX2 or AVX-512, or to null if it is not
+// compiled.
 #if HWY_TARGETS & HWY_AVX2
 #define STORMCELLAR_BUNZIP_AVX2(kernel) N_AVX2::kernel
 #else
@@ -23,8 +24,8 @@
 
 namespace stormcellar::bunzip {
 
-// Pointers to the forms of a kernel. This machine must support the path. If the path has no form of
-// its own, the plain one is used.
+// Pointers to the forms of a kernel. of() returns the form for a path, which this machine must
+// support; the plain form if the path has none.
 template <class Kernel>
 struct Kernels {
     Kernel plain;

@@ -1,5 +1,5 @@
-// bunzip/library_stream.h -- reads a stream with libbz2: the fallback, and the reference for the
-// tests of all other paths.
+// bunzip/library_stream.h -- reads a stream with libbz2, for Path::libbz2 and for randomized
+// blocks.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -10,14 +10,14 @@ constexpr Link marked = Link{1} << 31;
 // With fewer rows in each segment, more walks gain little.
 constexpr std::uint32_t rows_a_segment = 256;
 constexpr std::uint32_t spare_room = 8192;
-// With this stride, the bytes that the lanes write in one step lie in different sets of the cache.
+// With this stride, the lanes write the bytes of one step to different sets of the cache.
 constexpr std::size_t lane_stride = (most_rows / 8 + spare_room) / 4096 * 4096 + 4096 + 5 * 64;
 static_assert(LinkWalk::most_segments < marked && (most_rows + 1) << link_shift < marked);
 
 }  // namespace
 
-// The place of each lane, and the segment that it reads. A lane without a segment stays on the row
-// after the last one, which links to itself.
+// The next link of each lane, and the segment that it reads. A lane without a segment stays on the
+// row after the last row, which links to itself.
 struct LinkWalk::Lanes {
     Link idle;
     std::array<Link, lanes> link;  // link of the row that is read next
@@ -30,8 +30,9 @@ std::uint32_t LinkWalk::mark_count(std::uint32_t rows) {
     return std::min(most_segments - 1, rows / rows_a_segment);
 }
 
-// Returns the i-th marked row. The block is cut into as many equal pieces as there are marks. The
-// mark is somewhere inside its piece, by the golden ratio, which matches no period in the data.
+// Returns the i-th marked row. Each mark is in one of mark_count() equal pieces of the block.
+// Multiples of the golden ratio give its place in the piece, so that the marks follow no period in
+// the data.
 std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
     const std::uint64_t count = mark_count(rows);
     const std::uint64_t begin = rows * std::uint64_t{i} / count;
@@ -40,7 +41,8 @@ std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
     return static_cast<std::uint32_t>(begin + ((end - begin) * share >> 32));
 }
 
-// Marks the rows at which segments begin. A mark replaces the row's link, which the segment keeps.
+// Marks the rows at which segments begin. A mark replaces the link of the row; the segment stores
+// the link.
 void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t origin) {
     segment_count_ = 0;
     const auto add = [&](std::uint32_t row) {
@@ -57,7 +59,7 @@ void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
     }
 }
 
-// Ends the segments of all lanes that met a mark, and begins new ones in these lanes.
+// Ends the segment of each lane that met a mark, and begins the next segment in that lane.
 void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
         if ((at.link[lane] & marked) == 0) continue;
@@ -77,10 +79,10 @@ void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
     }
 }
 
-// Walks along the links with all lanes at once. The inner loop only reads a link, writes its byte
-// and continues, for each lane; it stops when any lane has met a mark. The loads of the lanes do
-// not depend on each other, so the processor waits for all of them together. Returns false if a
-// lane has no room left.
+// Walks along the links with all lanes at once. For each lane, the inner loop only writes a byte
+// and reads the next link; it stops when any lane has met a mark. The loads of the lanes do not
+// depend on each other, so the processor waits for all of them together. Returns false if a lane
+// has no room left.
 bool LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
     Lanes at{rows << link_shift, {}};
     links[rows] = at.idle;
@@ -140,7 +142,7 @@ void LinkWalk::read(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
     for (std::uint32_t i = 0; i < segment_count_; ++i)
         links[segments_[i].row] = segments_[i].link;
     if (!walked_alone_) return join(bytes);
-    // If the lanes had too little room, a single walk reads the block.
+    // The lanes had too little room, so read the block with a single walk.
     Link link = links[origin];
     for (std::uint8_t& byte : bytes) {
         byte = static_cast<std::uint8_t>(link);

@@ -1,17 +1,16 @@
 // bunzip/link_walk.h -- reads the bytes of a block along the links of its rows.
 //
-// A single walk waits for memory at each step, because each link only says where the next one is,
-// anywhere in 3.6 MB. So the walk begins at many rows at once. Rows spread over the block are
-// marked: a mark, which is a bit and a number, replaces the link, which is kept elsewhere. Sixteen
-// walks run side by side, each from its marked row to the next marked row that it meets, and then
-// from another row at which no walk has begun. They read the segments of the block; the marks,
-// followed from the origin, give the order of the segments. docs/bunzip.md has a drawing and a
-// proof.
+// A single walk waits for memory at each step, because a link gives the place of the next link,
+// anywhere in 3.6 MB. So sixteen walks run side by side. First, rows spread over the block are
+// marked: a bit and a number replace the link of the row, which is stored elsewhere. Each walk goes
+// from a marked row to the next marked row that it meets, and then begins again at another marked
+// row. These walks read the segments of the block; the marks, followed from the origin, give the
+// order of the segments. docs/bunzip.md has a drawing and a proof.
 //
-// Each walk has room for an eighth of the block and 8 KiB. If that is too little, which only a
-// stream made for this purpose causes, a single walk reads the block, as in libbz2. The marks are
-// not at even distances, because in data that repeats itself they would then be close together
-// along the links.
+// Each walk has room for an eighth of the block and 8 KiB. If that is too little, a single walk
+// reads the block, as in libbz2; only a stream made for this purpose causes it. The marks are at
+// uneven distances, because in data with a period evenly spaced marks would be close together along
+// the links.
 //
 // Memory    1.9 MB.
 // Threads   One thread at a time.
@@ -29,9 +28,10 @@ namespace stormcellar::bunzip {
 
 class LinkWalk {
   public:
-    // Reads the bytes from row `origin` on, as many as `bytes` takes. These may be more than there
-    // are rows, because the walk is a ring. `links` holds the links of `rows` rows and one more;
-    // the links are all different and below `rows`. When read() returns, they are unchanged.
+    // Fills `bytes` with the bytes along the links from row `origin` on. The links form rings, so
+    // `bytes` may be larger than `rows`. `links` holds the links of `rows` rows, which must be all
+    // different and below `rows`, and room for one more link. When read() returns, the links of the
+    // rows are unchanged.
     void read(std::span<Link> links, std::uint32_t rows, std::uint32_t origin,
               std::span<std::uint8_t> bytes);
 
@@ -48,9 +48,9 @@ class LinkWalk {
   private:
     struct Segment {
         std::uint32_t row = 0;  // the row where it begins
-        Link link = 0;          // the link of that row, which holds the mark
+        Link link = 0;          // the link that the mark replaced
         std::uint32_t lane = 0, begin = 0, length = 0;
-        std::uint32_t next = 0;  // the next segment
+        std::uint32_t next = 0;  // the segment after this one in the block
     };
     struct Lanes;
 

@@ -1,8 +1,8 @@
 // bunzip/paths.h -- the ways in which a machine can decompress, and the choice among them.
 //
-// All give the same bytes. The usual path is the fastest one that this machine supports, unless the
-// environment variable STORMCELLAR_BUNZIP names another. A path set by set_usual_path() overrides
-// both.
+// All paths give the same bytes. The usual path is the fastest path that this machine supports,
+// unless the environment variable STORMCELLAR_BUNZIP names another. A path set by set_usual_path()
+// overrides both.
 //
 // Threads   Any thread may call every function.
 #pragma once
@@ -15,8 +15,8 @@
 namespace stormcellar::bunzip {
 
 enum class Path : std::uint8_t {
-    libbz2,  // the library alone
-    plain,   // any machine
+    libbz2,  // libbz2 does everything
+    plain,   // C++ for any machine
     avx2,    // x86 with AVX2, BMI2 and PCLMULQDQ
     avx512,  // x86 with AVX-512 up to VBMI2 (Ice Lake, Zen 4 and later)
 };
@@ -28,9 +28,9 @@ inline constexpr std::array all_paths = {Path::libbz2, Path::plain, Path::avx2, 
 [[nodiscard]] bool is_available(Path path);
 [[nodiscard]] Path fastest_path();
 
-// Returns the path that is used if none is given: the path that was set here, else the path named
-// in STORMCELLAR_BUNZIP (an unknown name, or a path that this machine lacks, is ignored), else the
-// fastest.
+// Returns the default path: the path from set_usual_path(), else the path named in
+// STORMCELLAR_BUNZIP, else the fastest. A name that is unknown, or of a path that this machine
+// lacks, is ignored. The environment is read once.
 [[nodiscard]] Path usual_path();
 // Sets the usual path. Returns false and changes nothing if this machine lacks the path.
 bool set_usual_path(Path path);

@@ -11,7 +11,7 @@ void PrefixCode::build(std::span<const std::uint8_t> lengths) {
     shortest_ = *std::min_element(lengths.begin(), lengths.end());
     longest_ = *std::max_element(lengths.begin(), lengths.end());
 
-    // The words of a length follow those of the shorter lengths, with one more bit.
+    // The first word of a length is twice the number after the last word of the length before.
     std::int32_t next_word = 0, place = 0;
     std::array<std::int32_t, most_code_bits + 1> place_of{};
     for (unsigned length = shortest_; length <= longest_; ++length) {
@@ -28,8 +28,8 @@ void PrefixCode::build(std::span<const std::uint8_t> lengths) {
     fill_lookup(static_cast<std::uint16_t>(lengths.size() - 1));
 }
 
-// Fills the table: each word of up to lookup_bits bits gets all entries that begin with it. The end
-// of the block gets no entry, so that the fast loop need not test for it.
+// Fills the lookup table. A word of up to lookup_bits bits gets all entries that begin with it. The
+// end of the block gets entries of 0, so that the fast loop need not test for it.
 void PrefixCode::fill_lookup(std::uint16_t end_symbol) {
     constexpr auto all = std::int32_t{1} << lookup_bits;
     std::int32_t filled = 0;

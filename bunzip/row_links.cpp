@@ -16,7 +16,7 @@
 #define STORMCELLAR_BUNZIP_ROW_LINKS_ONCE
 namespace stormcellar::bunzip {
 
-// Returns the first row that begins with each byte.
+// Returns, for each byte, the first row that begins with it.
 inline std::array<std::uint32_t, 256> first_rows(const std::array<std::uint32_t, 256>& count) {
     std::array<std::uint32_t, 256> first{};
     std::uint32_t row = 0;
@@ -34,8 +34,8 @@ inline std::array<std::uint32_t, 256> first_rows(const std::array<std::uint32_t,
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::bunzip::HWY_NAMESPACE {
 
-// Returns the first `count` of 16 lanes. (bzhi uses only the lowest byte of the count, hence the
-// minimum.)
+// Returns a mask of the first `count` of 16 lanes, or of all if `count` is larger. bzhi uses only
+// the lowest byte of its count, so limit it to 16.
 HWY_INLINE __mmask16 first_lanes(std::uint32_t count) {
     return static_cast<__mmask16>(_bzhi_u32(0xFFFF, std::min(count, 16U)));
 }

@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::bunzip::HWY_NAMESPACE {
 
-// Bit i of `equal` is set if byte i equals byte i + 1.
+// In a Window, bit i of `equal` is set if byte i equals byte i + 1.
 #if HWY_TARGET == HWY_AVX3_DL
 constexpr unsigned width = 64;
 struct Window {
@@ -51,11 +51,11 @@ HWY_INLINE void fill(std::uint8_t* to, std::uint8_t byte) {
 }
 #endif
 
-// Copies whole windows of bytes as long as they hold no four equal bytes. At four equal bytes,
-// writes the run with its repetitions and continues after the count.
+// Copies windows of bytes that hold no four equal bytes in a row. At four equal bytes, it writes
+// the run with its repetitions and continues after the count.
 RunExpander::Place expand(RunExpander::Place place, const std::uint8_t* end,
                           const std::uint8_t* to_end) {
-    // All bits of the window except two decide whether four bytes are equal.
+    // The last two bytes of a window may begin a run that goes on after it, so read them again.
     constexpr unsigned step = width - 2;
     constexpr std::ptrdiff_t most_read = width + 8, most_made = 2 * width + 260;
     auto [from, to] = place;
@@ -98,8 +98,8 @@ RunExpander::Place expand_plainly(RunExpander::Place place, const std::uint8_t* 
         std::memcpy(&bytes, from, 8);
         std::memcpy(&next, from + 1, 8);
         std::memcpy(to, &bytes, 8);
-        // Pairs of equal bytes are zeros in the difference. Subtracting 1 from each byte borrows
-        // first at the first of them.
+        // Two equal neighbors give a zero byte in the difference. Subtracting 1 from each byte
+        // finds the first zero byte by its borrow.
         const std::uint64_t difference = bytes ^ next;
         constexpr std::uint64_t low = 0x0101010101010101, high = 0x8080808080808080;
         const std::uint64_t pairs = (difference - low) & ~difference & high;
@@ -141,7 +141,7 @@ void RunExpander::begin(std::span<const std::uint8_t> bytes_and_one_more, Path p
     equal_ = 0;
 }
 
-// Reads byte by byte at the end of the block or of the room.
+// Reads byte by byte, for the end of the block or of the room.
 void RunExpander::read_careful(std::span<std::uint8_t> out, std::size_t& made) {
     while (made < out.size()) {
         if (fill_left_ > 0) {
@@ -165,14 +165,14 @@ void RunExpander::read_careful(std::span<std::uint8_t> out, std::size_t& made) {
 std::size_t RunExpander::read(std::span<std::uint8_t> out) {
     std::size_t made = 0;
     if (fill_left_ > 0 || equal_ > 0) {
-        // Reads up to a place where no run can have begun.
+        // Read up to a place that is not inside a run.
         while (made < out.size() && !ended() && (fill_left_ > 0 || equal_ > 0)) {
             const std::uint8_t* const before = at_;
             const unsigned equal_before = equal_;
             read_careful(out.first(made + 1), made);
             if (at_ != before && equal_ == 1 && equal_before > 0) {
-                // This byte differs from those before it, so it is read again as the first of a
-                // run.
+                // This byte differs from the byte before it, so read it again as the first byte of
+                // a run.
                 --at_;
                 --made;
                 equal_ = 0;

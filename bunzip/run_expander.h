@@ -1,5 +1,5 @@
 // bunzip/run_expander.h -- reverses the first step of bzip2, in which a byte after four equal bytes
-// says how many more of them there are.
+// gives the number of further equal bytes.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -14,11 +14,11 @@ namespace stormcellar::bunzip {
 
 class RunExpander {
   public:
-    // Begins a block, which is all bytes but the last. The last byte is the one that follows the
-    // block when it is read as a ring. If a block ends with four equal bytes, libbz2 takes that
-    // byte for the count, and the block is then bad. This class does the same.
+    // Begins a block. The argument holds its bytes and one more byte, which follows when the block
+    // is read as a ring. If the block ends with four equal bytes, this class takes the additional
+    // byte as the count, as libbz2 does, and the block is bad.
     void begin(std::span<const std::uint8_t> bytes_and_one_more, Path path);
-    // Fills `out` as far as the block reaches.
+    // Fills `out` unless the block ends, and returns the number of bytes.
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> out);
     // Returns true if nothing is left.
     [[nodiscard]] bool ended() const { return at_ >= end_ && fill_left_ == 0; }
@@ -29,8 +29,8 @@ class RunExpander {
         const std::uint8_t* from;  // the next byte to read
         std::uint8_t* to;          // the next place to write
     };
-    // Expands the bytes before `end` if there is room for them up to `to_end`, and stops before
-    // anything that needs care. It may read up to `slack` bytes after the place where it stops.
+    // A kernel that expands bytes before `end` to the room before `to_end`, and returns where it
+    // stopped. It stops early, near the end of the bytes or of the room.
     using Expand = Place (*)(Place place, const std::uint8_t* end, const std::uint8_t* to_end);
 
   private:

@@ -5,9 +5,9 @@
 namespace stormcellar::bunzip {
 namespace {
 
-// A group, and the eight bytes that are loaded at its end, have at most this many bits.
+// Largest number of bits of a group, with the bytes that the last load reads beyond it.
 constexpr std::uint64_t group_bits = group_symbols * most_code_bits + 128;
-// The lookups between two loads, each of which gives at least 56 bits.
+// Number of lookups between two loads. A load gives at least 56 bits.
 constexpr unsigned lookups_a_load = 5;
 static_assert(lookups_a_load * PrefixCode::lookup_bits <= 56);
 static_assert(group_symbols % lookups_a_load == 0);
@@ -27,9 +27,9 @@ std::span<const std::uint16_t> SymbolReader::next_batch() {
     return {batch_.data(), to};
 }
 
-// Reads a group whose bits are all there. `bits` holds the next bits, the first one highest; `at`
-// is their place in the stream. One load serves several lookups, so the usual symbol costs one
-// lookup and one shift.
+// Reads a group far from the end of the bytes. `bits` holds the next bits, the first bit highest;
+// `at` is their position in the stream. One load serves several lookups, so the usual symbol costs
+// one lookup and one shift.
 std::uint16_t* SymbolReader::read_group(const PrefixCode& code, std::uint16_t* to) {
     const std::byte* const bytes = reader_.bytes().data();
     const std::uint16_t* const lookup = code.lookup();
@@ -69,7 +69,7 @@ std::uint16_t* SymbolReader::read_group(const PrefixCode& code, std::uint16_t* t
     return to;
 }
 
-// Reads a group in which the bytes may end, and checks each symbol.
+// Reads a group near the end of the bytes, and checks each symbol.
 std::uint16_t* SymbolReader::read_last_group(const PrefixCode& code, std::uint16_t* to) {
     for (std::size_t i = 0; i < group_symbols; ++i) {
         const PrefixCode::Word word = code.decode(reader_.peek());

@@ -1,6 +1,6 @@
 // bunzip/symbol_reader.h -- reads the symbols of a block, in groups of 50, each with its own code.
 //
-// Threads   One thread at a time. The objects that it refers to must outlive it.
+// Threads   One thread at a time. The constructor's arguments must outlive the reader.
 #pragma once
 
 #include <array>
@@ -19,16 +19,16 @@ class SymbolReader {
     static constexpr std::size_t batch_groups = 20;
     static constexpr std::size_t batch_symbols = batch_groups * group_symbols;
 
-    // Returns the next symbols, without the end of the block, valid until the next call. Symbols
-    // before a bad or cut place are returned too; found() then gives the reason.
+    // Returns the next symbols, without the end of the block. They are valid until the next call.
+    // If found() is not good afterward, the symbols before the bad or cut place are returned.
     [[nodiscard]] std::span<const std::uint16_t> next_batch();
     // Returns true if the end of the block was read; then the bit reader is just after it.
     [[nodiscard]] bool ended() const { return ended_; }
     [[nodiscard]] Found found() const { return found_; }
 
   private:
-    // Returns the place after the symbols that were read. Stops where the block ends or found_ is
-    // not good.
+    // Read a group to `to`, and return the place after its symbols. They stop at the end of the
+    // block, or if they set found_ to cut or bad.
     std::uint16_t* read_group(const PrefixCode& code, std::uint16_t* to);
     std::uint16_t* read_last_group(const PrefixCode& code, std::uint16_t* to);
 
