@@ -11,8 +11,8 @@
 namespace stormcellar::archive {
 namespace {
 
-// Returns true for a tar header, by its checksum: the sum of its bytes, with blanks in place of the
-// checksum.
+// Returns true if the checksum shows that the bytes are a tar header. The checksum is the sum of
+// all bytes of the header, with blanks in its own place.
 bool is_tar_header(std::span<const std::byte> bytes) {
     constexpr std::size_t sum_at = 148;
     constexpr std::size_t sum_bytes = 8;
@@ -48,8 +48,8 @@ Handle new_reader() {
     const auto support = [&](auto function) { return function(handle.get()) >= ARCHIVE_WARN; };
     const bool formats =
         support(archive_read_support_format_tar) && support(archive_read_support_format_zip);
-    // Blocks of zeros between two members are a lost page of the file, or the end of one of several
-    // joined tars. In both cases members follow them.
+    // Read on after blocks of zeros, because they may be a lost page of the file, or the end of one
+    // of several joined tars.
     const bool goes_on =
         archive_read_set_format_option(handle.get(), "tar", "read_concatenated_archives", "1") >=
         ARCHIVE_WARN;
@@ -86,7 +86,8 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
         return "is a link";
     }
     if (archive_entry_filetype(entry) != AE_IFREG) return "is not a regular file";
-    // Radar data are not packed as sparse files, and libarchive would write out their holes.
+    // libarchive would write out the holes of a sparse file. Radar data are not packed as sparse
+    // files.
     if (archive_entry_sparse_count(entry) > 0) return "is a sparse file";
     if (name.empty()) return "has no name";
     if (name.size() > most_name_bytes) return "has a name of more than 1024 bytes";

@@ -1,5 +1,5 @@
-// archive/archive_format.h -- what libarchive and the first bytes say of an archive and its
-// entries.
+// archive/archive_format.h -- recognizes archives, and reads the facts that libarchive gives about
+// their entries.
 //
 // Only the archive room uses this.
 //
@@ -24,23 +24,23 @@ inline constexpr std::size_t tar_block_bytes = 512;
 inline constexpr std::size_t most_name_bytes = 1024;
 
 [[nodiscard]] bool begins_with(std::span<const std::byte> bytes, std::string_view text);
-// Returns true if the first 512 bytes may begin an archive. A packed archive must be unpacked to
-// decide.
+// Returns true if `start`, the first 512 bytes of a file, may begin an archive. For packed bytes
+// the result is true, because only unpacking can decide.
 [[nodiscard]] bool may_be_archive(std::span<const std::byte> start);
 
-// Returns a reader of tar and zip; null if libarchive lacks one of them. There are no filters,
-// because packed data come through a PackedStream.
+// Returns a reader of tar and zip; null if libarchive lacks one of them. The reader has no filters,
+// because a PackedStream unpacks the data.
 [[nodiscard]] Handle new_reader();
 [[nodiscard]] bool is_zip(::archive* handle);
 [[nodiscard]] bool is_tar(::archive* handle);
-// Returns true if the codec of a zip's member needs little memory, by the library's name for it.
-// The member's header must have been read.
+// Returns true if the present member of a zip is stored or deflated, which takes little memory;
+// always true for tar. The header of the member must have been read.
 [[nodiscard]] bool is_small_codec(::archive* handle);
-// Returns how many bytes of the tar or zip itself were read, after unpacking.
+// Returns how many bytes of the tar or zip were read, counted after unpacking.
 [[nodiscard]] std::uint64_t place_of(::archive* handle);
 
 [[nodiscard]] std::string name_of(::archive_entry* entry);
-// Returns the reason why an entry is not returned as a file; empty if it is returned.
+// Returns the reason why the entry must be left out; empty if it is a file to return.
 [[nodiscard]] std::string_view refusal_of(::archive_entry* entry, const std::string& name);
 [[nodiscard]] std::optional<UtcTime> time_of(::archive_entry* entry);
 // Returns the size in the header, which is only a hint; 0: unknown.

@@ -24,37 +24,38 @@ namespace stormcellar::archive {
 namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
-constexpr std::size_t most_left_out = 100;  // at most this many are listed
-// libarchive may read this much for one header, and one block more. The header of a long name has a
-// few kilobytes. The limit bounds time more than memory, because libarchive compares each entry of
-// an access list with all previous ones.
+constexpr std::size_t most_left_out = 100;  // at most this many members are listed
+// Most bytes that libarchive may read for one header; it may exceed them by a block. A header with
+// a long name takes a few kilobytes. The limit mainly bounds time, because libarchive compares each
+// entry of an access list with all previous entries.
 constexpr std::uint64_t most_header_bytes = std::uint64_t{128} << 10;
-// A zip's directory is read with its first header; each member takes about 100 bytes.
+// Most bytes of the directory of a zip, which libarchive reads with the first header. Each member
+// takes about 100 bytes.
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{16} << 20;
 
 }  // namespace
 
 struct ArchiveReader::Impl {
     Limits limits;
-    ReadBudget header, of_source;          // for the tar or zip, and for what it is packed in
+    ReadBudget header, of_source;          // for headers of the tar or zip; for its packing
     std::unique_ptr<PlainSource> plain;    // the bytes of the archive
     std::unique_ptr<PackedStream> packed;  // null: the archive is not packed
-    Handle handle;                         // must end before the source that it reads from
-    // size of the archive; 0: not known, so the bytes read so far count instead
+    Handle handle;                         // must end before `plain` and `packed`
+    // size of the archive; 0: unknown, so limits use the number of bytes read so far
     std::uint64_t source_bytes = 0;
     ::archive_entry* first = nullptr;  // the header that opening has already read
     std::size_t members = 0;
     std::uint64_t given_bytes = 0;
-    std::map<std::string, int> names;  // names, and how many members had each
+    std::map<std::string, int> names;  // how many members had each name
     std::vector<LeftOut> left_out;
     bool is_cut = false;
     bool at_end = false;
-    bool never_begun = false;  // its first bytes cannot be read
-    std::string why_ended;     // empty: the archive was read to its end, or is still read
-    // Returns the last bytes of the archive. A tar that is not packed ends with blocks of zeros.
+    bool never_begun = false;  // the first bytes of the archive cannot be read
+    std::string why_ended;     // empty: the archive was read to its end, or the end is not reached
+    // Returns the last 512 bytes of the archive. They are zeros if an unpacked tar is complete.
     std::function<std::vector<std::byte>()> tail;
     int nesting = 0;  // nesting depth of this archive
-    // An archive inside this one, while its members are read.
+    // An archive inside this archive, while its members are read.
     std::string inner_name;
     std::vector<std::byte> inner_bytes;
     std::unique_ptr<Impl> inner;
@@ -67,8 +68,8 @@ struct ArchiveReader::Impl {
         of_source.set_deadline(time);
     }
 
-    // Begins to read. Returns false if it is not an archive. The library may take zeros for an
-    // empty archive.
+    // Begins to read. Returns false if the bytes are no archive. libarchive may take zeros for an
+    // empty archive, so packed zeros are refused.
     bool begin(std::span<const std::byte> start, PlainSource::ReadAt read_at) {
         handle = new_reader();
         if (!handle) return false;
@@ -93,13 +94,15 @@ struct ArchiveReader::Impl {
         return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
     }
 
-    // The data of the previous member are skipped first, because they do not count as a header.
+    // Reads a header of at most `most` bytes. The caller must skip the data of the previous member
+    // first, so that they do not count.
     int read_header(::archive_entry*& entry, std::uint64_t most) {
         const std::uint64_t start = place_of(handle.get());
         header.begin(most);
         const int code = archive_read_next_header(handle.get(), &entry);
         header.end();
-        // Reading a zip jumps, so its position says nothing; its members have no long headers.
+        // libarchive jumps in a zip, so its position cannot give the length of a header. Headers in
+        // a zip are never long.
         if (!is_zip(handle.get())) header.add(std::max(start, place_of(handle.get())) - start);
         if (!header.is_spent()) return code;
         entry = nullptr;
@@ -113,7 +116,7 @@ struct ArchiveReader::Impl {
             left_out.push_back({name.substr(0, most_name_bytes), std::move(reason)});
         }
     }
-    // Records the reason even if the list of what was left out is full.
+    // Ends reading, and records the reason even if left_out is full.
     void end_with(std::string reason) {
         left_out.push_back({{}, reason});
         why_ended = std::move(reason);
@@ -136,7 +139,8 @@ struct ArchiveReader::Impl {
         ::archive_entry* entry = nullptr;
         const bool passed = archive_read_data_skip(handle.get()) >= ARCHIVE_WARN;
         const int code = passed ? read_header(entry, most_header_bytes) : ARCHIVE_FATAL;
-        // After a damaged header, libarchive reports that the next block may be one.
+        // libarchive returns other codes after a damaged header, where a search for the next header
+        // could help. Reading ends here instead.
         if (code == ARCHIVE_OK || code == ARCHIVE_WARN) return entry;
         at_end = true;
         const bool is_behind_all = code == ARCHIVE_EOF || (passed && has_no_room_left());
@@ -158,8 +162,8 @@ struct ArchiveReader::Impl {
                source_bytes - std::min(source_bytes, read) < tar_block_bytes;
     }
 
-    // Returns true if reading ended because a packed archive unpacked to too much, a header was too
-    // long, or the time was over.
+    // Returns true, and records the reason, if reading ended because a packed archive unpacked to
+    // too many bytes, a header was too long, or the time was over.
     bool end_at_bound() {
         if (header.is_spent() || of_source.is_spent()) {
             end_with(
@@ -177,7 +181,8 @@ struct ArchiveReader::Impl {
         return true;
     }
 
-    // A zip ends with its directory, whose last record has 22 bytes and maybe a comment.
+    // Implements ArchiveReader::may_have_its_end(). A zip ends with its directory, whose last
+    // record has 22 bytes and maybe a comment.
     [[nodiscard]] bool may_have_its_end() const {
         if (never_begun || (at_end && !is_cut)) return true;
         return is_zip(handle.get()) ? !tail || has_directory() : has_its_end();
@@ -188,12 +193,13 @@ struct ArchiveReader::Impl {
         const std::string_view text{reinterpret_cast<const char*>(last.data()), last.size()};
         return text.find("PK\x05\x06") != std::string_view::npos;
     }
-    // Returns true if the end of a member may be known only after it is unpacked.
+    // Returns true if a member may have to be unpacked to find its end.
     [[nodiscard]] bool is_streamed_zip() const {
         return is_zip(handle.get()) && (packed || !has_directory());
     }
 
-    // For formats that mark their end, the library knows whether the end is there.
+    // Returns false if an unpacked tar does not end with zeros. In all other cases libarchive
+    // itself reports a missing end.
     [[nodiscard]] bool has_its_end() const {
         if (packed || !is_tar(handle.get()) || !tail) return true;
         const std::vector<std::byte> last = tail();
@@ -211,8 +217,9 @@ struct ArchiveReader::Impl {
             std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1))));
     }
 
-    // Reads more of the entry's data into `into`, at most `room` bytes. Returns 0 at the end, and
-    // none if the data are not whole or too many; the reason is then recorded.
+    // Reads up to `room` more bytes of the entry's data into `into`. Returns their number, or 0 at
+    // the end. Returns none, and records the reason, if the data are cut, damaged or beyond a
+    // limit.
     std::optional<std::size_t> read_on(const std::string& name, std::byte* into, std::size_t room) {
         const la_ssize_t got = archive_read_data(handle.get(), into, room);
         if (got < 0) {
@@ -237,8 +244,8 @@ struct ArchiveReader::Impl {
         return static_cast<std::size_t>(got);
     }
 
-    // Returns the data of the entry. Returns none if they are not whole; the reason is then
-    // recorded.
+    // Returns the data of the entry. Returns none, and records the reason, if they are cut, damaged
+    // or beyond a limit.
     std::optional<std::vector<std::byte>> data_of(const std::string& name,
                                                   std::uint64_t size_hint) {
         std::vector<std::byte> bytes;
@@ -252,7 +259,7 @@ struct ArchiveReader::Impl {
             bytes.resize(at + *got);
             if (bytes.size() > limits.member_bytes) {
                 leave_out(name, fmt::format("has more than {} bytes", limits.member_bytes));
-                (void)own_name(name);  // so that the next one of this name is the second
+                (void)own_name(name);  // the next member of this name is the second
                 free_array(bytes);
                 pass_over(name);
                 return std::nullopt;
@@ -261,8 +268,8 @@ struct ArchiveReader::Impl {
         }
     }
 
-    // Skips to the end of the entry. In a zip without a directory, the end of a member is found by
-    // unpacking it, so it is read here, where it is counted.
+    // Skips to the end of a member of a zip. libarchive may have to unpack the member to find its
+    // end, so read it here, where its bytes are counted.
     void pass_over(const std::string& name) {
         if (!is_zip(handle.get())) return;
         std::vector<std::byte> piece(piece_bytes);
@@ -270,7 +277,7 @@ struct ArchiveReader::Impl {
             got = read_on(name, piece.data(), piece.size());
     }
 
-    // The second member with a name gets a number after it.
+    // Returns a unique name for a member: `name`, with a number after it if another member has it.
     std::string own_name(const std::string& name) {
         int& count = names[name];
         if (++count == 1) return name;
@@ -280,7 +287,8 @@ struct ArchiveReader::Impl {
         }
     }
 
-    // Returns true if the member is an archive; its members are read next.
+    // Begins to read the member as an archive. Returns false if it is no archive, or is nested too
+    // deep.
     bool begin_inner(const std::string& name, std::vector<std::byte>& bytes) {
         if (nesting >= limits.nesting) return false;
         auto reader = make(bytes, limits);
@@ -345,7 +353,7 @@ struct ArchiveReader::Impl {
             if (limits.small_codecs && !is_small_codec(handle.get())) {
                 leave_out(name, "is packed in a way that may take much memory");
                 if (!is_streamed_zip()) continue;
-                end_with("cannot be read behind such a member");
+                end_with("has a member that may take much memory: the rest is not read");
                 return std::nullopt;
             }
             if (const auto refusal = refusal_of(entry, name); !refusal.empty()) {

@@ -14,7 +14,7 @@ namespace stormcellar::archive {
 namespace {
 
 constexpr std::size_t unpacked_block_bytes = std::size_t{16} << 10;
-// A codec may read this much of the source before it returns the first byte.
+// Most bytes of the source that a codec may read for one block of output.
 constexpr std::uint64_t most_source_bytes = std::uint64_t{4} << 20;
 
 struct Codec {
@@ -22,7 +22,7 @@ struct Codec {
     int filter;
     bool is_small;
 };
-// libarchive has all of these codecs built in, so none starts another program.
+// libarchive has all these codecs built in, so it starts no other program.
 using namespace std::string_view_literals;
 constexpr std::array<Codec, 5> codecs = {{
     {"\x1F\x8B"sv, ARCHIVE_FILTER_GZIP, true},
@@ -42,8 +42,8 @@ const Codec* codec_of(std::span<const std::byte> start) {
     return found == codecs.end() ? nullptr : &*found;
 }
 
-// Returns true if a file of compress (.Z) may unpack to another one, judging by its first two codes
-// of nine bits each. If the second code is a reset, the content is unknown.
+// Returns true if a .Z file may unpack to another .Z file, judging by its first two codes of nine
+// bits each. If the codes do not show the first two bytes, the result is true.
 bool may_be_compressed_twice(std::span<const std::byte> start) {
     constexpr std::size_t codes_at = 3, bytes_of_two_codes = 3;
     constexpr unsigned nine_bits = 0x1FF, reset = 256;
@@ -55,11 +55,12 @@ bool may_be_compressed_twice(std::span<const std::byte> start) {
     return first >= reset || second == reset || (first == 0x1F && second == 0x9D);
 }
 
-// The filter is chosen here, because libarchive's own choice looks for further filters after the
-// first one, and nothing counts the bytes that it unpacks meanwhile. The filter of compress reads
-// at once, so it cannot be added before its source. Without another filter beside it, libarchive
-// would only choose compress again, up to 25 times, and each byte of the outermost layer could then
-// take milliseconds.
+// Opens a reader with exactly one filter. libarchive's own choice would look for further filters
+// after the first, and nothing would count the bytes that it unpacks for this search. The filter of
+// compress reads at once, so it cannot be added before its source; it is offered to libarchive as
+// the only choice. libarchive could then choose compress up to 25 times, which would take
+// milliseconds for each byte of the outermost layer. So PackedStream::open() refuses files that may
+// be compressed twice.
 bool begin_reading(::archive* handle, int filter, const PackedStream::OpenSource& source) {
     const bool is_compress = filter == ARCHIVE_FILTER_COMPRESS;
     const int code = is_compress ? archive_read_support_filter_compress(handle)

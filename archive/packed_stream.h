@@ -1,8 +1,8 @@
-// archive/packed_stream.h -- unpacks the bytes of a packed archive and counts each of them.
+// archive/packed_stream.h -- unpacks the bytes of a packed archive, and checks their number.
 //
-// Only the archive room uses this. libarchive skips members by unpacking them and counts nothing
-// meanwhile; here every unpacked byte is checked against a bound. An archive that is packed twice
-// is not accepted, because only one layer is unpacked.
+// Only the archive room uses this. libarchive skips members of a packed archive by unpacking them,
+// and does not count these bytes; a PackedStream checks the number of all unpacked bytes against a
+// bound. It unpacks only one layer, so an archive that is packed twice is not accepted.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -20,11 +20,11 @@ struct archive;
 
 namespace stormcellar::archive {
 
-// Counts the bytes that libarchive reads while it looks for the next header. libarchive keeps the
-// contents of a header (the map of a sparse file takes twelve times its size, the directory of a
-// zip three times) before anybody sees it, so they can only be bounded here. The source gives its
-// bytes in small blocks, because a block counts as a whole. Only time bounds everything else that
-// libarchive reads: one call may unpack gigabytes just to skip them.
+// Bounds the bytes that libarchive reads while it looks for the next header. libarchive stores the
+// contents of a header before it returns it (the map of a sparse file takes twelve times its size
+// in memory, the directory of a zip three times), so only the source can bound them. A block counts
+// as a whole, so the source gives its bytes in small blocks. A deadline bounds everything else that
+// libarchive reads, because one call may unpack gigabytes just to skip them.
 class ReadBudget {
   public:
     void set_deadline(SteadyTime deadline) { deadline_ = deadline; }
@@ -33,17 +33,18 @@ class ReadBudget {
         counts_ = true;
     }
     void end() { counts_ = false; }
-    // Counts a header that was read. Many long headers take as much time as one longer header.
+    // Counts the bytes of a header that was read, because many long headers together may take too
+    // much time.
     void add(std::uint64_t bytes);
-    // Returns false, and sets the handle's error, if a header is longer than it may be or the
-    // deadline has passed.
+    // Counts a block. Returns false, and sets the error of the handle, if the header is too long or
+    // the deadline has passed.
     [[nodiscard]] bool take(::archive* handle, std::uint64_t bytes);
     [[nodiscard]] bool is_spent() const { return is_spent_; }
     [[nodiscard]] bool is_late() const { return is_late_; }
 
   private:
     std::uint64_t left_ = 0;
-    std::uint64_t long_bytes_ = 0;  // of all headers, beyond the usual length
+    std::uint64_t long_bytes_ = 0;  // sum over all headers of their bytes beyond the usual length
     SteadyTime deadline_ = SteadyTime::max();
     bool counts_ = false;
     bool is_spent_ = false;
@@ -55,35 +56,36 @@ struct CloseArchive {
 };
 using Handle = std::unique_ptr<::archive, CloseArchive>;
 
-// Returns libarchive's own message for an error.
+// Returns libarchive's message for the last error of the handle.
 [[nodiscard]] std::string error_text_of(::archive* handle);
 
-// Returns true if these first bytes are those of a known codec.
+// Returns true if a file that begins with these bytes is packed by a known codec.
 [[nodiscard]] bool is_packed(std::span<const std::byte> start);
 
 class PackedStream {
   public:
-    // Opens a reader on the packed bytes. It is closed with the stream.
+    // Lets `handle` read the packed bytes. The stream closes the handle when it ends.
     using OpenSource = std::function<bool(::archive* handle)>;
-    // Returns how many bytes may be unpacked after this many bytes of the source were read.
+    // Returns how many bytes may be unpacked from the first `source_bytes` bytes of the source.
     using Bound = std::function<std::uint64_t(std::uint64_t source_bytes)>;
 
-    // Opens a stream on a source with this start. Returns none if no known codec packed it.
-    // `small_codecs` allows gzip, bzip2 and compress, which take a few megabytes of memory whatever
-    // the input claims; without it, xz and zstd are allowed too (up to 1 GiB). `of_source`, which
-    // must outlive the object, limits how much is read of the source at a time, because the header
-    // of a gzip file may have a name without an end.
+    // Opens a stream on a source that begins with `start`. Returns null if no allowed codec packed
+    // the source, if it may be compressed twice, or if it cannot be read. With `small_codecs`, only
+    // gzip, bzip2 and compress are allowed, which take a few megabytes of memory whatever the input
+    // claims; otherwise also xz and zstd (up to 1 GiB). `of_source`, which must outlive the object,
+    // limits how much is read of the source at a time, because a gzip header may contain an endless
+    // name.
     [[nodiscard]] static std::unique_ptr<PackedStream> open(std::span<const std::byte> start,
                                                             const OpenSource& source,
                                                             ReadBudget& of_source,
                                                             bool small_codecs, Bound bound);
     // Lets `handle`, which must end before this object, read the unpacked bytes. `header`, which
-    // must outlive `handle`, counts the bytes of its headers.
+    // must outlive `handle`, bounds the bytes of headers.
     [[nodiscard]] bool feed(::archive* handle, ReadBudget& header);
-    // Returns the bound in bytes if it was reached.
+    // Returns the bound in bytes if the output exceeded it, else 0.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
     [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
-    // Returns true if the first unpacked byte is zero, which begins no archive.
+    // Returns true if the first unpacked byte is zero. No archive begins with zero.
     [[nodiscard]] bool begins_with_zero() const { return begins_with_zero_; }
 
   private:

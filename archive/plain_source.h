@@ -1,5 +1,4 @@
-// archive/plain_source.h -- gives libarchive the bytes of an archive that is not packed, and counts
-// the bytes of its headers.
+// archive/plain_source.h -- gives libarchive the bytes of a file, and bounds the bytes of headers.
 //
 // Only the archive room uses this.
 //
@@ -18,13 +17,14 @@ namespace stormcellar::archive {
 
 class PlainSource {
   public:
-    // Reads bytes from this place, at most as many as fit. Negative: they cannot be read.
+    // Reads bytes from place `at` on, at most as many as fit, and returns their number; negative if
+    // they cannot be read.
     using ReadAt = std::function<std::int64_t(std::uint64_t at, std::span<std::byte> into)>;
     PlainSource(ReadAt read_at, std::uint64_t size, ReadBudget& header);
 
     // Lets `handle`, which must end before this object, read the bytes.
     [[nodiscard]] bool feed(::archive* handle);
-    // Returns true if bytes could not be read.
+    // Returns true if a read has failed.
     [[nodiscard]] bool has_failed() const { return has_failed_; }
 
   private:

@@ -1,4 +1,4 @@
-// Finds members of archives by their names.
+// Reads members of archives by their names.
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -35,8 +35,7 @@ Result<Member> find_member(int descriptor, const std::string& name, Limits limit
 Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& path) {
     const auto name = member_path_of(path);
     if (!name) return read_file(path);
-    // Searches from the place after the last member that was read, and then once more from the
-    // start.
+    // Search from the place after the last member that was read, and then once more from the start.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!reader_ || archive_ != name->archive || attempt > 0) {
             reader_.reset();

@@ -1,23 +1,21 @@
-// stormcellar/archive/archive_reader.h -- reads the members of tar and zip archives, one after the
-// other.
+// stormcellar/archive/archive_reader.h -- reads the members of tar and zip archives in order.
 //
 // NCEI delivers orders as tar files, and people send their files as zip. Members are read into
-// memory and never unpacked under their own names. Links, devices, directories, encrypted members
-// and members whose names lead out of the archive are left out. The members of an archive inside an
-// archive are read too, one level deep.
+// memory and never written to disk under their own names. The reader skips directories, and leaves
+// out links, devices, sparse files, encrypted members and members whose names lead out of the
+// archive. It also reads the members of archives inside the archive, by default one level deep.
 //
 // The input is hostile, so `Limits` bounds everything that it can claim. At a bound the reader
-// stops and reports it. Data that are unpacked only to be skipped count as well, and so do the
-// bytes that one header makes libarchive read (128 KiB, and 4 MiB of long headers together; 16 MiB
-// for the directory of a zip). Sparse files are left out. From a damaged archive the reader returns
-// the whole members, and those after blocks of zeros, where tars may have been joined. Formats,
-// recognized by content with libarchive: tar (also compressed by gzip, bzip2, xz, zstd or compress)
-// and zip.
+// stops and reports it. Data that are unpacked only to be skipped count too. Fixed bounds limit
+// headers: 128 KiB for one header, 4 MiB for all long headers together, and 16 MiB for the
+// directory of a zip. From a damaged archive the reader returns the whole members that libarchive
+// finds, also after blocks of zeros, where tars may have been joined. libarchive recognizes the
+// formats by content: tar (also compressed by gzip, bzip2, xz, zstd or compress) and zip.
 //
 // Units     All sizes are in bytes.
 // Threads   Each reader may be used by one thread at a time.
-// Errors    ArchiveReader returns none; left_out() lists what it cannot return.
-//           SourceReader::read() returns those of read_file(), and not_found.
+// Errors    ArchiveReader returns no errors; left_out() lists what it cannot return. See the other
+//           functions.
 #pragma once
 
 #include <chrono>
@@ -40,29 +38,30 @@ namespace stormcellar::archive {
 
 struct Limits {
     std::uint64_t archive_bytes = std::uint64_t{256} << 30;  // of the archive itself
-    std::size_t members = 100'000;                           // members of any kind
-    // of one member: twice the size of any known volume
+    std::size_t members = 100'000;  // of any kind, including members that are left out
+    // of one member; twice the size of any known volume
     std::uint64_t member_bytes = std::uint64_t{256} << 20;
     std::uint64_t all_bytes = std::uint64_t{256} << 30;  // of all members together
     std::uint64_t expansion = 200;  // unpacked bytes for each byte of the archive
-    // an archive may unpack to this many bytes, whatever its expansion
+    // unpacked bytes that are allowed in addition, so that small archives may expand more
     std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;
-    // of one call of next(), which may skip much; after that the rest of the archive is not read
+    // of one call of next(), which may skip many bytes; after it the rest is not read
     std::chrono::seconds time{std::chrono::hours{24}};
-    int nesting = 1;  // how deep archives inside archives are read
+    int nesting = 1;  // levels of archives inside archives that are read
     // Allows only codecs that need a few megabytes of memory whatever the input says: gzip, bzip2
-    // and compress for tar; deflated or stored members for zip. It excludes xz and zstd.
+    // and compress for tar; deflated or stored members for zip. This excludes xz and zstd.
     bool small_codecs = false;
 };
 
 struct Member {
-    // as in the archive; "INNER!NAME" for a member of an archive inside the archive
+    // as in the archive, with "#2" and so on after a repeated name; "INNER!NAME" for a member of an
+    // archive inside the archive
     std::string name;
     std::optional<UtcTime> modified;
     std::vector<std::byte> bytes;
 };
 
-// Something in the archive that the reader does not return, with a readable reason.
+// A member, or the rest of the archive, that the reader does not return, and the reason.
 struct LeftOut {
     std::string name;  // the member's name; empty: the archive itself
     std::string reason;
@@ -70,9 +69,10 @@ struct LeftOut {
 
 class ArchiveReader {
   public:
-    // Opens an archive and reads the descriptor from the start of the file. The descriptor must
-    // stay open as long as the reader. Returns none if the file is not an archive. If its start
-    // cannot be read, which may be temporary, returns a reader whose is_unreadable() is true.
+    // Opens the archive in the file of a descriptor, which must stay open as long as the reader.
+    // Reads from the start of the file, whatever the position of the descriptor. Returns none if
+    // the file is not an archive. If the start of the file cannot be read, which may be temporary,
+    // returns a reader whose is_unreadable() is true.
     [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
     // Does the same for an archive in memory. The bytes must outlive the reader.
     [[nodiscard]] static std::optional<ArchiveReader> open(std::span<const std::byte> bytes,
@@ -81,23 +81,26 @@ class ArchiveReader {
     ArchiveReader& operator=(ArchiveReader&&) noexcept;
     ~ArchiveReader();
 
-    // Returns the next member that is a file, or none at the end of the archive.
+    // Returns the next member that is a file, or none at the end of the archive or of reading
+    // (why_ended()).
     [[nodiscard]] std::optional<Member> next();
-    // Returns the members and parts that have been left out so far.
+    // Returns the members and parts left out so far. After 100 members, further ones are not
+    // listed.
     [[nodiscard]] const std::vector<LeftOut>& left_out() const;
-    // Returns true if the archive ends too early or is damaged, so that members may be missing. The
-    // file may still be growing.
+    // Returns true if the archive ends too early, is damaged or cannot be read, so that members may
+    // be missing. A file that is still growing ends too early.
     [[nodiscard]] bool is_cut() const;
-    // Returns the reason why the members after the last one were not read. Empty: the archive was
-    // read to its end, or its end is not reached yet.
+    // Returns the reason why reading ended before the end of the archive. Empty: the archive was
+    // read to its end, or reading has not ended.
     [[nodiscard]] const std::string& why_ended() const;
-    // Returns the reason why next() did not return the member of that name.
+    // Returns the reason why next() has not returned a member of this name. Call it when next() has
+    // returned none.
     [[nodiscard]] std::string why_missing(const std::string& name) const;
-    // Returns true if the archive was not read to its end because of a system error, which may be
-    // temporary. is_cut() is true then.
+    // Returns true if a system error, which may be temporary, kept the reader from reading the
+    // file.
     [[nodiscard]] bool is_unreadable() const;
-    // Returns true if the last bytes are the end of an uncompressed tar or of a zip. For a
-    // compressed archive the end cannot be known before it is read, so the result is true.
+    // Returns false if the last bytes are not the end of an uncompressed tar or of a zip. The end
+    // of a compressed archive is unknown before it is read, so the result is true.
     [[nodiscard]] bool may_have_its_end() const;
 
   private:
@@ -107,19 +110,19 @@ class ArchiveReader {
 };
 
 // Splits a path such as DIR/a.tar!NAME into the archive and the member, if DIR/a.tar is a file and
-// the whole path is not. Returns none for any other path.
+// nothing exists at the whole path. Returns none for any other path.
 [[nodiscard]] std::optional<MemberName> member_path_of(const std::filesystem::path& path);
-// Returns the member of that name. The descriptor is used as in open(). Errors: corrupt, with the
-// reason, if there is no such member; io if the archive cannot be read.
+// Returns the member of this name. The descriptor is used as in ArchiveReader::open(). Errors:
+// corrupt, with the reason, if the reader returns no such member; io if the archive cannot be read.
 [[nodiscard]] Result<Member> find_member(int descriptor, const std::string& name,
                                          Limits limits = {});
 
-// Reads files, and members of archives named as "ARCHIVE!MEMBER". Reading members in the order of
-// the archive is fastest.
+// Reads files, and members of archives by paths such as "ARCHIVE!MEMBER". It is fastest to read
+// members in the order of the archive.
 class SourceReader {
   public:
-    // Returns the bytes of the file or member. Errors: those of read_file(); not_found if the
-    // archive has no such member.
+    // Returns the bytes of the file or member. Errors: those of read_file(); not_found, with the
+    // reason, if the reader returns no such member.
     [[nodiscard]] Result<std::vector<std::byte>> read(const std::filesystem::path& path);
 
   private:
