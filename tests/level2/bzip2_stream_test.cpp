@@ -45,8 +45,8 @@ TEST(BzipBlocks, GoOnOverStreamsOneBehindTheOther) {
     EXPECT_EQ(blocks_joined(wire::join({packed, packed}), statuses), wire::join({plain, plain}));
 }
 
-// Flipping any bit of the middle loses only the block that contains it, and never gives a wrong
-// byte.
+// A flipped bit in the middle of a stream loses only the block that contains it, and never gives a
+// wrong byte.
 TEST(BzipBlocks, OnlyTheDamagedBlockIsLost) {
     const wire::Bytes plain = noise(450'000);
     const wire::Bytes packed = wire::bzip2(plain, 1);

@@ -97,8 +97,8 @@ TEST_F(ChunkDirectoryTest, ErrorsNameTheDirectory) {
     expect_error(directory_.path(), ErrorCode::not_found);
 }
 
-// 2026-11-28: the bucket keeps chunks of an older volume of the same number, and such a directory
-// could not be looked at.
+// 2026-11-28: the bucket keeps chunks of an older volume with the same volume number, and a
+// directory with chunks of two volumes could not be decoded.
 TEST_F(ChunkDirectoryTest, OfSeveralVolumesTheNewestIsTaken) {
     put_volume("20220317-001325");
     put_volume("20220317-000842");

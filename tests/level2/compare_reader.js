@@ -2,12 +2,12 @@
 // list_radials printed for the same volume.
 //
 // usage: node compare_reader.js PACKAGE_DIRECTORY FILE LINES
-// Prints each kind of difference with its count and first place; status 1 when there is one.
+// Prints each kind of difference with its count and first place. The exit status is 1 if there is a difference.
 //
-// The package unpacks only the first bzip2 block of a record, and searches for ever for the rest of
-// a busy one; so records are unpacked here, with the bzip2 library that it uses.
-// Left out, because the package has them otherwise: CFP (it knows six moments), the sign of a
-// negative azimuth rate and the last three bits of an angle in message 5, block RELV.
+// The package unpacks only the first bzip2 block of a record, and never returns from a record with several blocks.
+// So this script unpacks the records, with the bzip2 library that the package uses.
+// It does not compare what the package lacks or reads differently: CFP, block RELV, and in message 5 negative azimuth
+// rates and the last three bits of an angle.
 'use strict';
 
 const fs = require('fs');
@@ -34,7 +34,7 @@ function crc32OfCodes(values, scale, offset) {
   return (crc ^ 0xffffffff) >>> 0;
 }
 
-// The volume header and the messages behind it, as the package takes them too.
+// Returns the volume header and the unpacked messages, a form of file that the package reads too.
 function withoutLdm(bytes) {
   const headerBytes = 24;
   const parts = [bytes.subarray(0, headerBytes)];
@@ -58,15 +58,15 @@ function same(what, where, ours, theirs, tolerance = 0) {
 }
 
 function compareHead(head, radar) {
-  if (!head.filename) return; // the writer gives such a volume a header of its own
+  if (!head.filename) return; // a volume without a header: the writer makes one for it
   same('header date', 'header', head.date, radar.header.modified_julian_date);
   same('header time', 'header', head.ms, radar.header.milliseconds);
-  // The headers of the first years have zeros there.
+  // Headers of the first years have zeros instead of the ICAO.
   same('header ICAO', 'header', head.icao, radar.header.ICAO.replace(/\0+$/, ''));
   same('header version', 'header', head.filename.slice(6, 8), radar.header.version);
 }
 
-// 16-bit angles as the package has them: 0 to 360, in steps of 8 codes.
+// Returns the angle as the package decodes it: 0 to 360 degrees, in steps of 8 codes.
 function packageAngle(deg) {
   return (Math.floor((((deg + 360) % 360) * 32768) / 180 / 8 + 1e-6) * 8 * 180) / 32768;
 }
@@ -140,7 +140,7 @@ function compareRadial(ours, message, head) {
   }
 }
 
-// Message 1: the package gives values without codes, and no spectrum width.
+// Compares a message 1. The package gives values without codes, and no spectrum width.
 function compareRadial1(ours, message) {
   const theirs = message.record;
   const where = `elevation ${ours.elevation_number}, azimuth number ${ours.azimuth_number}`;
@@ -165,7 +165,7 @@ function compareRadial1(ours, message) {
     same('VEL gates', where, vel.gates, theirs.number_of_doppler_bins);
     same('VEL first gate', where, vel.first_m / 1000, theirs.doppler_range, 1e-9);
     same('VEL gate spacing', where, vel.spacing_m / 1000, theirs.doppler_range_sample_interval, 1e-9);
-    // Its velocities count from code 127; those of the ICD from 129.
+    // The package takes code 127 for velocity 0; the ICD takes 129.
     same('VEL values', where, vel.crc32,
       crc32OfCodes(theirs.velocity, 1 / theirs.doppler_velocity_resolution, 127));
   }
@@ -182,7 +182,7 @@ if (head.pattern) comparePattern(head.pattern, radar.vcp.record || { elevations:
 same('truncated', 'file', false, radar.isTruncated);
 for (const warning of warnings) same(`warning "${warning}"`, 'file', false, true);
 
-// The package gathers radials by elevation number, in file order.
+// The package groups radials by elevation number, in file order.
 const next = new Map();
 for (const ours of lines) {
   const index = next.get(ours.elevation_number) || 0;

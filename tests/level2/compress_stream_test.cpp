@@ -47,7 +47,7 @@ TEST(CompressStream, NothingAndOneByte) {
     }
 }
 
-// The bytes that compress 4.0 makes of "ABABABABABABABABABABABAB\n".
+// `own` is the output of compress 4.0 for "ABABABABABABABABABABABAB\n".
 TEST(CompressStream, ReadsTheProgramsOwnBytes) {
     constexpr std::array<unsigned, 15> own = {0x1F, 0x9D, 0x90, 0x41, 0x84, 0x04, 0x1C, 0x28,
                                               0xB0, 0x20, 0xC1, 0x83, 0x05, 0x15, 0x00};

@@ -13,8 +13,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Salvage tries each damaged block several times. Counting these attempts must leave a real volume
-// enough room.
+// The decoder tries each damaged block several times and counts the tries as output. A real volume
+// must still stay within the limit.
 TEST(DecodeLimits, AVolumeOfWhichNearlyAllIsDamagedStaysWithinThem) {
     STORMCELLAR_NEED_DATA();
     wire::Bytes bytes = *read_file(*testing::data_directory() / "volumes/KLBB20160601_150025_V06");
@@ -35,8 +35,8 @@ TEST(DecodeLimits, AVolumeOfWhichNearlyAllIsDamagedStaysWithinThem) {
     EXPECT_GT(decoded->report.errors, 40U);
 }
 
-// 2026-11-25: 11 kB of records with a wrong checksum took 20 s, because bytes that were unpacked in
-// vain were not counted.
+// 2026-11-25: 11 kB of records with a wrong checksum took 20 s, because the bytes of failed tries
+// did not count.
 TEST(DecodeLimits, WhatIsUnpackedInVainCounts) {
     wire::Bytes stream = wire::bzip2(wire::Bytes(45'000'000));
     stream[10] ^= std::byte{1};  // a bit of its checksum
@@ -62,7 +62,7 @@ ErrorCode code_of(std::span<const std::byte> bytes, const DecodeOptions& options
     return decoded ? ErrorCode::internal : decoded.error().code;
 }
 
-// Expects sweeps that are the same to the bit.
+// Expects sweeps with the same numbers of radials and gates, and the same codes.
 void expect_same_sweeps(const Volume& a, const Volume& b) {
     ASSERT_EQ(a.sweeps.size(), b.sweeps.size());
     for (std::size_t i = 0; i < a.sweeps.size(); ++i) {
@@ -129,7 +129,7 @@ TEST(Decode, EmptyUnknownAndEmptyOfMeaningAreToldApart) {
     EXPECT_EQ(code_of(wire::Writer{}.u16(0x1F9D).zeros(100).bytes), ErrorCode::corrupt);
 }
 
-// A grid of the cache holds bytes that look like a message somewhere.
+// A grid file may contain bytes that look like a message.
 TEST(Decode, WhatBeginsAsAnotherFormatIsNotSearchedForMessages) {
     const Bytes volume = wire::ldm_volume(1, 4);
     Bytes bytes = wire::join({wire::Writer{}.text("\x89SCG\r\n\x1A\n").bytes, volume});
@@ -169,7 +169,8 @@ TEST(Decode, ARecordOfAWholeVolumeIsReadBlockByBlock) {
     expect_same_sweeps(decoded->volume, decode(rays).value().volume);
 }
 
-// A volume that is cut anywhere has the radials of the records before the cut, and reports the cut.
+// Of a file that is cut anywhere, the decoder returns the radials of the records before the cut,
+// and reports the cut.
 TEST(Decode, ACutFileKeepsItsWholeRecords) {
     const Bytes whole = wire::ldm_volume(4, 20);
     for (std::size_t size = 25; size < whole.size(); size += 41) {
@@ -189,7 +190,7 @@ TEST(Decode, ACutFileKeepsItsWholeRecords) {
 TEST(Decode, ADamagedRecordLosesItselfOnly) {
     Bytes damaged = wire::ldm_volume(4, 20);
     const auto whole = decode(damaged).value();
-    // Near the end, in the middle of the last record, so that all others are unchanged.
+    // The bit is in the middle of the last record, so all other records are unchanged.
     damaged[damaged.size() - 200] ^= std::byte{0x40};
     const auto decoded = decode(damaged);
     ASSERT_TRUE(decoded) << decoded.error().message;
@@ -254,7 +255,8 @@ TEST(DecodeReal, ThreadsDoNotMatter) {
     }
 }
 
-// A file that has just begun to arrive is truncated, so that the daemon waits for the rest.
+// For a file that has just begun to arrive, the error is truncated, so that the daemon waits for
+// the rest.
 TEST(Decode, AHeaderAndTheFirstBytesOfARecordAreTruncated) {
     const wire::Bytes volume = wire::ldm_volume(1, 4);
     for (const std::size_t size : {24U, 25U, 30U, 37U, 38U, 45U}) {

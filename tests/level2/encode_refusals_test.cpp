@@ -1,4 +1,4 @@
-// Tests what the writer refuses because it would not be read back unchanged.
+// Tests that the writer refuses volumes that would not be read back unchanged.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -60,7 +60,7 @@ TEST(EncodeRefusals, RefusesWhatMessage31CannotHold) {
     EXPECT_EQ(refusal(good, {.radials_per_record = 0}), ErrorCode::bad_argument);
 }
 
-// Each case: what is wrong, and what the message must name.
+// A change that spoils a volume, and the text that the error message must contain.
 struct Spoilt {
     const char* named;
     std::function<void(Volume&)> spoil;
@@ -78,7 +78,8 @@ void expect_refused(const Volume& good, const std::vector<Spoilt>& cases) {
     }
 }
 
-// 2026-11-21: these were written, and were read back as another volume or not at all.
+// 2026-11-21: the writer accepted these volumes, but they were read back as another volume or not
+// at all.
 TEST(EncodeRefusals, NamesWhatWouldNotComeBack) {
     const float nan = std::nanf("");
     expect_refused(
@@ -96,7 +97,7 @@ TEST(EncodeRefusals, NamesWhatWouldNotComeBack) {
             {"sweep 1: fixed angle", [](Volume& v) { v.sweeps[1].vcp_elevation_deg = 3; }},
             {"radial 5 of sweep 1 would not be read",
              [=](Volume& v) { v.sweeps[1].radials[5].elevation_deg = nan; }},
-            // Not in the first record of the sweep.
+            // The radial is not in the first record of its sweep.
             {"radial 125 of sweep 1",
              [](Volume& v) { v.sweeps[1].radials[125].azimuth_deg = 361; }},
             {"radial 5 of sweep 0",
@@ -136,7 +137,8 @@ TEST(EncodeRefusals, NamesMomentsThatWouldNotComeBack) {
                             auto& counts = v.sweeps[0].moments[0].gate_counts;
                             counts.assign(counts.size(), 50);
                         }},
-                       // The moment of the later radials comes first.
+                       // Moment 0 lacks gates in the first radial, so the decoder would not put it
+                       // first.
                        {"sweep 0, moment 0: name",
                         [](Volume& v) {
                             SweepMoment& ref = v.sweeps[0].moments[0];

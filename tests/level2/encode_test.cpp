@@ -93,8 +93,8 @@ TEST(Encode, AVolumeWithoutAHeaderGetsOneWithTheFirstRadialsTime) {
     EXPECT_EQ(decoded.volume.header->time(), volume.sweeps[0].radials[0].time);
 }
 
-// ICD 2620010 section 7.3.4: records have 120 radials of one sweep, and the length of the last one
-// is negative. The metadata record has 134 frames, with messages 5 and 2 in the last two.
+// ICD 2620010 section 7.3.4: records have 120 radials of one sweep, and the length of the last
+// record is negative. The metadata record has 134 frames, with messages 5 and 2 in the last two.
 TEST(Encode, RecordsAreAsTheRdaSendsThem) {
     const auto encoded = encode(example_volume()).value();
     ASSERT_EQ(encoded.header.size(), 24);
@@ -124,7 +124,7 @@ TEST(Encode, TheSameVolumeGivesTheSameBytes) {
     EXPECT_EQ(encode(volume)->joined(), encode(volume)->joined());
 }
 
-// A header with a later date than messages can have.
+// The header has a later date than the decoder accepts in messages.
 TEST(Encode, MetadataOfAStrangeDayComeBack) {
     Volume volume = example_volume();
     volume.sweeps.clear();
@@ -156,8 +156,9 @@ TEST_P(EncodeReal, ComesBackToTheBit) {
     EXPECT_EQ(difference(live.finish().value(), *again), "");
 }
 
-// Message 31: super-resolution with every moment, TDWR, trimmed, few radials, recombined. Message
-// 1: of 1991, 1999, damaged, four volumes in a file, 1 m/s, gates that vary within a sweep.
+// Volumes of message 31: super-resolution with every moment, TDWR, trimmed rows, few radials,
+// recombined. Volumes of message 1: from 1991, from 1999, damaged, four volumes in a file, velocity
+// steps of 1 m/s, gates that vary within a sweep.
 INSTANTIATE_TEST_SUITE_P(
     Volumes, EncodeReal,
     ::testing::Values(
@@ -188,7 +189,8 @@ TEST(Encode, ChunksAreNamedByTheVolumesStart) {
     EXPECT_EQ(joined, encoded.joined());
 }
 
-// Returns the bodies of message 31 after the first metadata record of a file, without headers.
+// Returns the bodies, without message headers, of the messages 31 in the record after the metadata
+// record.
 std::vector<Bytes> first_radials(std::span<const std::byte> file) {
     ByteReader reader(file);
     reader.skip(24);
@@ -209,7 +211,7 @@ std::vector<Bytes> first_radials(std::span<const std::byte> file) {
     return bodies;
 }
 
-// Compares the message 31 of an open RDA with ours, byte by byte.
+// Compares messages 31 of an Open RDA with the same messages from the writer, byte by byte.
 TEST(Encode, RadialsAreTheRadarsOwnBytes) {
     STORMCELLAR_NEED_DATA();
     for (const char* name : {"KLOT20220317_000842_V06", "KTLX20170101_030027_V06"}) {

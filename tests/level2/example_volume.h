@@ -8,10 +8,11 @@
 
 namespace stormcellar::level2 {
 
-// Returns rows of `gates` codes of 8 or 16 bits, in which every code occurs.
+// Returns a moment with `radials` rows of `gates` codes of `bits` bits (8 or 16). Large ones
+// contain every code.
 [[nodiscard]] SweepMoment moment_of(Moment name, std::size_t radials, std::int32_t gates, int bits);
 
-// Returns two sweeps that use every field of the model that message 31 has.
+// Returns a volume of two sweeps. It uses every field that message 31 fills.
 [[nodiscard]] Volume example_volume();
 
 }  // namespace stormcellar::level2

@@ -92,7 +92,7 @@ void expect_same(const Json& expected, const Json& found, const std::string& key
     }
 }
 
-// Fields of the whole file that the reference gives only for the intact part.
+// Fields that describe the whole file, but in the reference only its part before the damage.
 const std::set<std::string>& prefix_only_fields() {
     static const std::set<std::string> fields = {"message_counts",
                                                  "vcp",
@@ -109,7 +109,8 @@ const std::set<std::string>& prefix_only_fields() {
     return fields;
 }
 
-// Leaves out the reference's own remarks, and what it takes from the name of the file.
+// Returns false for remarks in the reference, and for fields that it takes from the name of the
+// file. For a damaged file, also returns false for prefix_only_fields().
 bool is_compared(const std::string& field, const Json& golden) {
     static const std::set<std::string> remarks = {
         "sha256", "oddities", "n_oddities", "agreement", "sources", "corruption", "sweeps", "site"};
@@ -117,12 +118,13 @@ bool is_compared(const std::string& field, const Json& golden) {
     return golden.at("corruption").is_null() || !prefix_only_fields().contains(field);
 }
 
-// The reference counts as intact a radial that has lost 1,688 bytes: see its test below.
+// In this file, the reference takes a radial that has lost 1,688 bytes for intact; see the test
+// below.
 constexpr std::string_view half_radial_file = "KLVX20050106_163401.gz";
 constexpr std::size_t half_radial_sweep = 4;
 
-// KMPX20060106_184002 loses bytes inside its metadata, at 172672, so that all radials after that
-// are at odd places. The reference takes 62 of their frames for fill and notices the damage later.
+// KMPX20060106_184002 has lost bytes inside its metadata, at offset 172672, so later messages begin
+// at unexpected places. The reference takes 62 frames for fill frames and notices the damage later.
 std::uint64_t corruption_offset(const Json& golden) {
     if (golden.at("file") == "KMPX20060106_184002.gz") return 172672;
     return golden.at("corruption").at("offset").get<std::uint64_t>();
@@ -147,7 +149,7 @@ TEST_P(GoldenTest, EveryFieldIsTheSame) {
         ASSERT_TRUE(found.contains(field)) << field;
         expect_same(value, found.at(field), field, field);
     }
-    // Headers of ARCHIVE2 files name no site; the name of the file does.
+    // The header of an ARCHIVE2 file does not name the site; the file name does.
     const Json site =
         golden.at("site").is_null() ? Json(options.fallback_station) : golden.at("site");
     EXPECT_EQ(found.at("site"), site);
@@ -169,16 +171,15 @@ TEST_P(GoldenTest, EveryFieldIsTheSame) {
         if (GetParam() == half_radial_file && i == half_radial_sweep) continue;
         const auto radials = expected.at("n_radials").get<std::size_t>();
         ASSERT_GE(sweeps[i].radials.size(), radials) << "sweep " << i;
-        // A sweep may continue after the damage; the reference has only its intact part.
+        // A sweep may continue after the damage, but the reference has only the radials before it.
         if (!corruption.is_null()) sweeps[i].radials.resize(radials);
         expect_same(expected, describe_sweep(sweeps[i], i), "", "sweep " + std::to_string(i));
     }
 }
 
-// KLVX20050106_163401: at 3964160 of the message stream there are 744 bytes of radial 102 of sweep
-// 4, and radial 201 begins there. The reference took 2432 bytes from 3964160 for radial 102. The
-// decoder drops it ("never half a radial"). With it put back, the checksums are those of the
-// reference.
+// In KLVX20050106_163401, only 744 bytes of radial 102 of sweep 4 are at offset 3964160 of the
+// message stream; radial 201 follows. The reference took 2432 bytes from there as radial 102. The
+// decoder drops the half radial. If it is added, the checksums equal those in the reference.
 TEST(GoldenHalfRadial, IsDroppedAndWouldGiveTheReferencesChecksum) {
     STORMCELLAR_NEED_DATA();
     const auto data = *testing::data_directory();

@@ -1,4 +1,5 @@
-// tests/level2/grow_dropping.h -- decodes a file as it grows, and frees its sweeps early.
+// tests/level2/grow_dropping.h -- decodes a file while it grows, and drops its sweeps as early as
+// possible.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +9,8 @@
 
 namespace stormcellar::level2 {
 
-// Appends pieces of random length up to `most` bytes, and moves sweeps out of the volume as soon as
-// they may be dropped, until the end.
+// Appends pieces of random length up to `most` bytes, drops each sweep as soon as that is allowed,
+// puts all sweeps back, and finishes the volume.
 [[nodiscard]] Result<Decoded> grow_dropping(std::span<const std::byte> bytes, std::size_t most,
                                             unsigned seed);
 

@@ -1,4 +1,4 @@
-// A file that grows gives what the whole file gives, in whatever pieces it arrives.
+// Tests that a growing file gives the same volume as the whole file, in whatever pieces it arrives.
 #include "stormcellar/level2/growing_volume.h"
 
 #include <algorithm>
@@ -129,7 +129,7 @@ TEST(GrowingVolume, ASweepThatIsDroppedHoldsNothing) {
     EXPECT_LT(volume.held_bytes(), all / 3) << all;
 }
 
-// A file with a large hole costs its sender nothing.
+// The limit matters because a sender can make a large file of zeros at no cost.
 TEST(GrowingVolume, WhatHoldsNothingKnownIsHeldNoFurtherThan16MiB) {
     GrowingVolume volume;
     const Bytes text(300, std::byte{'x'}), zeros(std::size_t{1} << 20);
@@ -142,7 +142,7 @@ TEST(GrowingVolume, WhatHoldsNothingKnownIsHeldNoFurtherThan16MiB) {
         << "the array has room for as much more";
 }
 
-// Twenty megabytes of records after a damaged start are read as decode() reads them.
+// After a damaged start, twenty megabytes of records give the same result as decode().
 TEST(GrowingVolume, WhatIsDamagedAtItsStartIsHeldToItsEnd) {
     Bytes bytes(300, std::byte{'x'});
     const Bytes volume = wire::ldm_volume(3, 360);
@@ -164,7 +164,7 @@ TEST(GrowingVolumeReal, RealFilesGrowToTheSame) {
         std::vector<LiveSweep> sweeps;
         const auto grown = grow(bytes, 100'000, 11, &sweeps).value();
         EXPECT_EQ(difference(grown, whole), "") << name;
-        // The sweeps returned on the way must be those of the final volume.
+        // The sweeps returned while the file grew must equal the sweeps of the final volume.
         for (const LiveSweep& live : sweeps) {
             Volume a, b;
             a.sweeps = {live.sweep};

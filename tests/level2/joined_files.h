@@ -1,4 +1,4 @@
-// tests/level2/joined_files.h -- the chunks of a volume as one file.
+// tests/level2/joined_files.h -- joins the chunks of a volume.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// Records that come in the wrong order, or twice, give the volume of the right order.
+// Tests that records in the wrong order, or repeated records, give the same volume as records in
+// the right order.
 #include "level2/decode/late_radials.h"
 
 #include <algorithm>
@@ -66,8 +67,8 @@ class LateRecords : public ::testing::Test {
     Decoded right_;
 };
 
-// 2026-11-28: two records in the wrong order at the boundary of two sweeps made two volumes of one,
-// and the grid at its true time was nearly empty.
+// 2026-11-28: two records in the wrong order at the boundary of two sweeps split a volume into two,
+// and the grid at the true time was nearly empty.
 class LateRealRecords : public LateRecords, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(LateRealRecords, AnyTwoNeighborsMayBeExchanged) {
@@ -110,7 +111,7 @@ TEST_P(LateRealRecords, ChunksMayComeTwice) {
 INSTANTIATE_TEST_SUITE_P(Sets, LateRealRecords, ::testing::Values("L2D_230", "L2D_185", "KLOT_34"),
                          [](const auto& set) { return std::string(set.param); });
 
-// A header and a record of metadata, then each sweep in a record of its own.
+// Returns a chunk with the header and the metadata, and then one chunk for each sweep.
 std::vector<Bytes> made_chunks(unsigned sweeps) {
     constexpr unsigned radials = 20, apart_ms = 100;
     const std::vector<float> angles = {0.5F, 1.5F, 2.4F, 3.4F, 4.3F};
@@ -159,7 +160,8 @@ TEST_F(LateMadeRecords, ALowerNumberBeginsAnotherVolumeIfTimeGoesOn) {
     EXPECT_EQ(further_volumes(joined(chunks, {0, 1, 3, 2})), 0U);
 }
 
-// Found by the fuzzer: what followed the end in one record made the volume one without an end.
+// The fuzzer found this: if an older radial followed the last one in the same record, the volume
+// was reported as without an end.
 TEST(LateRadials, TheEndOfAVolumeStandsInOneRecordAsInMany) {
     wire::Ray last, older;
     last.azimuth_number = 2;

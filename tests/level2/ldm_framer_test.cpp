@@ -102,7 +102,8 @@ TEST(LdmFramer, GarbageBetweenRecordsIsSteppedOver) {
     }
     EXPECT_EQ(records, 2);
     EXPECT_EQ(padding, 100);
-    // The length of the first record is wrong, so the bytes after it may be counted as its own.
+    // The length of the first record is wrong, so the framer may take the bytes after it for a part
+    // of the record.
     EXPECT_TRUE(dropped == garbage.size() ||
                 parts[0].bytes.size() == one.size() - 4 + garbage.size());
 }

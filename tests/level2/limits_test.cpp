@@ -1,4 +1,4 @@
-// Near the limits, the result is the same for any number of threads and any pieces.
+// Tests that near the limits the result is the same for any number of threads and any pieces.
 #include <gtest/gtest.h>
 
 #include "stormcellar/level2/growing_volume.h"
@@ -18,7 +18,7 @@ std::string outcome_differs(const Result<Decoded>& a, const Result<Decoded>& b) 
                                                   : a.error().message + " / " + b.error().message;
 }
 
-// Records of several sizes; one has a block with a wrong checksum.
+// Returns a file with records of several sizes, one of which has a block with a wrong checksum.
 Bytes damaged_volume() {
     Bytes file = wire::archive_header();
     for (unsigned i = 0; i < 12; ++i) {

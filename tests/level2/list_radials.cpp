@@ -1,10 +1,11 @@
 // list_radials: prints what the decoder reads, line by line, for a comparison with other readers.
 //
-// usage: list_radials FILE [REWRITTEN] Prints JSON lines: one for the header and the pattern, then
-// one for each radial. For the gates of a moment it prints their number, how many hold a value, and
-// the CRC-32 of their codes (16-bit big-endian), with 0 for codes below threshold and range folded,
-// which not every reader distinguishes. If REWRITTEN is given, the volume is written there by
-// stormcellar/level2/encode.h.
+// usage: list_radials FILE [REWRITTEN]
+//
+// Prints JSON lines: one for the header and the pattern, then one for each radial. For each moment
+// it prints the number of gates, the number of values, and the CRC-32 of the codes (16-bit
+// big-endian). Codes below threshold and range folded count as 0, because not every reader
+// distinguishes them. If REWRITTEN is given, the program also encodes the volume to that file.
 #include <cstdio>
 #include <filesystem>
 

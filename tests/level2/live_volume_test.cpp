@@ -1,4 +1,5 @@
-// A volume that arrives in chunks: the result depends only on their numbers, not on their order.
+// Tests that the volume made from chunks depends on their numbers, but not on the order in which
+// they arrive.
 #include "stormcellar/level2/live_volume.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ using wire::Bytes;
 using Added = LiveVolume::Added;
 using std::chrono::seconds;
 
-// Takes every sweep except each `refuses`th. If `lost` is set, it reports that its sweeps are lost.
+// Stores sweeps in memory, but refuses every `refuses`-th one. If `lost` is set, get() fails.
 class MemoryDepot final : public SweepDepot {
   public:
     explicit MemoryDepot(std::size_t refuses = 0) : refuses_(refuses) {}
@@ -67,7 +68,7 @@ std::vector<ChunkFile> real_chunks(const char* set) {
     return chunks;
 }
 
-// Returns a volume of sweeps of two records each, after a start chunk.
+// Returns the chunks of a volume: a start chunk, and then two chunks for each sweep.
 std::vector<ChunkFile> simple_chunks(unsigned sweeps, unsigned ms = 1000) {
     std::vector<ChunkFile> chunks;
     const auto add = [&](ChunkKind kind, Bytes bytes) {
@@ -96,7 +97,8 @@ Bytes joined(const std::vector<ChunkFile>& chunks) {
     return all;
 }
 
-// Removes what the joined chunks cannot show.
+// Removes the problems about missing chunks, which a decode of the joined chunks cannot report, and
+// sets `complete`.
 Decoded without_missing_chunks(Decoded decoded, bool complete) {
     std::erase_if(decoded.report.problems,
                   [](const Problem& problem) { return problem.code == "missing_chunks"; });
@@ -109,8 +111,8 @@ Result<Added> add(LiveVolume& volume, const ChunkFile& chunk, seconds at = {}) {
                       LiveVolume::Clock::time_point{at});
 }
 
-// Adds chunks in another order; some are lost and some come twice. Returns those that came, by
-// number.
+// Adds chunks in a random order, of which some are lost and some come twice. Returns the chunks
+// that came, sorted by number.
 std::vector<ChunkFile> arrive(LiveVolume& volume, const std::vector<ChunkFile>& chunks,
                               std::mt19937& random, double lost, double repeated) {
     std::uniform_real_distribution<double> chance;
@@ -165,14 +167,14 @@ TEST_P(AnyOrder, GivesTheSame) {
     expect_any_order_gives_the_same(real_chunks(GetParam().set), GetParam().rounds);
 }
 
-// A TDWR, a volume that stops, one of 2026, and a large one.
+// Sets of a TDWR, of a volume that stops early, of a volume from 2026, and of a large volume.
 INSTANTIATE_TEST_SUITE_P(LiveVolumeReal, AnyOrder,
                          ::testing::Values(RealChunks{"L2D_185", 6}, RealChunks{"KLOT_34", 4},
                                            RealChunks{"OPENRADAR_KLOT", 2},
                                            RealChunks{"L2D_230", 2}),
                          [](const auto& test) { return testing::test_name(test.param.set); });
 
-// The last version of each sweep that was returned must be that of the final volume.
+// Expects that the last returned version of each sweep equals the sweep in the final volume.
 void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled,
                             SweepDepot* depot = nullptr) {
     std::mt19937 random{5};

@@ -17,9 +17,9 @@ namespace {
 
 constexpr unsigned open_channel = 8, legacy_channel = 0;
 constexpr unsigned legacy_day = 13'013;           // 2005-08-17
-using Numbers = std::map<std::size_t, unsigned>;  // halfword, counted as in the ICD, to number
+using Numbers = std::map<std::size_t, unsigned>;  // by the number of the halfword in the ICD
 
-// A radar that operates without trouble and sends everything.
+// Returns the halfwords of a radar that operates without trouble and sends everything.
 Numbers healthy() {
     return {{1, 16}, {2, 2}, {3, 4}, {4, 2}, {5, 1066}, {7, 28}, {8, 212}, {11, 4}, {24, 3}};
 }
@@ -224,7 +224,8 @@ std::vector<RdaStatus> statuses_in(std::span<const std::byte> messages) {
     return statuses;
 }
 
-// Reads all of a file of messages; of LDM records the first, which holds the metadata.
+// Returns the statuses in a file of messages, or in the first LDM record of a file, which holds the
+// metadata.
 std::vector<RdaStatus> statuses_of_file(const std::string& name) {
     const wire::Bytes file = without_gzip(read_file(*testing::data_directory() / name).value());
     const auto content = std::span{file}.subspan(read_archive_header(file) ? 24 : 0);
@@ -244,7 +245,7 @@ struct RealStatus {
     int vcp;      // as in the golden file
     std::uint16_t version;
     Phrases troubles = {};                      // of the first status
-    std::optional<Phrases> last_troubles = {};  // none: the same
+    std::optional<Phrases> last_troubles = {};  // of the last status; none: the same
 };
 
 TEST(Message2, RealVolumesSayWhatTheyShould) {

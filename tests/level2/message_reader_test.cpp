@@ -103,7 +103,7 @@ TEST(MessageReader, BytesAddedBetweenMessagesAreDroppedAndNamed) {
     EXPECT_EQ(outcome.report.problems[0].severity, Severity::error);
 }
 
-// Nothing of a radial that has lost bytes is kept, whichever bytes they are.
+// A radial that has lost bytes is dropped as a whole, whichever bytes are lost.
 TEST(MessageReader, ARadialThatLostBytesIsDropped) {
     for (const std::size_t lost : {1U, 200U, 1000U, 2000U}) {
         for (const auto& make : {ray_1, ray_31}) {
@@ -142,8 +142,9 @@ TEST(MessageReader, AMessageCutByTheEndIsDropped) {
     }
 }
 
-// A radial that has lost bytes ends by its length a few bytes before the end of the data. What is
-// left is no message, so nothing shows that the radial ends where its length says.
+// The second radial has lost bytes, so by its length it ends inside the third one, a few bytes
+// before the end of the data. These few bytes are no message, so they do not prove that the second
+// radial ends there.
 TEST(MessageReader, AFewBytesBehindARadialDoNotProveItsEnd) {
     wire::Ray large{.azimuth_number = 2, .gates = 600};
     const wire::Bytes third = ray_31(3);

@@ -1,4 +1,4 @@
-// tests/level2/no_limits.h -- options for tests that neither limit nor select.
+// tests/level2/no_limits.h -- an ample limit and a selection of everything, for tests.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,9 @@
-// tests/level2/radial_identity.h -- one number for all contents of a radial.
+// tests/level2/radial_identity.h -- computes one number from all contents of a radial.
 //
 // Two radials have the same identity if they are the same to the bit: every field, the elevation
 // number and message type of their sweep, and for every moment its geometry, scale, offset and the
-// codes of all gates. What a sweep takes from its first radial alone (azimuth spacing, thresholds,
-// control flags, the angle of the VCP) is left out, because it says nothing about the other
-// radials.
+// codes of all gates. Facts that a sweep takes from its first radial alone (azimuth spacing,
+// thresholds, control flags) and the angle of the VCP do not count.
 #pragma once
 
 #include <cstdint>

@@ -65,7 +65,7 @@ TEST(Message31, VolumeBlockIsReadFieldByField) {
     EXPECT_TRUE(block->rest.empty());
 }
 
-// A message may be cut anywhere: nothing outside it is read, and no half radial is returned.
+// A message that is cut anywhere is refused, and nothing outside it is read.
 TEST(Message31, CutAnywhereIsRefused) {
     const wire::Bytes bytes = wire::message_31({});
     const auto body = body_of(bytes);

@@ -1,4 +1,4 @@
-// tests/level2/same_volume.h -- whether two decoded files are the same to the bit.
+// tests/level2/same_volume.h -- finds the first difference between two decoded files.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace stormcellar::level2 {
 
-// Returns where the volumes first differ (volume_difference.h), or where the counts and texts of
-// the reports differ; the time taken is ignored.
+// Returns the first difference between the volumes (volume_difference.h), or between the counts and
+// texts of the reports; empty if there is none. Ignores the time taken.
 [[nodiscard]] std::string difference(const Decoded& a, const Decoded& b);
 
 }  // namespace stormcellar::level2

@@ -1,4 +1,4 @@
-// Decoding a selection gives exactly that part of the whole volume.
+// Tests that decoding a selection gives exactly the selected part of the whole volume.
 #include "stormcellar/level2/selection.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Returns what the selection leaves of a volume.
+// Returns the part of a volume that is selected.
 Volume selected(Volume volume, const Selection& selection) {
     std::erase_if(volume.sweeps,
                   [&](const Sweep& sweep) { return !selection.wants_cut(sweep.elevation_number); });
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Files, SelectionReal,
                                            Case{"KBBX20060113_170337.gz", false}),
                          [](const auto& test) { return testing::test_name(test.param.file); });
 
-// A lost or repeated record moves all that follow, so nothing may be skipped.
+// A lost or repeated record shifts all records after it, so no record may be skipped.
 TEST(SelectionRealDamage, ALostRecordVoidsThePlan) {
     STORMCELLAR_NEED_DATA();
     const auto bytes =
@@ -100,8 +100,8 @@ TEST(SelectionRealDamage, ALostRecordVoidsThePlan) {
     }
 }
 
-// The messages of a sound volume at half a degree, which tests then damage: six records of 120
-// radials for each of three cuts. Record 0 is the metadata.
+// sound_records() returns the messages of a sound volume with half-degree radials, which tests then
+// damage. Record 0 is the metadata; each of three cuts has six records of 120 radials.
 constexpr unsigned sweeps = 3;
 constexpr unsigned sweep_radials = 720;
 constexpr std::size_t records_of_a_cut = 6;
@@ -153,8 +153,8 @@ TEST(SelectionReport, CountsEachSweepThatIsLeftOutOnce) {
     }
 }
 
-// Metadata may change the radials that follow, and the plan does not know whether there are more of
-// them.
+// Metadata beside radials may change later sweeps, and skipped records may hold more metadata, so
+// the plan is void.
 TEST(SelectionPlan, IsVoidWhereMetadataStandBesideRadialsThatAreDecoded) {
     const std::array<float, sweeps> others_deg = {0.5F, 1.5F, 9.0F};
     const std::size_t first_of_cut_3 = 1 + 2 * records_of_a_cut;
@@ -171,7 +171,8 @@ TEST(SelectionPlan, IsVoidWhereMetadataStandBesideRadialsThatAreDecoded) {
     }
 }
 
-// The position of the radar is that of the first radial that gives one.
+// The volume takes the position of the radar from the first radial with a volume block, which a
+// skipped record may hold.
 TEST(SelectionPlan, IsVoidWhereTheFirstRecordHoldsNoVolumeBlock) {
     auto records = sound_records();
     const wire::Bytes name = wire::Writer{}.text("RVOL").bytes;
@@ -188,7 +189,7 @@ TEST(SelectionPlan, IsVoidWhereTheFirstRecordHoldsNoVolumeBlock) {
     EXPECT_EQ(expect_cuts(file_of(records), {3}).records_skipped, 0U);
 }
 
-// There are as many records as in a whole volume, but not the same ones.
+// The file has as many records as a whole volume, but some are repeated and others lost.
 TEST(SelectionPlan, IsVoidWhereARecordThatCameTwiceStandsForALostOne) {
     const auto sound = sound_records();
     const std::size_t cut_2 = 1 + records_of_a_cut, cut_3 = cut_2 + records_of_a_cut;

@@ -37,7 +37,7 @@ TEST(SplitVolumes, AFurtherHeaderGoesWithItsVolume) {
     EXPECT_EQ(volumes[1].station, "KTLX");
 }
 
-// Four volumes follow one another under one header; each is named by its own start time.
+// The file has four volumes and one header. The name of each volume comes from its own start time.
 TEST(SplitVolumes, VolumesUnderOneHeaderStartAtTheirFirstRadials) {
     STORMCELLAR_NEED_DATA();
     auto decoded =
@@ -56,7 +56,7 @@ TEST(SplitVolumes, VolumesUnderOneHeaderStartAtTheirFirstRadials) {
     EXPECT_EQ(sum, radials);
 }
 
-// The cuts of the first volume are not those of the second.
+// The two volumes have different patterns.
 TEST(SplitVolumes, EachHasThePatternThatCameWithIt) {
     const std::array<float, 2> low = {0.5F, 1.5F};
     const std::array<float, 3> high = {0.5F, 3.5F, 9.0F};
@@ -77,7 +77,7 @@ TEST(SplitVolumes, EachHasThePatternThatCameWithIt) {
     EXPECT_EQ(volumes[1].vcp_message->cuts.size(), 3U);
 }
 
-// 2026-11-21: if a selection left nothing of a volume, the next one got its header and pattern.
+// 2026-11-21: if a selection left nothing of a volume, the next volume got its header and pattern.
 TEST(SplitVolumes, ASelectionKeepsTheHeadersOfTheVolumesThatHoldIt) {
     const auto volume = [](std::string_view filename, unsigned sweeps) {
         wire::Bytes bytes = wire::ldm_volume(sweeps, 4);

@@ -41,7 +41,7 @@ class VolumeBuilderTest : public ::testing::Test {
         if (spec.has_ref && !message.add(block)) return false;
         return builder_.add(message);
     }
-    // Ends the fragment; what follows belongs to another one.
+    // Ends the fragment; later radials belong to the next fragment.
     void end_fragment() { EXPECT_TRUE(volume_.append(builder_.take())); }
     Volume finish() {
         end_fragment();
@@ -122,7 +122,7 @@ TEST_F(VolumeBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
     EXPECT_EQ(volume.sweeps[0].moments[0].codes8.size(), 8);
 }
 
-// KBBX20060113: four volumes in one file that have lost the radials at their ends.
+// KBBX20060113 has four volumes in one file, which have lost the radials at their ends.
 TEST_F(VolumeBuilderTest, AFallingElevationNumberBeginsAnotherVolume) {
     for (const int number : {1, 2, 3, 1, 2})
         EXPECT_TRUE(add({number}));
@@ -150,7 +150,7 @@ TEST_F(VolumeBuilderTest, AHeaderBeforeAnyRadialIsTheSameVolumes) {
     EXPECT_EQ(report_.further_headers[0].header.filename, "AR2V0006.843");
 }
 
-// A fragment may end between any two radials without effect on the sweep.
+// Wherever fragments end between radials, the sweeps are the same.
 TEST_F(VolumeBuilderTest, FragmentsMayEndAnywhere) {
     const std::vector<Spec> specs = {{1, 3, 4}, {1, 1, 6}, {1, 1, 3, 1000},  {1, 2, 9},
                                      {2, 0, 5}, {2, 1, 5}, {2, 1, 5, 0, 16}, {2, 4, 7}};
@@ -201,7 +201,8 @@ TEST_F(VolumeBuilderTest, AMomentThatIsNotAskedForIsLeftOut) {
     EXPECT_TRUE(volume.sweeps.at(0).moments.empty());
 }
 
-// Returns how many radials a fragment takes, at most `most`. `block_of(i)` is the moment of each.
+// Returns how many radials a fragment takes, at most `most`. `block_of(i)` returns the moment of
+// radial i.
 template <class BlockOf>
 int radials_taken(std::size_t room_bytes, int most, BlockOf block_of) {
     ArrayRoom room{room_bytes};
@@ -216,7 +217,7 @@ int radials_taken(std::size_t room_bytes, int most, BlockOf block_of) {
     return taken;
 }
 
-// One radial with very many gates makes every row long: 65,535 codes for every 4 that were sent.
+// One radial with very many gates makes every row long: 65,535 codes for 4 gates that were sent.
 TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
     const std::vector<std::byte> codes(65'535);
     const int taken = radials_taken(10'000'000, 100'000, [&](int number) {
@@ -229,7 +230,7 @@ TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
     EXPECT_LT(taken, 160);
 }
 
-// A different scale in each radial makes another kind of row, padded to the end of the sweep.
+// Each radial has another scale and so its own kind, which has a row for every radial of the sweep.
 TEST(FragmentBuilderLimit, RowsOfManyKindsStopAtTheLimitOfASweep) {
     const std::vector<std::byte> codes(1000);
     const int taken = radials_taken(ample, 1000, [&](int number) {

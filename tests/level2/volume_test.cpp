@@ -179,7 +179,7 @@ TEST(StartTime, IsTheHeadersUnlessItCannotBe) {
     volume.sweeps[0].radials[0].time = time_from_nexrad(0, 0);  // no time
     volume.sweeps[0].radials[1].time = first;
     EXPECT_EQ(volume.start_time(), first - std::chrono::seconds{5});
-    // One wrong bit in the day gives 2112 or years before there were radars.
+    // One wrong bit in the day gives the year 2112 or years before there were radars.
     for (const std::uint32_t day : {19069U + 32768U, 0U, 2685U, 0xFFFFFFFFU}) {
         volume.header->date = day;
         EXPECT_EQ(volume.start_time(), first) << day;

@@ -72,7 +72,7 @@ Bytes with_length(const Bytes& body) {
     return bytes;
 }
 
-// the 32 bytes before the pointers
+// Writes the 32 bytes of a message 31 before the pointers.
 Writer radial_header(const Ray& ray, unsigned blocks) {
     Writer writer;
     writer.text("KTLX").u32(ray.ms).u16(day).u16(ray.azimuth_number).f32(ray.azimuth_deg);
@@ -135,7 +135,7 @@ Bytes message_31_with_block(std::span<const std::byte> block) {
 
 namespace {
 
-// In units of 180/32768 degree; negative angles wrap around.
+// Returns an angle in units of 180/32768 degree; negative angles wrap around.
 unsigned angle(float deg) {
     return static_cast<unsigned>(static_cast<int>(deg / 180.0F * 32768.0F)) & 0xFFFFU;
 }
@@ -237,13 +237,13 @@ Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t cle
     constexpr std::uint32_t clear_code = 256;
     Bytes out = {std::byte{0x1F}, std::byte{0x9D}, static_cast<std::byte>(0x80 | most_width)};
     CodeWriter writer(out);
-    // for each code and next byte, the code of both; 0: none
+    // entries[code][byte] is the code of the string of `code` followed by `byte`; 0: none
     std::vector<std::array<std::uint32_t, 256>> entries(clear_code + 1);
     int width = 9;
     std::size_t cleared_at = 0;
     const auto emit = [&](std::uint32_t code) {
         writer.put(code, width);
-        // With at most 9 bits, compress widens to 10 nevertheless.
+        // compress widens codes to 10 bits even if the limit is 9.
         if (width < std::max(most_width, 10) && entries.size() >= (1U << width))
             writer.end_group(width++);
     };

@@ -1,7 +1,7 @@
 // tests/level2/wire.h -- makes Level II bytes by hand, byte by byte as the ICDs describe them.
 //
-// It is independent of the writer in stormcellar/level2/encode.h, so that the two cannot agree on a
-// mistake.
+// This code is independent of the writer in stormcellar/level2/encode.h, so that the two cannot
+// share a mistake.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace stormcellar::level2::wire {
 
 using Bytes = std::vector<std::byte>;
 
-// Writes big-endian numbers at the end, or over existing bytes.
+// Appends big-endian numbers to `bytes`.
 class Writer {
   public:
     Writer& u8(unsigned number) { return put(number, 1); }
@@ -48,35 +48,36 @@ struct Ray {
 inline constexpr unsigned day = 19069;  // 2022-03-17
 
 Bytes archive_header(std::string_view filename = "AR2V0006.116", std::string_view icao = "KTLX");
-// 28 bytes; the size in halfwords includes 16 of them, which belong to the message.
+// Returns the 28 bytes before a body. `size_halfwords` counts the body and 16 of these bytes.
 Bytes message_header(unsigned type, unsigned size_halfwords, unsigned segments = 1,
                      unsigned segment = 1);
-// A frame of 2432 bytes with this body.
+// Returns a frame of 2432 bytes with this body.
 Bytes frame(unsigned type, std::span<const std::byte> body = {});
-// A radial with REF in 8 bits, RHO in 16, and the volume, elevation and radial blocks.
+// Returns a radial with REF in 8 bits, RHO in 16 bits, and the volume, elevation and radial blocks.
 Bytes message_31(const Ray& ray);
-// A message with only this block, for tests of broken blocks.
+// Returns a message 31 with only this block, for tests of broken blocks.
 Bytes message_31_with_block(std::span<const std::byte> block);
-// The same radial with everything after its header compressed: 1 bzip2, 2 zlib (table XVII-A).
+// Returns a message 31 with everything after its data header block compressed, by bzip2 (indicator
+// 1) or zlib (2) (table XVII-A).
 Bytes compressed_message_31(const Bytes& message, int indicator);
-// A radial with REF, and VEL and SW at twice the gates, in a frame.
+// Returns a frame of message 1 with REF, and with VEL and SW of twice as many gates.
 Bytes message_1(const Ray& ray);
-// Message 5 with a pattern of these elevations.
+// Returns a frame of message 5 with a pattern of these elevations.
 Bytes vcp_frame(unsigned pattern, std::span<const float> elevations_deg);
 
 Bytes bzip2(std::span<const std::byte> bytes, int level = 9);
-Bytes unpack_bzip2(std::span<const std::byte> bytes);  // one stream
+Bytes unpack_bzip2(std::span<const std::byte> bytes);  // of one stream
 Bytes ldm_record(std::span<const std::byte> messages, bool last = false, int level = 9);
 Bytes gzip(std::span<const std::byte> bytes);
-// Compresses with Unix compress: codes of at most `most_width` bits; the table is cleared after
-// every `clear_every` bytes, 0: never.
+// Compresses as Unix compress does, with codes of at most `most_width` bits. Clears the table after
+// every `clear_every` bytes; 0: never.
 Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t clear_every);
 
 Bytes join(std::initializer_list<Bytes> parts);
 
-// Returns `sweeps` sweeps of `radials` messages 31 each, with correct statuses.
+// Returns messages 31: `sweeps` sweeps of `radials` radials each, with correct statuses.
 Bytes radial_messages(unsigned sweeps, unsigned radials, unsigned gates = 100);
-// A small whole file: header, a metadata record, one record for each sweep.
+// Returns a whole small file: the header, a metadata record, and one record for each sweep.
 Bytes ldm_volume(unsigned sweeps, unsigned radials, unsigned gates = 100);
 
 }  // namespace stormcellar::level2::wire
