@@ -1,4 +1,5 @@
-// Archives that were made to take time, memory or disk end at their bounds.
+// Tests that reading ends at its bounds for archives that were made to take much time, memory or
+// disk.
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -49,13 +50,13 @@ TEST(ArchiveReader, BombsStopAtTheLimits) {
     EXPECT_THAT(crowd->left_out().at(0).reason, HasSubstr("more than 3 members"));
 }
 
-// 2026-11-25: libarchive unpacked members that were skipped, and nobody counted their bytes.
+// 2026-11-25: libarchive unpacked members to skip them, and nothing counted these bytes.
 TEST(ArchiveReader, WhatIsPassedOverCountsToo) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);
     Limits limits;
     limits.unbounded_bytes = 1 << 20;
     for (const Kind kind : {Kind::tar_gz, Kind::tar_bz2, Kind::tar_xz, Kind::tar_zst, Kind::zip}) {
-        // Its name is refused, so its data are skipped.
+        // The name of the first member is refused, so its data are skipped.
         const auto bomb = make_archive(kind, {{"../a", zeros}, {"b", bytes_of("b")}});
         auto reader = ArchiveReader::open(bomb, limits);
         ASSERT_TRUE(reader);
@@ -71,7 +72,7 @@ std::size_t peak_bytes() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-// A header of tar by hand: libarchive's writer makes none that lie.
+// Returns a tar header made by hand, because libarchive's writer makes no false headers.
 std::vector<std::byte> tar_header(const std::string& name, std::size_t size, char type) {
     std::string block(512, '\0');
     const auto put = [&](std::size_t at, const std::string& text) {
@@ -93,7 +94,7 @@ std::vector<std::byte> tar_header(const std::string& name, std::size_t size, cha
     return bytes_of(block);
 }
 
-// A record of a pax header: its length, itself counted, before it.
+// Returns a record of a pax header, which begins with its own length.
 std::string record(const std::string& text) {
     std::size_t length = text.size() + 3;
     while (fmt::format("{} {}\n", length, text).size() != length)
@@ -101,7 +102,7 @@ std::string record(const std::string& text) {
     return fmt::format("{} {}\n", length, text);
 }
 
-// Files of a byte, each behind a pax header with these records.
+// Returns a tar of files of one byte, each after a pax header with these records.
 std::vector<std::byte> tar_with_headers(const std::string& pax, int files) {
     std::vector<std::byte> tar;
     const auto add = [&](const std::vector<std::byte>& bytes) {
@@ -118,7 +119,8 @@ std::vector<std::byte> tar_with_headers(const std::string& pax, int files) {
     return tar;
 }
 
-// A sparse file of GNU's format 1.0, whose map begins its data, and a plain file after it.
+// Returns a tar with a sparse file in GNU's format 1.0, whose data begin with a map of `entries`
+// entries, and a plain file.
 std::vector<std::byte> sparse_tar(std::size_t entries) {
     const std::string pax = record("GNU.sparse.major=1") + record("GNU.sparse.minor=0") +
                             record("GNU.sparse.name=KTLX") + record("GNU.sparse.realsize=4");
@@ -144,8 +146,8 @@ std::vector<std::byte> sparse_tar(std::size_t entries) {
     return tar;
 }
 
-// 2026-11-28: a tar of 257 kB took 3 GiB: libarchive keeps 48 bytes for each 4 bytes of the map of
-// a sparse file, while it reads the header, before any limit counted.
+// 2026-11-28: a packed tar of 257 kB took 3 GiB of memory. libarchive keeps 48 bytes for each 4
+// bytes of the map of a sparse file while it reads the header, and no limit applied then.
 TEST(ArchiveReader, AHeaderThatIsTooLongEndsIt) {
     const auto tar = sparse_tar(2'000'000);
     for (const auto& bytes : {tar, packed(Kind::tar_gz, tar)}) {
@@ -161,8 +163,9 @@ TEST(ArchiveReader, AHeaderThatIsTooLongEndsIt) {
     }
 }
 
-// 2026-11-28: one header with an access list of 889 kB took 47 s in a file of 202 kB, and four of
-// them the watchdog's patience: libarchive compares each entry with all before.
+// 2026-11-28: in a file of 202 kB, one header with an access list of 889 kB took 47 s, and with
+// four such headers the watchdog ended the daemon. libarchive compares each entry with all previous
+// ones.
 TEST(ArchiveReader, AnAccessListWithoutAnEndIsNotRead) {
     std::string entries;
     for (int i = 0; i < 30'000; ++i)
@@ -193,7 +196,8 @@ TEST(ArchiveReader, ManyLongHeadersEndItToo) {
     EXPECT_LT(names(100'000, 60), 50U);
 }
 
-// 2026-11-28: each archive in an archive could unpack as much as the bound only to pass it over.
+// 2026-11-28: each archive inside an archive could unpack as much as the bound allows, only to skip
+// it.
 TEST(ArchiveReader, WhatInnerArchivesPassOverCountsToo) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);
     const auto bomb = make_archive(Kind::tar_gz, {{"../a", zeros}, {"b", bytes_of("b")}});
@@ -217,8 +221,8 @@ TEST(ArchiveReader, ANameOfGzipWithoutAnEndTakesNoMemory) {
     EXPECT_LT(peak_bytes() - before, std::size_t{24} << 20);
 }
 
-// 2026-11-28: libarchive looked for a second filter behind the first one, and kept as much of the
-// unpacked bytes as a name took that has no end: gigabytes, of a file of some kilobytes.
+// 2026-11-28: libarchive looked for a second filter after the first, and kept all unpacked bytes of
+// an endless name in a gzip header: gigabytes from a file of some kilobytes.
 TEST(ArchiveReader, ANameOfGzipInABzip2TakesNoMemory) {
     std::vector<std::byte> name(std::size_t{8} << 20, std::byte{'n'});
     const auto more = packed(Kind::tar_bz2, name);
@@ -231,8 +235,8 @@ TEST(ArchiveReader, ANameOfGzipInABzip2TakesNoMemory) {
     EXPECT_LT(peak_bytes() - before, std::size_t{24} << 20);
 }
 
-// A member that is packed with LZMA, whose header asks for a dictionary of 1 GiB and whose length
-// stands behind it.
+// Returns a zip with a member packed by LZMA. Its header asks for a dictionary of 1 GiB, and its
+// length follows its data.
 std::vector<std::byte> zip_of_lzma() {
     std::string zip("PK\x03\x04\x3F\0\x08\0\x0E\0", 10);
     zip += std::string(16, '\0') + std::string("\x01\0\0\0x", 5);
@@ -240,7 +244,8 @@ std::vector<std::byte> zip_of_lzma() {
     return bytes_of(zip);
 }
 
-// The end of such a member is found by unpacking it, with the memory that its header asks for.
+// libarchive would unpack such a member to find its end, with as much memory as its header asks
+// for.
 TEST(ArchiveReader, SmallCodecsAloneEndAZipThatIsReadFromItsStart) {
     Limits limits;
     limits.small_codecs = true;
@@ -270,10 +275,10 @@ TEST(ArchiveReader, WhatTakesTooLongEndsIt) {
     }
 }
 
-// 2026-11-28: libarchive unpacked the data of a directory to find their end, 140 GiB of a zip of
-// 146 MB, in one call: the watchdog ended the service.
+// 2026-11-28: in one call, libarchive unpacked 140 GiB of a zip of 146 MB, to find the end of data
+// that belong to a directory, and the watchdog ended the service.
 TEST(ArchiveReader, ADirectoryOfAZipThatHasDataEndsItInTime) {
-    // A gzip file has 10 bytes before what is deflated, and behind it the checksum and the length.
+    // In a gzip file, the deflated data come after 10 bytes and before the checksum and the length.
     const std::vector<std::byte> gzip =
         packed(Kind::tar_gz, std::vector<std::byte>(std::size_t{64} << 20));
     const std::string text(reinterpret_cast<const char*>(gzip.data()), gzip.size());
@@ -334,8 +339,9 @@ TEST(ArchiveReader, WhatIsPackedTwiceIsNone) {
         ArchiveReader::open(packed(Kind::tar_compress, make_archive(Kind::tar_compress, two))));
 }
 
-// Packs as compress does, with codes of up to `most_width` bits: `prefix`, then `period` again and
-// again. Each byte that is appended to the result for `repeated` stands for many periods.
+// Packs `prefix` and then endless repetitions of `period`, as compress does with codes of up to
+// `most_width` bits. The file is `start` and any number of copies of `repeated`; each copy unpacks
+// to many periods.
 struct EndlessCompressed {
     std::string start, repeated;
 };
@@ -378,10 +384,10 @@ EndlessCompressed compressed_without_end(const std::string& prefix, const std::s
     }
 }
 
-// 2026-11-28: of 60 kB the daemon took three minutes, and its watchdog was not fed.
+// 2026-11-28: the daemon took three minutes for 60 kB, without a sign to its watchdog.
 TEST(ArchiveReader, WhatIsCompressedTwiceAndUnpacksToNothingTakesNoTime) {
     using namespace std::string_literals;
-    // Resets alone: nine bytes each, and nothing comes out.
+    // The inner file has only reset codes, nine bytes each, and unpacks to nothing.
     const auto once =
         compressed_without_end("\x1F\x9D\x90\0\1\0\0\0\0"s, "\0\1\0\0\0\0\0\0\0"s, 12);
     const auto twice = compressed_without_end(once.start, once.repeated, 14);

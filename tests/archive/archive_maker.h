@@ -1,4 +1,4 @@
-// tests/archive/archive_maker.h -- tar and zip archives made by hand, for tests.
+// tests/archive/archive_maker.h -- makes tar and zip archives for tests.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ struct Put {
     std::string name;
     std::vector<std::byte> bytes = {};
     What what = What::file;
-    std::string target = {};  // of a link
+    std::string target = {};  // target of a link
 };
 
 [[nodiscard]] std::vector<std::byte> make_archive(Kind kind, const std::vector<Put>& puts);
-// Returns the bytes alone, packed as an archive of that kind is packed.
+// Returns the bytes without an archive around them, packed by the codec of this kind.
 [[nodiscard]] std::vector<std::byte> packed(Kind kind, const std::vector<std::byte>& bytes);
 [[nodiscard]] std::vector<std::byte> bytes_of(const std::string& text);
 

@@ -52,7 +52,7 @@ TEST_P(EveryKind, IsReadFromAFileToo) {
     ::close(descriptor);
 }
 
-// An archive that is cut anywhere yields only members that were in it, and reports that it is cut.
+// From an archive that is cut anywhere, the reader returns only whole members, and reports the cut.
 TEST_P(EveryKind, CutAnywhereItGivesWhatIsWhole) {
     const auto bytes = make_archive(GetParam(), two);
     for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 97) {
@@ -132,7 +132,8 @@ TEST(ArchiveReader, AnArchiveInAnArchiveIsGoneThroughOnce) {
     EXPECT_THAT(names_of(*one), ElementsAre("inner.tar.gz!a/KTLX_1", "inner.tar.gz!KTLX_2", "c"));
     const auto outer = make_archive(Kind::tar, {{"middle.zip", middle}});
     auto two_deep = ArchiveReader::open(outer);
-    // A deeper archive is returned as it is: it is no volume, and reading it reports that.
+    // An archive two levels deep is returned as a member. It is no volume, so decoding it reports
+    // an error.
     EXPECT_THAT(names_of(*two_deep), ElementsAre("middle.zip!inner.tar.gz", "middle.zip!c"));
 }
 
@@ -178,8 +179,8 @@ TEST(MemberPath, IsOneWhereTheArchiveStandsAndThePathDoesNot) {
     EXPECT_FALSE(member_path_of(directory.path() / "none.tar!x"));
 }
 
-// 2026-11-29: members behind zeros, of a lost page or of the first of two joined tars, were lost
-// without a word.
+// 2026-11-29: members after zeros were lost without a report. The zeros were a lost page, or the
+// end of the first of two joined tars.
 TEST(ArchiveReader, ReadsOnBehindZeros) {
     const auto large = bytes_of(std::string(9000, 'x'));
     const auto first = make_archive(Kind::tar, {{"a", large}, {"b", large}, {"c", large}});
@@ -212,7 +213,8 @@ TEST(ArchiveReader, ReadsOnBehindZeros) {
     EXPECT_THAT(names_of(*reader), ElementsAre("a", "d"));
 }
 
-// 2026-11-29: an archive whose start could not be read was taken for no archive, for good.
+// 2026-11-29: if the start of an archive could not be read, the file was permanently taken for no
+// archive.
 TEST(ArchiveReader, AStartThatCannotBeReadIsNotThatOfAnotherFile) {
     const Descriptor unreadable{::open("/proc/self/mem", O_RDONLY | O_CLOEXEC)};  // EIO at 0
     auto reader = ArchiveReader::open(unreadable.number());
@@ -223,7 +225,8 @@ TEST(ArchiveReader, AStartThatCannotBeReadIsNotThatOfAnotherFile) {
     EXPECT_EQ(find_member(unreadable.number(), "KTLX").error().code, ErrorCode::io);
 }
 
-// 2026-11-29: what stands behind the place where an archive is cut was not in it, or was gone.
+// 2026-11-29: for a member after the place where an archive is cut, the error said that it was not
+// in the archive, or gone.
 TEST(ArchiveReader, SaysWhyAMemberIsMissing) {
     std::vector<std::byte> tar = make_archive(Kind::tar, {{"a", bytes_of(std::string(2000, 'a'))},
                                                           {"b", bytes_of(std::string(9000, 'b'))},

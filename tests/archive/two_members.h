@@ -1,4 +1,4 @@
-// Two members for archives of tests, and the names that a reader gives.
+// Has two members for test archives, and a function that reads the names of all members.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace stormcellar::archive {
 inline const std::vector<Put> two = {{"a/KTLX_1", bytes_of("first")},
                                      {"KTLX_2", bytes_of("second")}};
 
-// Reads the archive to its end.
+// Reads the archive to its end, and returns the names of its members.
 inline std::vector<std::string> names_of(ArchiveReader& reader) {
     std::vector<std::string> names;
     while (const auto member = reader.next())

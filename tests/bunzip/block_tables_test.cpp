@@ -15,7 +15,7 @@ BlockPlan small_plan() {
     return block;
 }
 
-// After the head of the stream (4 bytes), the mark, the checksum and 25 bits.
+// The tables begin after the head of the stream (4 bytes), the mark, the checksum and 25 bits.
 constexpr std::uint64_t tables_at = 32 + 48 + 32 + 25;
 
 Found read(BlockTables& tables, const BlockPlan& block, std::size_t missing_bits = 0) {
@@ -33,7 +33,8 @@ TEST(BlockTables, AreReadAsTheyWereWritten) {
     EXPECT_EQ(tables.bytes[3], 255);
     EXPECT_EQ(tables.end_symbol(), 5);
     EXPECT_EQ(tables.code_count, 3U);
-    // The selectors after moving to front: table 2, the same again, the next in the list, the last.
+    // The move-to-front list turns the selectors into code 2, 2 again, the next in the list, and
+    // the last.
     EXPECT_EQ(tables.selectors, (std::vector<std::uint8_t>{2, 2, 0, 1}));
     EXPECT_EQ(tables.codes[1].decode(std::uint64_t{0b10} << 62).symbol, 1);
     EXPECT_EQ(tables.codes[2].decode(0).symbol, 1);
@@ -79,7 +80,7 @@ TEST(BlockTables, WhatContradictsIsBad) {
     }
 }
 
-// libbz2 has done so since 1.0.7.
+// libbz2 drops them too, since 1.0.7.
 TEST(BlockTables, SelectorsThatNoBlockNeedsAreDropped) {
     BlockPlan many = small_plan();
     many.selectors.assign(20'000, 0);

@@ -12,7 +12,7 @@ namespace {
 
 using Symbols = std::vector<std::uint16_t>;
 
-// Computes the last column byte by byte, as the format describes it.
+// Makes the last column byte by byte, as the format describes it.
 std::vector<std::uint8_t> slowly(const Symbols& symbols, std::vector<std::uint8_t> list) {
     std::vector<std::uint8_t> column;
     std::size_t unit = 1;
@@ -107,7 +107,7 @@ TEST_P(ByteRunsOf, ARunHas21DigitsAtMost) {
             symbols.insert(symbols.end(), digits, run_b);
             begin(5);
             static_cast<void>(runs(symbols, 1000));
-            // bytes moved one by one, and 2^(digits + 1) - 2 bytes of the run
+            // each move adds a byte, and the digits add 2^(digits + 1) - 2 bytes
             if (digits <= most_run_digits) {
                 EXPECT_EQ(maker_.bytes, before + (std::uint64_t{2} << digits) - 2)
                     << before << ' ' << digits;

@@ -1,4 +1,5 @@
-// tests/bunzip/each_path.h -- the paths that this machine supports, and names for their tests.
+// tests/bunzip/each_path.h -- lists the paths that this machine supports, and names the tests of
+// each.
 #pragma once
 
 #include <string>
@@ -22,7 +23,7 @@ inline std::string test_name(const ::testing::TestParamInfo<Path>& info) {
     return std::string{name_of(info.param)};
 }
 
-// For tests of a kernel, which libbz2 does not have.
+// Returns the paths that have kernels: all available paths except libbz2.
 inline std::vector<Path> available_kernels() {
     std::vector<Path> paths = available_paths();
     paths.erase(paths.begin());

@@ -23,7 +23,7 @@ Octets walk_alone(const std::vector<Link>& links, std::uint32_t origin, std::siz
     return out;
 }
 
-// Makes rings of these sizes, with their rows in random places.
+// Returns links that form rings of these sizes, with the rows of each ring in random places.
 std::vector<Link> links_of(const std::vector<std::uint32_t>& rings, std::mt19937& random) {
     const std::uint32_t rows = std::accumulate(rings.begin(), rings.end(), 0U);
     std::vector<std::uint32_t> order(rows);
@@ -65,7 +65,8 @@ TEST(LinkWalk, OneRingOfAnySize) {
     }
 }
 
-// In a block that repeats itself, the links form several rings. Reading goes round on one of them.
+// If the block is a repetition of a text, the links form several rings, and the walk goes around
+// one of them.
 TEST(LinkWalk, ManyRings) {
     std::mt19937 random(9);
     expect_as_alone(links_of({50'000, 1, 1, 7, 30'000, 300'000}, random), 380'009, 17);
@@ -74,8 +75,8 @@ TEST(LinkWalk, ManyRings) {
     expect_as_alone(links_of({3, 100'000}, random), 100'003, 50'000);
 }
 
-// All marks are close together on the ring, so one walk has to go around nearly all of the block,
-// and has no room for it.
+// All marks are close together on the ring, so one walk would have to read nearly all of the block,
+// for which it has no room.
 TEST(LinkWalk, OneWalkThatHasItAll) {
     constexpr std::uint32_t rows = 600'000;
     std::vector<std::uint32_t> order;
@@ -106,14 +107,14 @@ TEST(LinkWalk, MarksAreRowsAndAllDiffer) {
     }
 }
 
-// 2026-11-23: if the period was 256 bytes or twice, four or eight times that, marks at even
-// distances were all at the same places of a period, close together on the ring.
+// 2026-11-23: if the data had a period of 256, 512, 1024 or 2048 bytes, evenly spaced marks were
+// all at the same places of a period, close together on the ring.
 TEST(LinkWalk, DataThatRepeatsItselfIsNotReadByOneWalk) {
     constexpr std::uint32_t rows = 450'000;
     std::mt19937 random(11);
     for (const std::uint32_t period :
          {100U, 128U, 256U, 512U, 1000U, 1024U, 2048U, 2432U, 65'536U}) {
-        // The rows that begin at the same place of the period are neighbors, in order.
+        // Rows that begin at the same place of the period are neighbors, in the order of the text.
         std::vector<std::uint32_t> places(period), begin(period);
         std::iota(places.begin(), places.end(), 0U);
         std::shuffle(places.begin(), places.end(), random);
@@ -134,7 +135,8 @@ TEST(LinkWalk, DataThatRepeatsItselfIsNotReadByOneWalk) {
 class RowLinksOf : public ::testing::TestWithParam<Path> {};
 INSTANTIATE_TEST_SUITE_P(EachPath, RowLinksOf, ::testing::ValuesIn(available_kernels()), test_name);
 
-// The rows of a text, sorted as the format describes it. Reading along the links gives the text.
+// The test sorts the rotations of a text, as the format describes it. Reading along the links must
+// give the text.
 TEST_P(RowLinksOf, AreThoseOfTheSortedRotations) {
     std::mt19937 random(10);
     for (int round = 0; round < 60; ++round) {

@@ -1,5 +1,5 @@
-// Streams that no compressor writes, or rarely. libbz2 is the reference for all of them: the bytes
-// and the kind of end must be the same.
+// Compares bunzip with libbz2 on streams that compressors rarely or never write. The bytes and the
+// kind of end must be the same.
 #include <algorithm>
 #include <random>
 
@@ -54,7 +54,7 @@ TEST_P(OddStreams, ContentsOfAllKinds) {
         EXPECT_EQ(check(compressed(noise(size, 3, 2), 1)), End::whole) << size;
     for (const unsigned kinds : {1U, 2U, 17U, 64U, 65U, 129U, 193U, 256U})
         EXPECT_EQ(check(compressed(noise(250'000, kinds, kinds), 9)), End::whole) << kinds;
-    // Periods: equal rotations, and links in many rings.
+    // Repeated pieces have equal rotations, and their links form many rings.
     for (const std::size_t period : {1U, 2U, 3U, 5U, 64U, 100U, 2432U, 50'000U}) {
         const Bytes piece = noise(period, 251, 3);
         Bytes bytes;
@@ -62,7 +62,7 @@ TEST_P(OddStreams, ContentsOfAllKinds) {
             bytes.insert(bytes.end(), piece.begin(), piece.end());
         EXPECT_EQ(check(compressed(bytes, 4)), End::whole) << period;
     }
-    // Runs of every length that a count can express, and longer ones.
+    // Runs of every length that a count can express, and longer runs.
     Bytes runs;
     for (std::size_t length = 1; length < 700; ++length)
         runs.insert(runs.end(), length, static_cast<std::byte>(length % 5));
@@ -94,7 +94,7 @@ TEST_P(OddStreams, LongestWords) {
         symbols.push_back(symbol <= run_b && random() % 8 != 0 ? std::uint16_t{2} : symbol);
     }
     symbols.push_back(41);
-    // Words of 20 bits that do not fit are cut, so anything can come out.
+    // Words that do not fit into 20 bits are cut, so the result may be anything.
     static_cast<void>(check(mended_stream('9', plan(bytes, lengths, symbols))));
 
     // a complete code up to 20 bits
@@ -112,7 +112,8 @@ TEST_P(OddStreams, LongestWords) {
     EXPECT_EQ(check(mended_stream('9', block)), End::whole);
 }
 
-// One byte `rows` times: run digits 1 and 2 of that total value.
+// Returns a block of one byte that occurs `rows` times. Its symbols are the digits 1 and 2 of that
+// number.
 BlockPlan run_of(std::size_t rows) {
     std::vector<std::uint16_t> digits;
     for (std::size_t left = rows; left > 0; left = (left - 1) / 2)
@@ -121,7 +122,7 @@ BlockPlan run_of(std::size_t rows) {
     return plan({4}, {1, 2, 2}, digits);
 }
 
-// If each byte is a row, every fifth one is a count, and a block that ends before a count is
+// In a block of equal bytes, every fifth byte is a count, and a block that ends before a count is
 // corrupt.
 TEST_P(OddStreams, RunsUpToABlockAndAboveIt) {
     for (const std::size_t rows : {1U, 3U, 4U, 5U, 8U, 9U, 10U, 99'999U, 100'000U, 100'001U}) {
@@ -163,7 +164,7 @@ TEST_P(OddStreams, Origins) {
         block.origin = origin;
         EXPECT_EQ(check(mended_stream('1', block)) == End::corrupt, origin >= 30) << origin;
     }
-    // Only the end symbol: there is no row, so no origin.
+    // The block has only the end symbol, so it has no row and no valid origin.
     block.symbols = {3};
     block.origin = 0;
     EXPECT_EQ(check(mended_stream('1', block)), End::corrupt);
@@ -181,7 +182,7 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     block.origin = 17;
     EXPECT_EQ(check(mended_stream('9', block)), End::whole);
 
-    // The same after a block that is not empty, which has been returned by then.
+    // The same block comes after a block that is not empty and that has been returned already.
     BlockPlan first = block;
     first.randomised = false;
     BlockPlan blocks[] = {first, block};
@@ -195,11 +196,11 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     EXPECT_EQ(check(stream_of('9', blocks, end + 1)), End::corrupt);
 }
 
-// 2026-11-23: a move that made a block one byte too long was only counted with the next symbol, so
-// a stream that was cut there was reported as cut.
+// 2026-11-23: a move that made a block one byte too long was only noticed at the next symbol, so a
+// stream that was cut there was reported as cut and not as corrupt.
 TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
     for (const bool is_full : {false, true}) {
-        // 100,000 bytes in digits of 1 and 2, or one less; then a move, and the end.
+        // The symbols are the digits of 100,000 or 99,999 bytes, then a move, and the end.
         std::vector<std::uint16_t> symbols;
         for (unsigned left = is_full ? 100'000 : 99'999; left > 0;) {
             const unsigned digit = left % 2 == 1 ? 1 : 2;
@@ -217,7 +218,8 @@ TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
     }
 }
 
-// The bytes after a block whose last byte fills the room are still checked, as in libbz2.
+// If the last byte of a block fills the room, the bytes after the block are still checked, as in
+// libbz2.
 TEST_P(OddStreams, WhatIsBehindTheLimitsLastByte) {
     const BlockPlan sound = plan({0, 1, 2, 3}, std::vector<std::uint8_t>(6, 3), {2, 3, 2, 3, 5});
     const Bytes alone = mended_stream('9', sound);

@@ -35,7 +35,7 @@ TEST(Paths, TheUsualOneCanBeSet) {
     EXPECT_TRUE(set_usual_path(before));
 }
 
-// The environment is read once, so each case runs in a process of its own.
+// A process reads the environment only once, so each case runs in a new process.
 int exit_with_usual_path(const char* name) {
     ::setenv("STORMCELLAR_BUNZIP", name, 1);
     return static_cast<int>(usual_path());

@@ -10,8 +10,8 @@ namespace {
 
 using Lengths = std::vector<std::uint8_t>;
 
-// Decodes bit by bit from the shortest words on, as the format describes it: the first word of a
-// length is twice the number after the last word of the length before.
+// Decodes bit by bit, as the format describes it: the first word of a length is twice the number
+// after the last word of the length before.
 PrefixCode::Word slowly(const Lengths& lengths, std::uint64_t bits) {
     std::uint64_t first = 0;
     for (unsigned length = 1; length <= 20; ++length) {
@@ -38,7 +38,7 @@ void expect_slow_code(const Lengths& lengths, std::mt19937_64& random) {
     PrefixCode code;
     code.build(lengths);
     for (int i = 0; i < 3000; ++i) {
-        // Leading ones lead to the longest words.
+        // Many leading ones give long words.
         const auto ones = static_cast<unsigned>(random() % 24);
         std::uint64_t bits = random() >> ones;
         if (ones > 0) bits |= ~std::uint64_t{0} << (64 - ones);
@@ -69,7 +69,7 @@ TEST(PrefixCode, ProperCodes) {
     expect_slow_code({1, 2, 2}, random);
     expect_slow_code({3, 3, 3, 3, 3, 3, 3, 3}, random);
     expect_slow_code(Lengths(256, 8), random);
-    // A comb: it has the longest possible words.
+    // This code has words of every length, up to the longest possible.
     expect_slow_code({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 20},
                      random);
     expect_slow_code({20, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1},
@@ -84,7 +84,7 @@ TEST(PrefixCode, LengthsThatLeaveWordsUnused) {
     expect_slow_codes_of_lengths(9, 20, random);
 }
 
-// There are more words than fit, so those of longer lengths cannot be reached.
+// There are more words than fit, so words of longer lengths are never decoded.
 TEST(PrefixCode, LengthsThatAreTooShort) {
     std::mt19937_64 random(3);
     expect_slow_code({1, 1, 1}, random);

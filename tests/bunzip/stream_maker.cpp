@@ -98,7 +98,7 @@ void put_block(BitWriter& to, const BlockPlan& block) {
     put_symbols(to, block);
 }
 
-// The bytes that decide, one after the other; zeros after the last one.
+// Returns one after the other of the bytes that decide about a stream; zeros after the last one.
 class Choices {
   public:
     explicit Choices(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -116,7 +116,7 @@ class Choices {
     std::span<const std::byte> bytes_;
 };
 
-// Repeats pieces, which gives runs, periods and random contents.
+// Returns contents with runs, periods and random pieces.
 Bytes contents_from(Choices& choices) {
     const std::size_t most = choices.byte() % 16 == 0 ? 300'000 : 20'000;
     Bytes bytes;
@@ -138,7 +138,8 @@ std::vector<std::uint8_t> lengths_from(Choices& choices, std::size_t symbols) {
     std::vector<std::uint8_t> lengths;
     const unsigned kind = choices.byte() % 4;
     for (std::size_t i = 0; i < symbols; ++i) {
-        // All equal; a comb up to the longest; random; nearly equal.
+        // The lengths are all equal, or grow by one up to the longest, or are random, or nearly
+        // equal.
         const auto even = static_cast<unsigned>(std::bit_width(symbols - 1));
         const unsigned comb = std::min<unsigned>(20, static_cast<unsigned>(i) + 1);
         const unsigned length = kind == 0   ? even
@@ -212,7 +213,7 @@ LibraryOutcome decompressed(std::span<const std::byte> stream, std::size_t limit
     int code = BZ_OK;
     for (;;) {
         const std::size_t made = outcome.bytes.size();
-        // Room for one more byte shows whether there is one.
+        // One byte of room beyond the limit shows if the output is longer.
         outcome.bytes.resize(std::min(limit + 1, made + 65'536));
         bz.next_out = reinterpret_cast<char*>(outcome.bytes.data() + made);
         const auto room = static_cast<unsigned>(outcome.bytes.size() - made);
@@ -277,7 +278,7 @@ Bytes stream_from(std::span<const std::byte> input) {
         return stream;
     }
     const int level = 1 + static_cast<int>(choices.byte() % 9);
-    // Makes up to three changes in the places that the bytes say.
+    // Make up to three changes at places that the bytes decide.
     std::map<unsigned, std::byte> changes;
     if (kind == 2) {
         for (unsigned i = choices.byte() % 4; i > 0; --i)

@@ -1,4 +1,4 @@
-// tests/bunzip/stream_maker.h -- bzip2 streams that no compressor writes, bit by bit.
+// tests/bunzip/stream_maker.h -- makes bzip2 streams, bit by bit, that no compressor writes.
 #pragma once
 
 #include <array>
@@ -21,34 +21,34 @@ using Bytes = std::vector<std::byte>;
 // The result of libbz2 for a stream that is fed in one piece.
 struct LibraryOutcome {
     enum class Status : std::uint8_t { whole, truncated, corrupt, too_large } status;
-    Bytes bytes;  // bytes that it returned
+    Bytes bytes;  // the output
     std::size_t input_bytes = 0;
 };
 [[nodiscard]] LibraryOutcome decompressed(std::span<const std::byte> stream, std::size_t limit);
 
-// All values of a block, each exactly as it is to be written, right or wrong.
+// The values of all fields of a block. stream_of() writes them unchanged, right or wrong.
 struct BlockPlan {
     std::uint32_t checksum = 0;
     bool randomised = false;
     std::uint32_t origin = 0;
-    std::vector<std::uint8_t> bytes;                 // those that occur, ascending
-    std::vector<std::vector<std::uint8_t>> lengths;  // of the words of each code, by symbol
+    std::vector<std::uint8_t> bytes;                 // the bytes that occur, ascending
+    std::vector<std::vector<std::uint8_t>> lengths;  // for each code, word lengths by symbol
     std::vector<std::uint8_t> selectors;             // places in the list of codes, 0 to 6
-    std::optional<std::uint32_t> stated_selectors;   // if not set, their number
-    std::vector<std::uint16_t> symbols;              // each written in the code of its group
+    std::optional<std::uint32_t> stated_selectors;   // none: the number of `selectors`
+    std::vector<std::uint16_t> symbols;              // written in the codes of their groups
 };
-// Returns a whole stream; `end` is its last checksum, or none to leave the end out.
+// Returns a stream of these blocks. `end` is the checksum at its end; none leaves the end out.
 [[nodiscard]] Bytes stream_of(char level, std::span<const BlockPlan> blocks,
                               std::optional<std::uint32_t> end);
 
 // Computes the checksum of bzip2 bit by bit.
 [[nodiscard]] std::uint32_t slow_checksum(std::span<const std::byte> bytes);
 
-// Returns a stream of one block with the checksums of what libbz2 decodes from it, so that it is
-// valid if everything else in it is.
+// Returns a stream of one block, with the checksums that fit the bytes that libbz2 decodes from it.
+// So the stream is valid if everything else in the block is.
 [[nodiscard]] Bytes mended_stream(char level, BlockPlan block);
 
-// Returns a stream that the bytes of `choices` determine: valid, odd, or nearly valid.
+// Returns a valid, odd or nearly valid stream. `choices` determines all of it.
 [[nodiscard]] Bytes stream_from(std::span<const std::byte> choices);
 
 }  // namespace stormcellar::bunzip

@@ -1,4 +1,4 @@
-/* Reads a bzip2 stream from stdin and writes what it holds: as little as a program in C can be. */
+/* Decompresses a bzip2 stream from stdin to stdout: a minimal C program that uses bunzip. */
 #include <stdio.h>
 
 #include "bunzip/bunzip_c.h"
