@@ -13,7 +13,8 @@ namespace {
 using bunzip::LibraryOutcome;
 using bunzip::Path;
 
-// The output must be that of libbz2, in pieces as `piece` says, with the same kind of end.
+// Checks a Reader that reads in pieces of `piece` bytes: its output and its kind of end must be the
+// same as from libbz2.
 void check_path(std::span<const std::byte> stream, const LibraryOutcome& wanted, Path path,
                 std::size_t piece, std::size_t limit) {
     static thread_local bunzip::Workspace workspace;
@@ -39,14 +40,14 @@ void check_path(std::span<const std::byte> stream, const LibraryOutcome& wanted,
     const bunzip::Status status = !is_longer ? reader.status() : bunzip::Status::too_large;
     const int end = static_cast<int>(status), wanted_end = static_cast<int>(wanted.status);
     if (end != wanted_end) fail(fmt::format("it ends as {} and not as {}", end, wanted_end));
-    // If a block ends inside a run, libbz2 returns more or less of it, depending on its output
-    // pieces.
+    // If a corrupt block ends inside a run, libbz2 returns more or fewer bytes of the run,
+    // depending on its output pieces.
     if (status != bunzip::Status::corrupt && made != wanted.bytes.size()) fail("its output ends");
     if (status == bunzip::Status::whole && reader.input_bytes() != wanted.input_bytes)
         fail("the stream took other bytes");
 }
 
-// The same in one call, if there is room for a part, or for exactly all.
+// Checks decompress() with room for a part of the output, or for exactly all of it.
 void check_limit(std::span<const std::byte> stream, const LibraryOutcome& unlimited, Path path,
                  std::size_t limit) {
     static thread_local bunzip::Workspace workspace;
@@ -66,7 +67,8 @@ void check_limit(std::span<const std::byte> stream, const LibraryOutcome& unlimi
                     wanted.bytes.begin())) {
         fail("others");
     }
-    // If the stream is damaged, one may find that before the limit and the other behind it.
+    // In a damaged stream, one of the two may find the damage before the limit, and the other after
+    // it.
     if (unlimited.status == LibraryOutcome::Status::corrupt) return;
     if (static_cast<int>(outcome.status) != static_cast<int>(wanted.status)) fail("another end");
     if (made.size() != wanted.bytes.size()) fail("others");

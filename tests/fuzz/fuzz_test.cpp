@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_bytes = 64'000;
 
-// Changes one byte: the simplest mutator.
+// Changes one byte. This is the simplest mutator.
 Bytes change_a_byte(Bytes bytes, std::size_t most, Random& random) {
     if (bytes.size() > most) bytes.resize(most);
     if (bytes.empty()) return Bytes{std::byte{1}};
@@ -19,7 +19,7 @@ Bytes change_a_byte(Bytes bytes, std::size_t most, Random& random) {
     return bytes;
 }
 
-// For properties without a mutator of their own.
+// Mutates bytes for properties that have no mutator of their own.
 Bytes mutate_bytes(const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
     return mutate(bytes, most);
 }
@@ -34,7 +34,7 @@ struct FuzzCase {
 };
 class Fuzz : public ::testing::TestWithParam<FuzzCase> {};
 
-// Checks each seed, and then mutates it more and more.
+// Checks each seed, and then more and more mutations of it.
 TEST_P(Fuzz, PropertyHolds) {
     const FuzzCase& fuzzed = GetParam();
     for (const Seed& seed : fuzzed.seeds()) {

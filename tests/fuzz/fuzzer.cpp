@@ -1,6 +1,6 @@
-// The functions that libFuzzer calls. CMakeLists.txt compiles this file once for each property:
-// STORMCELLAR_CHECK is its function in properties.h, and STORMCELLAR_MUTATE its mutator, if it has
-// one.
+// Defines the functions that libFuzzer calls. CMakeLists.txt compiles this file once for each
+// property. STORMCELLAR_CHECK is the function of the property in properties.h; STORMCELLAR_MUTATE
+// is its mutator, if it has one.
 #include <algorithm>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
-// Mutations of grid files. Everything before the codes has one checksum, and each brick its own, so
-// nearly every mutation needs new checksums to get past them.
+// Mutates grid files. Everything before the codes has one checksum, and each brick has another, so
+// nearly every mutation needs new checksums to pass the checks.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ using format::FileHeader;
 using grid::BrickEntry;
 using grid::BrickKind;
 
-// The sections by the header, cut to the size of the file.
+// The sections that the header gives, limited to the size of the file.
 struct Sections {
     FileHeader header;
     std::size_t table = 0, states = 0, codes = 0;
@@ -51,7 +51,7 @@ void set_entry(Bytes& file, const Sections& sections, std::size_t brick, const B
     std::memcpy(file.data() + sections.table + brick * sizeof(BrickEntry), &entry, sizeof entry);
 }
 
-// Returns the codes of a brick, packed or not; empty if they are not available.
+// Returns the unpacked codes of a brick; empty if the file does not hold them.
 Bytes codes_of(const Bytes& file, const Sections& sections, std::size_t brick) {
     std::size_t begin = sections.codes + brick * sections.brick_bytes;
     std::size_t size = sections.brick_bytes;
@@ -70,7 +70,7 @@ Bytes codes_of(const Bytes& file, const Sections& sections, std::size_t brick) {
     return cache::unpack_brick(codes, unpacked) ? unpacked : Bytes{};
 }
 
-// Sets count, extremes and checksum to those of the present codes of a brick.
+// Makes the count, extremes and checksum in `entry` right for the present codes of the brick.
 void seal_codes(const Bytes& file, const Sections& sections, std::size_t brick, BrickEntry& entry) {
     const Bytes codes = codes_of(file, sections, brick);
     if (codes.empty()) return;
@@ -120,7 +120,7 @@ void put(Bytes& file, std::size_t at, T number) {
     if (at + sizeof number <= file.size()) std::memcpy(file.data() + at, &number, sizeof number);
 }
 
-// Sets a field of the header to an extreme value or close to its own.
+// Sets a field of the header to an extreme value, or to a value close to the present one.
 void set_header_field(Bytes& file, Random& random) {
     constexpr std::array<std::uint64_t, 12> extremes = {
         0, 1, 2, 3, 4096, 16384, 1 << 20, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, ~0ULL >> 1, ~0ULL};
@@ -187,7 +187,7 @@ void change_record(Bytes& file, Random& random) {
     }
 }
 
-// Mutates the bytes of one section with the simple mutator; the section keeps its size.
+// Mutates the bytes of one section with `mutate`; the section keeps its size.
 void change_section(Bytes& file, std::size_t begin, std::size_t end, const MutateBytes& mutate) {
     if (begin >= end) return;
     const auto first = file.begin() + static_cast<std::ptrdiff_t>(begin);

@@ -1,4 +1,4 @@
-// The properties that hold for a grid file of any bytes.
+// Checks the properties that must hold for a grid file of any bytes.
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -19,7 +19,7 @@ namespace {
 
 using cache::GridFile;
 
-// A file in memory, with a path through which it can be opened.
+// A file in memory that can be opened through its path.
 class MemoryFile {
   public:
     MemoryFile() : number_(::memfd_create("grid", MFD_CLOEXEC)) {
@@ -45,7 +45,7 @@ class MemoryFile {
     int number_;
 };
 
-// Writes a file into memory, whatever its name.
+// Writes one file into memory, whatever its path.
 class OneMemoryFile final : public FileSystem {
   public:
     Result<int> create_exclusive(const std::filesystem::path& /*path*/) override {
@@ -80,7 +80,8 @@ void require_named(const Error& error, const std::filesystem::path& path) {
     require(is_promised(error.code), "code {} ({})", static_cast<int>(error.code), error.message);
 }
 
-// A stored brick has as many values as its entry says, between its smallest and its largest one.
+// Requires that a stored brick has as many values as its entry says, all of them between the
+// smallest and the largest code in the entry.
 void require_true_entries(const grid::BrickView& view) {
     for (std::size_t i = 0; i < view.bricks.size(); ++i) {
         const grid::BrickEntry& entry = view.bricks[i];
@@ -102,8 +103,8 @@ void require_same_cells(const grid::Grid& a, const grid::Grid& b) {
     require(a.values == b.values, "other values");
 }
 
-// A grid that verify() has accepted can be written. The result is the same grid, and writing it
-// once more gives the same bytes.
+// Requires that a grid accepted by verify() can be written and read back unchanged, and that
+// writing it once more gives the same bytes.
 void require_writable(const GridFile& file, const grid::Grid& cells) {
     OneMemoryFile first, second;
     const auto written =
@@ -144,7 +145,7 @@ void check_grid_file(std::span<const std::byte> bytes) {
     require(!cut && cut.error().code == ErrorCode::truncated, "a cut file is called whole");
     (void)grid::to_dense(file->view());
     on_disk.cut(static_cast<off_t>(bytes.size()));
-    // the file is all zeros
+    // the file was all zeros after its first page, so cutting it changed nothing
     if (on_disk.bytes() == std::vector<std::byte>(bytes.begin(), bytes.end())) return;
     require(!file->verify().has_value(), "a file of which all was lost is called good");
 }

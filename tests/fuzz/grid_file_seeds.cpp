@@ -1,4 +1,4 @@
-// Small grid files: every kind of brick, both sizes of codes, every projection.
+// Makes small grid files with every kind of brick, both sizes of codes and every projection.
 #include <filesystem>
 #include <stdexcept>
 
@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two bricks, one above the other: codes below; states, or only one state, above.
+// Returns a grid of two bricks, one above the other. The lower brick has codes; the upper one has
+// several states, or only one state.
 grid::Grid two_bricks(bool mixed_above) {
     using grid::CellStatus;
     grid::Grid made;

@@ -1,4 +1,4 @@
-// The properties that hold for a growing file and for chunks that arrive in any order.
+// Checks the properties that must hold for a growing file and for chunks that arrive in any order.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -19,7 +19,7 @@ namespace {
 using level2::Decoded;
 using level2::wire::Bytes;
 
-// Decisions about the order, from a seed.
+// Makes random decisions from a seed.
 class Choices {
   public:
     explicit Choices(std::uint64_t seed) : state_(seed) {}
@@ -63,8 +63,8 @@ void check_growing(std::span<const std::byte> file, Choices& choices) {
     require_same(growing.finish(), level2::decode(file, options), "a file that grew");
 }
 
-// The file cut at its records. Some chunks are cut short or come twice, once intact and once
-// damaged.
+// A chunk of a file that is cut at its records. Some chunks are lost, some come twice, and some
+// come again cut short.
 struct Chunk {
     int number = 0;
     Bytes bytes;

@@ -18,7 +18,7 @@ constexpr std::size_t message_header_bytes = 28;
 constexpr std::size_t frame_bytes = 2432;
 constexpr std::size_t most_unpacked_bytes = std::size_t{1} << 18;
 
-// A file or stream cut into parts: records or messages. Anything else is also a part.
+// The parts of a file or stream: records or messages, and other bytes between them.
 using Parts = std::vector<Bytes>;
 
 Bytes join(const Parts& parts) {
@@ -28,7 +28,7 @@ Bytes join(const Parts& parts) {
     return all;
 }
 
-// The header first, maybe empty; then the records.
+// Returns the header, which may be empty, and then the records.
 Parts cut_records(std::span<const std::byte> file) {
     const bool has_header = file.size() >= header_bytes && file[0] == std::byte{'A'};
     const auto header = file.first(has_header ? header_bytes : 0);
@@ -63,7 +63,8 @@ Parts cut_messages(std::span<const std::byte> stream) {
     return parts;
 }
 
-// Returns the contents of a record; empty if it is not a whole, small bzip2 stream.
+// Returns the unpacked contents of a record; empty if the record is damaged or unpacks to more than
+// most_unpacked_bytes.
 Bytes unpack(const Bytes& record) {
     if (record.size() <= 4) return {};
     Bytes out(most_unpacked_bytes);
@@ -97,10 +98,11 @@ void rearrange(Parts& parts, std::size_t first, Random& random) {
     }
 }
 
-// Sets a field of a message to an extreme value, most often a field that is a count.
+// Sets a halfword of a message to an extreme value, most often a halfword of a known field.
 void set_field(Bytes& message, Random& random) {
-    // Halfwords: size, channel and type, segments; for message 31: azimuth number, azimuth, status,
-    // number of blocks and pointers; for message 1: gates and pointers; for message 5: cuts.
+    // Offsets of size, channel and type, and segments; in message 31 of azimuth number, azimuth,
+    // status, number of blocks and pointers; in message 1 of gates and pointers; in message 5 of
+    // the number of cuts.
     constexpr std::array<std::size_t, 16> fields = {12, 14, 18, 24, 26, 28, 34, 36,
                                                     38, 40, 48, 54, 58, 62, 64, 68};
     constexpr std::array<unsigned, 14> numbers = {
@@ -230,7 +232,7 @@ Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
         case 3:
             return fitting(wrap(file, random), file, most, mutate);
         case 4:
-            // A second header, or the unpacked stream.
+            // Replace the record by a header, or by its unpacked contents.
             record = below(random, 2) == 0 ? wire::archive_header() : unpack(record);
             break;
         default:

@@ -1,9 +1,10 @@
-// tests/fuzz/mutators.h -- mutations of Level II bytes and grid files that get past the checks.
+// tests/fuzz/mutators.h -- mutates Level II bytes and grid files so that they pass the first
+// checks.
 //
-// Bytes changed at random almost never get past bzip2's checksums or the header of a message. These
-// functions mutate records and messages as units, and pack again what they unpacked.
+// Randomly changed bytes almost never pass the checksums of bzip2 or the checks of a message
+// header. These functions mutate records and messages as units, and pack again what they unpacked.
 //
-// Threads   Pure, apart from the `Random` and the `MutateBytes` they are given.
+// Threads   The functions change only the given `Random`, and call the given `MutateBytes`.
 #pragma once
 
 #include <cstddef>
@@ -20,20 +21,21 @@ using Random = std::minstd_rand;
 // Mutates any bytes; the result is at most `most` bytes long.
 using MutateBytes = std::function<Bytes(Bytes bytes, std::size_t most)>;
 
-// Returns a whole number below `limit`; 0 if there is none.
+// Returns a random number below `limit`; 0 if `limit` is 0.
 inline std::size_t below(Random& random, std::size_t limit) {
     return limit == 0 ? 0 : random() % limit;
 }
 
-// Results are at most `most` bytes long, which may be more than the input.
+// These functions return a mutation of their input, of at most `most` bytes. It may be longer than
+// the input.
 [[nodiscard]] Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
                                      const MutateBytes& mutate);
-// Mutates a file as above, which follows eight bytes that decide the order of arrival of its parts.
+// Mutates an input of check_live(): eight bytes that decide the order of arrival, and a file.
 [[nodiscard]] Bytes mutate_live(const Bytes& input, std::size_t most, Random& random,
                                 const MutateBytes& mutate);
 [[nodiscard]] Bytes mutate_messages(const Bytes& stream, std::size_t most, Random& random,
                                     const MutateBytes& mutate);
-// Mutates a grid file; most of the time its checksums are corrected.
+// Mutates a grid file, and usually corrects its checksums.
 [[nodiscard]] Bytes mutate_grid_file(const Bytes& file, std::size_t most, Random& random,
                                      const MutateBytes& mutate);
 

@@ -44,7 +44,7 @@ void require_same_problems(const DecodeReport& a, const DecodeReport& b) {
     }
 }
 
-// Compares everything that does not depend on the container.
+// Compares the parts of two reports that do not depend on the container.
 void require_same_messages(const DecodeReport& a, const DecodeReport& b) {
     require(a.message_bytes == b.message_bytes, "message bytes {} and {}", a.message_bytes,
             b.message_bytes);
@@ -89,7 +89,8 @@ void require_well_formed(const Sweep& sweep, const SweepMoment& moment) {
     require(std::isfinite(moment.scale) && std::isfinite(moment.offset), "scale or offset");
 }
 
-// Returns the number of radials that came twice, with which the note begins. One of two is kept.
+// Returns the number of repeated radials, which were dropped. The note in the report begins with
+// this number.
 std::uint64_t radials_that_came_twice(const DecodeReport& report) {
     for (const level2::Problem& problem : report.problems)
         if (problem.code == "radials_came_twice") return std::stoull(problem.message);
@@ -135,7 +136,8 @@ void require_well_formed_report(const Decoded& decoded) {
     }
 }
 
-// The writer may refuse what would not be read back unchanged; everything else must be.
+// The writer may refuse a volume with bad_argument. If it does not, the volume must be read back
+// unchanged.
 void require_round_trip(const Decoded& decoded) {
     const auto encoded = level2::encode(decoded.volume, {1, 120});
     if (!encoded) {
@@ -182,9 +184,9 @@ Bytes good_radials(unsigned elevation_number) {
     return all;
 }
 
-// Sweeps stand in the order of their times, so what follows may come before the good radials; these
-// stay in their order. The last one may be dropped, because what follows can look as if it had lost
-// bytes.
+// Requires that good radials before the stream are kept in their order. Sweeps are sorted by time,
+// so sweeps of the stream may come before them. The last good radial may be dropped, because the
+// stream can make it look as if it had lost bytes.
 void require_good_radials_kept(std::span<const std::byte> stream) {
     const Bytes good = good_radials(1);
     const Bytes header = level2::wire::archive_header();
@@ -206,7 +208,8 @@ void require_good_radials_kept(std::span<const std::byte> stream) {
 
 void check_container(std::span<const std::byte> file) {
     const auto one = decode(file, 1);
-    // Threads are only used for LDM records; without a report it is not known what was found.
+    // The decoder uses threads only for LDM records. If it fails, there is no report that names the
+    // container, so compare too.
     if (!one || one->report.ldm_records) require_same(one, decode(file, 2));
     if (!one) return;
     require_well_formed(*one);

@@ -1,8 +1,8 @@
-// tests/fuzz/properties.h -- the properties that hold for any bytes.
+// tests/fuzz/properties.h -- checks the properties that must hold for any bytes.
 //
-// Each function throws a PropertyError that names the property that does not hold. The sanitizers
-// find crashes, reads beyond the end and undefined behavior; the fuzzer finds hangs and excessive
-// memory.
+// Each function throws a PropertyError, which names the property, if a property does not hold. The
+// sanitizers find crashes, reads beyond the end and undefined behavior; the fuzzer finds hangs and
+// excessive memory.
 #pragma once
 
 #include <cstddef>
@@ -25,41 +25,43 @@ void require(bool holds, fmt::format_string<Args...> what, Args&&... args) {
     if (!holds) throw PropertyError(fmt::format(what, std::forward<Args>(args)...));
 }
 
-// the limit of decoded bytes
+// DecodeOptions::output_limit_bytes of these checks
 inline constexpr std::uint64_t output_limit_bytes = std::uint64_t{64} << 20;
 
-// A whole file in any container. One thread and two give the same volume, report or error. The
-// volume is well formed and can be described and split; if it can be written, it is read back
-// unchanged.
+// Checks a whole file in any container. One thread and two threads give the same volume, report or
+// error. The volume is well formed and can be described and split. If it can be written, it is read
+// back unchanged.
 void check_container(std::span<const std::byte> file);
 
-// A message stream without the 24-byte header. Packed into an LDM record it gives the same as
-// unpacked; good radials before it are kept unchanged.
+// Checks a message stream without the 24-byte header. It gives the same result packed into an LDM
+// record as unpacked. Good radials before it are kept unchanged.
 void check_messages(std::span<const std::byte> stream);
 
-// A file, after eight bytes that decide the order. As it grows it gives what it gives whole. Cut
-// into chunks, some of them lost, repeated or damaged, it gives the same in any order.
+// Checks a file that follows eight bytes; these decide how it arrives. While it grows it gives the
+// same result as the whole file. Its chunks, some of them lost, repeated or damaged, give the same
+// result in any order.
 void check_live(std::span<const std::byte> input);
 
-// A .Z file expands as slow_expand() expands it. The same bytes as plain text survive compression.
+// Checks that a .Z file expands to the same bytes as with slow_expand(), and that the bytes of the
+// file itself, compressed, expand to themselves.
 void check_compress(std::span<const std::byte> file);
 
-// A tar or zip archive: the output is within its limits, names are unique and lead nowhere else,
-// and reading ends.
+// Checks a tar or zip archive: the output is within the limits, names are unique and do not lead
+// out of the archive, and reading ends.
 void check_archive(std::span<const std::byte> file);
 
-// Bytes that determine a bzip2 stream (tests/bunzip/stream_maker.h): valid, odd or damaged. Each
-// path of this machine gives the bytes of libbz2 and the same kind of end.
+// Checks the bzip2 stream that `choices` determines (stream_from() in tests/bunzip/stream_maker.h).
+// Each path of this machine gives the same bytes as libbz2 and the same kind of end.
 void check_bunzip(std::span<const std::byte> choices);
 
-// A grid file. A refusal names the file and has one of the promised codes. If it opens, every cell
-// can be read. If verify() accepts it, its counts and extremes are true, and writing it gives the
-// same grid. A file that is cut under the map is an error.
+// Checks a grid file. An error names the file and has one of the promised codes. If the file opens,
+// every cell can be read. If verify() accepts it, its counts and extremes are true, and writing it
+// gives the same grid. If the file is cut while it is mapped, check_whole() fails.
 void check_grid_file(std::span<const std::byte> file);
 
-// A request of HTTP: its method and target, and a header in each further line. It is refused with a
-// reason, or its path and query are clean and lead nowhere else, and a file that it asks for
-// answers with exactly the bytes that the answer says.
+// Checks an HTTP request: a line with method and target, and lines with one header each. The
+// request is refused with a reason, or its path and query are clean and do not lead out of the
+// site. The answer with a file has exactly the bytes that its headers name.
 void check_request(std::span<const std::byte> input);
 
 }  // namespace stormcellar::fuzz

@@ -17,7 +17,7 @@ using web::Piece;
 using web::Pieces;
 using web::Request;
 
-// The first line has the method and the target, each further one a header.
+// Parses a request. The first line has the method and the target; each further line has a header.
 web::RawRequest request_in(std::string_view text) {
     web::RawRequest raw;
     raw.client = "127.0.0.1";
@@ -70,7 +70,7 @@ std::string header_of(const Answer& answer, std::string_view name) {
     return {};
 }
 
-// One part is the bytes that Content-Range names.
+// Requires that the body has exactly the bytes that Content-Range names.
 void check_part(const std::string& body, const std::string& content_range,
                 const std::string& whole) {
     unsigned long long first = 0, last = 0, size = 0;
@@ -82,7 +82,7 @@ void check_part(const std::string& body, const std::string& content_range,
             "the body is not what Content-Range says");
 }
 
-// Checks what a file of two pieces answers.
+// Checks the answer to a request for a file of two pieces.
 void check_entity(const Request& request) {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
     std::string whole;
@@ -107,7 +107,7 @@ void check_entity(const Request& request) {
     if (!range.empty()) return check_part(body, range, whole);
     require(header_of(answer, "Content-Type").starts_with("multipart/byteranges"),
             "a 206 of several parts does not say so");
-    // Sixteen parts, each with its own lines: no more than a client that asks again would get.
+    // An answer has at most sixteen parts, each with lines of its own.
     require(body.size() <= 16 * (whole.size() + 200) + 100, "the parts have {} bytes", body.size());
 }
 

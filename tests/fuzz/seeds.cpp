@@ -27,7 +27,7 @@ Bytes legacy_radials(unsigned count) {
     return all;
 }
 
-// A sweep from a minute before the others: it comes late.
+// Returns a sweep that comes late: it is a minute older than the others.
 Bytes older_sweep() {
     Bytes all;
     for (const unsigned number : {1U, 2U, 3U}) {
@@ -43,7 +43,8 @@ Bytes older_sweep() {
     return all;
 }
 
-// Small blocks are packed and unpacked quickly.
+// Returns a small volume in LDM records. Its bzip2 blocks are small, so that they are packed and
+// unpacked quickly.
 Bytes ldm_volume() {
     const Bytes metadata = wire::join({wire::frame(0), wire::vcp_frame(212, elevations_deg)});
     const Bytes radials = wire::radial_messages(2, 3, 20);

@@ -11,7 +11,7 @@ using level2::CompressEnd;
 
 constexpr std::size_t clear_code = 256;
 
-// Returns the next eight codes, or as many as there are.
+// Takes the next group off `rest`, and returns its codes: eight, or fewer at the end.
 std::deque<std::size_t> cut_group(std::span<const std::byte>& rest, std::size_t width) {
     const auto group = rest.first(std::min(rest.size(), width));
     rest = rest.subspan(group.size());
@@ -30,7 +30,7 @@ std::deque<std::size_t> cut_group(std::span<const std::byte>& rest, std::size_t 
     return codes;
 }
 
-// Returns the strings of the codes; that of the clear code is empty.
+// Returns the first strings of the table. The clear code has an empty string.
 std::vector<std::string> first_table(bool clears) {
     std::vector<std::string> table;
     for (int character = 0; character < 256; ++character)

@@ -1,7 +1,7 @@
-// tests/fuzz/slow_expand.h -- Unix compress in the simplest way, as the reference for
+// tests/fuzz/slow_expand.h -- expands Unix compress in the simplest way, as the reference for
 // CompressStream.
 //
-// Every entry of the table is a string of its own; codes are cut from groups of eight.
+// The table holds a whole string for each code; codes are cut from groups of eight.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct Expanded {
     level2::CompressEnd end = level2::CompressEnd::none;
 };
 
-// Stops, with end none, once there are more than `limit` bytes.
+// Expands a .Z file. Once the text has more than `limit` bytes, stops with CompressEnd::none.
 [[nodiscard]] Expanded slow_expand(std::span<const std::byte> file, std::size_t limit);
 
 }  // namespace stormcellar::fuzz
