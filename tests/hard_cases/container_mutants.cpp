@@ -27,7 +27,8 @@ void set_control(Bytes& record, std::int32_t control) {
     wire::overwrite_u32(record, 0, static_cast<std::uint32_t>(control));
 }
 
-// Returns how many bytes from the start of `plain` can be read from the damaged gzip file.
+// Returns the number of bytes, equal to the start of `plain`, that can be unpacked from the damaged
+// gzip file.
 std::size_t readable_start(const Bytes& damaged, const Bytes& plain) {
     z_stream z{};
     if (inflateInit2(&z, 15 + 16) != Z_OK) return 0;
@@ -90,7 +91,7 @@ Mutant ContainerMutants::with_record(std::string kind, std::size_t record,
     return mutant;
 }
 
-// The length is wrong, but the stream after it is intact. Nothing may be lost.
+// Changes a control word. The stream after it is intact, so nothing may be lost.
 Mutant ContainerMutants::control_word(Random& random) const {
     constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
@@ -132,7 +133,7 @@ Mutant ContainerMutants::rearranged(Random& random) const {
     return mutant;
 }
 
-// Cuts at or near the start of a record, or in its middle.
+// Cuts the file at or near the start of a record, or in the middle of the record.
 Mutant ContainerMutants::cut(Random& random) const {
     const std::size_t record = below(random, volume_.records.size());
     std::size_t start = volume_.header.size();
@@ -149,7 +150,7 @@ Mutant ContainerMutants::cut(Random& random) const {
     mutant.file.resize(place);
     std::vector<std::size_t> order = all_records();
     order.resize(place > start ? record + 1 : record);
-    // The record that is cut: this one, or the one before if the cut is one byte early.
+    // The last record is the one that is cut, unless the cut is exactly between two records.
     mutant.expected = expect(
         order, place == start || order.empty() ? std::nullopt : std::optional{order.size() - 1});
     return mutant;
@@ -202,7 +203,8 @@ Mutant ContainerMutants::overwritten(Random& random) const {
     return mutant;
 }
 
-// Records that are unpacked before the gzip damage are kept; bzip2 guards the others.
+// Damages the gzip layer around records. Records that are unpacked before the damage are kept;
+// checksums of bzip2 guard the others.
 Mutant ContainerMutants::gzip(Random& random) const {
     Mutant mutant;
     mutant.kind = "gzip around records";
@@ -249,7 +251,8 @@ Mutant gzip_mutant(const UnpackedVolume& volume, std::uint64_t number) {
         if (message.radial && volume.header.size() + message.end() <= readable)
             mutant.expected.push_back({*message.radial, Fate::kept});
     }
-    // Anything may follow, because the checksum is at the end of the file.
+    // After the damage anything may follow, because gzip checks its contents only at the end of the
+    // file.
     mutant.anything_after = true;
     return mutant;
 }

@@ -8,8 +8,8 @@
 
 namespace stormcellar::level2 {
 
-// Makes mutants number 0, 1, 2 ... of a volume in LDM records: the kinds alternate, the number
-// decides the rest. The same number gives the same mutant on every machine.
+// Makes numbered mutants of a volume in LDM records. The kinds of damage alternate with the number,
+// and the number decides the rest, so it gives the same mutant on every machine.
 class ContainerMutants {
   public:
     explicit ContainerMutants(const UnpackedVolume& volume) : volume_(volume) {}
@@ -25,7 +25,8 @@ class ContainerMutants {
     [[nodiscard]] Mutant overwritten(Random& random) const;
     [[nodiscard]] Mutant gzip(Random& random) const;
 
-    // Returns what to expect of these records in this order; the radials of `soft` may fall.
+    // Returns the radials to expect from these records in this order; those of record `soft` may be
+    // lost.
     [[nodiscard]] std::vector<ExpectedRadial> expect(const std::vector<std::size_t>& order,
                                                      std::optional<std::size_t> soft) const;
     [[nodiscard]] std::vector<std::size_t> all_records() const;
@@ -35,7 +36,7 @@ class ContainerMutants {
     const UnpackedVolume& volume_;
 };
 
-// Flips bits in, or cuts bytes off, a gzip file that holds messages without records.
+// Flips a bit of a gzip file that holds messages without records, or cuts the file.
 [[nodiscard]] Mutant gzip_mutant(const UnpackedVolume& volume, std::uint64_t number);
 
 }  // namespace stormcellar::level2

@@ -1,4 +1,5 @@
-// Tests that the traps of scripts/test --traps fire, in workers too, and can be masked.
+// Tests that the floating-point traps of scripts/test --traps fire, also in workers, and can be
+// masked.
 #include "tests/testing/fp_traps.h"
 
 #include <atomic>
@@ -15,7 +16,7 @@
 namespace stormcellar::testing {
 namespace {
 
-// not known to the compiler
+// volatile, so that the compiler does not know the values
 volatile double zero = 0;
 volatile double huge = 1e308;
 volatile double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -61,7 +62,8 @@ TEST(FpTrapsDeathTest, OrdinaryArithmeticDoesNot) {
                 well, "");
 }
 
-// One piece for each thread. Each waits for the others, so that the caller cannot do them all.
+// There is one piece of work for each thread. Each piece waits for the others, so that the caller
+// cannot do all of them.
 TEST(FpTrapsDeathTest, WorkersInheritThem) {
     const auto all_on = [] {
         std::atomic<int> begun{0};

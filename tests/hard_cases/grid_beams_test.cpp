@@ -1,5 +1,5 @@
-// Tests the most difficult places of beams. Each test is named by its hazard and compares with a
-// closed form or with the oracle.
+// Tests gridding where beams are most difficult. Each test has the name of its hazard, and compares
+// with a closed form or with the oracle.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ double above_antenna_exactly_m(double range_m, double elevation_deg, double ante
     return static_cast<double>(sqrtq(r * r + a * a + 2 * r * a * sinq(e)) - a);
 }
 
-// The textbook formula, in the floats that one would use for it.
+// Computes the height by the textbook formula, in floats of type Float.
 template <class Float>
 double textbook_m(double range_m, double elevation_deg, double antenna_m) {
     const auto r = static_cast<Float>(range_m);
@@ -74,7 +74,8 @@ TEST(ConeOfSilence, IsNotSeenByAnyMethod) {
                 const double edge_m = beam.over(arc_m, 19.5 + 0.475).height_m;
                 for (int level = 0; level < spec.nz(); ++level) {
                     const double height_m = spec.levels_m[static_cast<std::size_t>(level)];
-                    // Levels reach half way to their neighbors, outlines 707 m.
+                    // In cells with areas, a level reaches halfway to its neighbors, and an outline
+                    // 707 m from its center.
                     const double margin_m = method.cell == CellExtent::area ? 2600 : 2;
                     const CellStatus status = grid.status[spec.index(ix, iy, level)];
                     if (height_m > edge_m + margin_m) {
@@ -133,7 +134,7 @@ TEST(RangeZero, GatesAtAndBehindTheAntennaAreDroppedByEveryMethod) {
 
 // ---- Models of the beam
 
-// A duct holds the lower beams: they come down to earth and pass over nothing beyond.
+// A duct bends the lower beams down to the ground, so they see nothing beyond that place.
 TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     const std::vector<RefractivityLevel> levels = {{0, 380}, {100, 330}, {1000, 290}, {10000, 90}};
     GridCase given = about(plains, {patchy_plan(-0.3, 1), patchy_plan(0, 2), patchy_plan(0.5, 3),
@@ -148,8 +149,9 @@ TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     }
 }
 
-// Some beams have a lower edge that comes down to earth, others an upper one, and edges cross the
-// center of their beam. Each sweep has one strength, so that values show weights.
+// In the duct, the lower edge of some beams comes down to the ground, and the upper edge of others,
+// and edges cross the centers of their beams. Each sweep has one strength of echo, so that the
+// values show the weights of the sweeps.
 TEST(BeamsInADuct, ABeamThatLostAnEdgeIsAsWideAsTheHalfThatIsThere) {
     std::vector<SweepPlan> plans = plans_at({-0.3, 0.2, 0.5, 1.5, 2.4}, patchy_plan());
     for (SweepPlan& plan : plans)

@@ -13,7 +13,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The accuracies are those of tests/grid/gridder_oracle_test.cpp.
+// tests/grid/gridder_oracle_test.cpp has the same accuracies.
 constexpr double height_accuracy_m = 1;
 constexpr double weight_accuracy = 2e-3;
 constexpr double value_accuracy = 0.05;
@@ -155,7 +155,7 @@ void expect_agrees_with_oracle(const GridCase& given, const Method& method, cons
     const OracleSetting setting{given.moment, given.beam_width_deg, false, method, given.profile};
     const bool area = method.cell == CellExtent::area;
     const auto count = static_cast<int>(given.spec.column_count());
-    // Odd, so that it visits rows and columns alike.
+    // An odd step visits all rows and columns of the grid evenly.
     const int step = std::max(1, count / (area ? area_columns_compared : columns_compared)) | 1;
     Tally tally;
     for (int column = step / 2; column < count; column += step) {

@@ -1,5 +1,6 @@
-// Tests the most difficult places of columns and cells, and azimuths. Each test is named by its
-// hazard and compares with a closed form or with the oracle.
+// Tests gridding with the most difficult places of columns and cells, and the most difficult
+// azimuths. Each test has the name of its hazard, and compares with a closed form or with the
+// oracle.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,8 +25,8 @@ struct Stratum {
 
 class EveryStratum : public ::testing::TestWithParam<Stratum> {};
 
-// A grid of one cell at the center of a gate, placed there in closed form and by the geodesic, must
-// hold that gate. Codes of 16 bits distinguish gates and radials.
+// A grid of one cell at the center of a gate must hold that gate. A closed form and the geodesic
+// give the place of the cell; codes of 16 bits distinguish gates and radials.
 TEST_P(EveryStratum, ACellAtAGatesCentreHoldsTheGate) {
     const auto& [site, elevation_deg] = GetParam();
     SweepPlan plan;
@@ -44,7 +45,7 @@ TEST_P(EveryStratum, ACellAtAGatesCentreHoldsTheGate) {
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     int compared = 0;
     for (const int gate : {1, 2, 4, 40, 400, 919, 1880}) {
-        // A radial has its elevation as a float.
+        // A Radial holds its elevation as a float.
         const auto measured_deg = static_cast<double>(static_cast<float>(elevation_deg));
         const EarthPoint point = beam.forward({250.0 * gate - 1, measured_deg});
         if (point.height_m < -900 || point.height_m > 59e3) continue;
@@ -81,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(SitesAndElevations, EveryStratum, ::testing::ValuesIn(s
 
 // ---- Azimuths
 
-// The same echo, with radials that begin anywhere and turn in either direction.
+// The sweeps have the same echo, but begin at different azimuths.
 TEST(AzimuthWrap, WhereTheFirstRadialStandsDoesNotMatter) {
     std::map<std::string, Grid> first;
     for (const double from_deg : {0.5, 200.5, 359.5}) {
@@ -107,7 +108,7 @@ TEST(AzimuthWrap, WhereTheFirstRadialStandsDoesNotMatter) {
     }
 }
 
-// Radials from `from_deg`, clockwise, over 360 - `gap_deg` degrees.
+// Returns sweeps whose radials go clockwise from `from_deg` over 360 - `gap_deg` degrees.
 std::vector<SweepPlan> with_gap(double from_deg, double gap_deg) {
     std::vector<SweepPlan> plans = {patchy_plan(0.5, 1), patchy_plan(1.5, 2)};
     for (SweepPlan& plan : plans) {
@@ -122,7 +123,7 @@ double azimuth_of(const GridSpec& spec, int ix, int iy) {
     return SiteFrame::from_plane(spec.x_m(ix), spec.y_m(iy)).azimuth_deg;
 }
 
-// Between 60 and 140 km, where the lowest two levels between both beams are certainly seen.
+// The test uses ranges of 60 to 140 km, where the beams surely see the level of 2 km.
 TEST(AzimuthGap, WhatLiesInsideIsNotSeenWhateverTheMethodAcrossNorthToo) {
     struct Gap {
         double from_deg, width_deg;
@@ -139,7 +140,7 @@ TEST(AzimuthGap, WhatLiesInsideIsNotSeenWhateverTheMethodAcrossNorthToo) {
                     if (arc_m < 60e3 || arc_m > 140e3) continue;
                     const double into_deg =
                         std::fmod(azimuth_of(spec, ix, iy) - gap.from_deg + 360, 360);
-                    // The outlines of areas extend up to 3.4 degrees either way.
+                    // The outline of an area extends up to 3.4 degrees to both sides.
                     const double edge_deg = method.cell == CellExtent::area ? 3.6 : 0.6;
                     const CellStatus status = grid.status[spec.index(ix, iy, 3)];  // 2 km
                     if (into_deg > edge_deg && into_deg < gap.width_deg - 1 - edge_deg) {
@@ -259,7 +260,7 @@ TEST(TinyAndHugeCells, OneMetreAndAHundredKilometres) {
     tiny.spec.center_latitude_deg = there.latitude_deg;
     tiny.spec.center_longitude_deg = there.longitude_deg;
     tiny.spec.levels_m = {1500, 1501, 1502};
-    // All of them are within 0.25 m of another gate, or none is.
+    // Either all cells are doubtful, within 0.25 m of another gate, or none is, so allow all.
     expect_sound_by_every_method(tiny, {1, 1});
     GridCase huge = about(plains, plans, 3, 100e3);
     huge.spec.center_latitude_deg += 0.13;  // away from the borders of radials
@@ -283,7 +284,7 @@ TEST(LevelsBelowAndAboveEverything, AreNotSeen) {
     }
 }
 
-// A level exactly as high as a beam, where brackets begin and end.
+// A level is exactly as high as a beam, where one bracket ends and the next begins.
 TEST(LevelsAtABeamsHeight, HoldThatBeamAndDivideByNothing) {
     std::vector<SweepPlan> plans = plans_at({0.5, 1.5, 2.5}, patchy_plan());
     for (SweepPlan& plan : plans) {
@@ -294,13 +295,14 @@ TEST(LevelsAtABeamsHeight, HoldThatBeamAndDivideByNothing) {
     GridCase given;
     given.site = plains;
     given.volume = make_volume(plans);
-    // One column, 100 km east of the site, where the tables have a node.
+    // The grid has one column, 100 km east of the site, where the gridder's tables have a node.
     const GeoPoint there =
         SiteFrame(plains.latitude_deg, plains.longitude_deg).to_geo({90.5, 100e3});
     given.spec = plane_about({"", there.latitude_deg, there.longitude_deg, 0}, 1, 1000, {});
     for (const SweepPlan& plan : plans) {
         const double exact_m = beam.over(100e3, plan.elevation_deg).height_m;
-        // The floats next to it: the gridder has one of them.
+        // The levels are the float nearest to this height and its neighbors; the gridder uses one
+        // of them.
         const auto height_m = static_cast<float>(exact_m);
         given.spec.levels_m = {static_cast<double>(std::nextafter(height_m, 0.0F)),
                                static_cast<double>(height_m),

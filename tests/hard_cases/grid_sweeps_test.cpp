@@ -1,5 +1,5 @@
-// Volumes with the most difficult sweeps and radials, gridded by every method. Each test is named
-// by its hazard.
+// Tests gridding by every method of volumes with the most difficult sweeps and radials. Each test
+// has the name of its hazard.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,8 +21,8 @@ std::ptrdiff_t count_of(const Grid& grid, CellStatus status) {
     return std::count(grid.status.begin(), grid.status.end(), status);
 }
 
-// Two cuts of the VCP measured at exactly the same elevation: every bracket between them has height
-// 0.
+// Two cuts of the VCP were measured at exactly the same elevation, so every bracket between them
+// has height 0.
 TEST(EqualElevations, NoBracketDividesByZero) {
     GridCase given = about({patchy_plan(0.5, 1), patchy_plan(0.5, 2), patchy_plan(1.5, 3)});
     given.volume.sweeps[0].vcp_elevation_deg = 0.3F;
@@ -31,7 +31,7 @@ TEST(EqualElevations, NoBracketDividesByZero) {
     for (const Method& method : all_methods()) {
         const Grid grid = grid_of(given, method);
         EXPECT_GT(count_of(grid, CellStatus::value), 500) << label(method);
-        // Both hold the same, so the grid is the same with only one of them.
+        // Both sweeps hold the same codes, so the grid is the same without one of them.
         if (method.interpolation == Interpolation::beam_weighted) continue;
         GridCase without = given;
         without.volume.sweeps.erase(without.volume.sweeps.begin());
@@ -41,7 +41,7 @@ TEST(EqualElevations, NoBracketDividesByZero) {
     }
 }
 
-// A sector of each sweep was measured above the next one.
+// Returns a volume in which two sectors of sweeps were measured above the next sweep.
 GridCase with_reversed_radials() {
     GridCase given =
         about({patchy_plan(0.5, 1), patchy_plan(0.9, 2), patchy_plan(1.3, 3), patchy_plan(2.4, 4)});
@@ -60,7 +60,8 @@ TEST(ReversedElevations, OfSomeRadialsAreSortedByEveryMethod) {
     expect_sound_by_every_method(with_reversed_radials());
 }
 
-// Beams above the highest level can be skipped, unless a higher sweep was measured lower.
+// The gridder skips beams above the highest level, but must not if a higher sweep has lower
+// radials.
 TEST(ReversedElevations, AboutTheHighestLevel) {
     GridCase given = with_reversed_radials();
     for (const double top_m : {800.0, 1400.0, 2100.0}) {
@@ -69,8 +70,8 @@ TEST(ReversedElevations, AboutTheHighestLevel) {
     }
 }
 
-// A quiet sweep between quiet ones is left out of a tile's plan, but not if radials put another
-// sweep between them.
+// The plan of a tile leaves out a quiet sweep between two quiet sweeps, but must not if radials of
+// another sweep are between them.
 TEST(ReversedElevations, AmongSweepsOfNoEcho) {
     GridCase given = with_reversed_radials();
     for (const std::size_t quiet : {0U, 1U, 2U}) {
@@ -80,7 +81,8 @@ TEST(ReversedElevations, AmongSweepsOfNoEcho) {
     expect_sound_by_every_method(given);
 }
 
-// Little echo, quiet over whole tiles and sweeps, and shorter sweeps above.
+// Returns a volume with little echo, in which whole tiles and sweeps are quiet, and higher sweeps
+// are shorter.
 GridCase mostly_quiet(const std::vector<double>& elevations_deg) {
     std::vector<SweepPlan> plans = plans_at(elevations_deg, patchy_plan());
     for (SweepPlan& plan : plans) {
@@ -96,7 +98,7 @@ GridCase mostly_quiet(const std::vector<double>& elevations_deg) {
     return given;
 }
 
-// A sweep that is quiet all over a tile is not sampled there. The same codes in 16 bits, which
+// The gridder does not sample a sweep in tiles where it is quiet. The same codes in 16 bits, which
 // plans do not examine, must give the same bits.
 void expect_plans_change_nothing(const GridCase& given, const std::vector<Method>& methods) {
     GridCase busy = given;
@@ -121,7 +123,8 @@ TEST(TilePlan, LeavesOutOnlyWhatChangesNothing) {
                                 all_methods());
 }
 
-// If beams cross, and one is as wide as several others, every sweep is close enough to count.
+// In the duct, beams cross and some are as wide as several others, so every sweep may count in a
+// cell.
 TEST(TilePlan, LeavesOutNothingThatCountsInADuct) {
     GridCase given = mostly_quiet({-0.3, 0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8});
     given.site.altitude_m = 20;

@@ -1,5 +1,5 @@
-// Values and states that do not mix well, gridded by every method. Each test is named by its hazard
-// and compares with a closed form.
+// Tests gridding by every method of values and states that do not mix well. Each test has the name
+// of its hazard, and compares with a closed form.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +17,7 @@ namespace {
 // ---- Velocity across the Nyquist fold
 
 constexpr double nyquist_mps = 26;
-// Codes of 16 bits, in hundredths of a meter a second.
+// Returns a code of 16 bits, in hundredths of a meter a second.
 std::uint16_t velocity_code(double mps) {
     return static_cast<std::uint16_t>(std::lround(mps * 100) + 10000);
 }
@@ -26,8 +26,9 @@ double folded(double mps, double half_mps) {
     return mps - 2 * half_mps * std::floor((mps + half_mps) / (2 * half_mps));
 }
 
-// A wind of 26 m/s toward the northeast, which folds where it blows along the beam, and changes
-// with height so that neighbors in all directions straddle the fold.
+// Returns the radial velocity of a wind of about 26 m/s toward the northeast. It folds where it
+// blows along the beam, and grows with range and elevation, so that neighbors in all directions
+// straddle the fold.
 double radial_wind_mps(double azimuth_deg, double range_m, double elevation_deg) {
     const double along = std::cos((azimuth_deg - 45) * M_PI / 180);
     return (26 + range_m / 1e5 + elevation_deg) * along;
@@ -67,7 +68,8 @@ double nearest_turn(double a, double b, double half) {
     return std::abs(std::remainder(a - b, 2 * half));
 }
 
-// Visits cells beyond 20 km from the site; closer in, cells are wide in azimuth.
+// Visits the values beyond 20 km from the site, because cells closer to the site are wide in
+// azimuth.
 template <class Visit>
 void for_each_value(const Grid& grid, Visit visit) {
     for (int iy = 0; iy < grid.spec.ny; ++iy) {
@@ -83,8 +85,8 @@ void for_each_value(const Grid& grid, Visit visit) {
     }
 }
 
-// The wind differs by less than 4 m/s between the gates of a cell, so any result is within 4 m/s of
-// the wind at its place on the circle. A mean across the fold would be off by up to 26 m/s.
+// The wind differs little between the gates of a cell, so any result must be within 5 m/s of the
+// wind, measured on the circle of velocities. A mean across the fold would be off by up to 26 m/s.
 TEST(NyquistFold, NoValueLiesInItsMiddleByAnyMethod) {
     const GridCase given = aliased_volume({nyquist_mps, nyquist_mps, nyquist_mps});
     for (const Method& method : all_methods(given.moment)) {
@@ -101,9 +103,9 @@ TEST(NyquistFold, NoValueLiesInItsMiddleByAnyMethod) {
     }
 }
 
-// If sweeps fold at different velocities, or do not give theirs (TDWR), no mean of two circles is
-// made. Every value is then a mean over one sweep's gates, within 4 m/s of the wind on one of the
-// circles.
+// If sweeps fold at different velocities, or do not give their Nyquist velocity (TDWR), the gridder
+// makes no mean over two circles. Every value is then a mean over the gates of one sweep, and
+// within 5 m/s of the wind on one of the circles.
 TEST(NyquistFold, DifferentOrUnknownNyquistVelocitiesAreNeverAveraged) {
     for (const std::vector<double>& nyquists_mps :
          {std::vector<double>{22, 26, 31}, std::vector<double>{26, 0, 26},
@@ -137,7 +139,7 @@ TEST(NyquistFold, ANyquistVelocityThatIsNoNumberIsNotKnown) {
 
 // ---- Reflectivity over 100 dB
 
-// A column 100 km to the east, in the middle of a gate of each of two sweeps.
+// A grid of one column 100 km to the east, which is in the middle of a gate of each of two sweeps.
 struct Pair {
     GridCase given;
     double low_m = 0, high_m = 0;
@@ -170,7 +172,8 @@ Code all_of(std::uint16_t code) {
     return [code](int, int) { return code; };
 }
 
-// The upper sweep's share by each method, at a height `share` of the way up.
+// Returns the weight of the upper sweep by the method, at a height that is the fraction `share` of
+// the way up.
 double share_of_high(const Method& method, double share) {
     switch (method.interpolation) {
         case Interpolation::nearest:
@@ -181,7 +184,8 @@ double share_of_high(const Method& method, double share) {
         case Interpolation::beam_weighted:
             break;
     }
-    // The antenna's pattern over a distance of 1 degree, which is wider than the beam.
+    // The sweeps are 1 degree apart, which is more than the width of the beam; `pattern` is the
+    // antenna's pattern over this distance.
     const auto pattern = [](double off) { return (std::pow(2, -4 * off * off) - 0.0625) / 0.9375; };
     return pattern(1 - share) / (pattern(share) + pattern(1 - share));
 }
@@ -209,7 +213,8 @@ TEST(ReflectivityOver100dB, MeansAreThoseOfLongDoubles) {
     }
 }
 
-// Many gates in one cell: one of 70 dBZ among a hundred of -30 dBZ gives 50 dBZ in Z, -29 in dB.
+// In a cell of about a hundred gates of -30 dBZ, one gate of 70 dBZ gives a mean of 50 dBZ in Z,
+// and of -29 dBZ in dB.
 TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
     const Code one_of_100 = [](int radial, int gate) {
         return ref_code(radial == 90 && gate == 100 ? 70 : -30);
@@ -222,7 +227,8 @@ TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
         const Grid grid = grid_of(pair.given, method, -31, 71);
         ASSERT_EQ(grid.status[0], CellStatus::value);
         const auto value = static_cast<double>(grid.values[0]);
-        // 13 gates along the beam; 13 km across have 7 or 8 radials of 1.75 km.
+        // The cell has 12 to 14 gates along the beam, and 7 or 8 radials, which are 1.75 km apart,
+        // across.
         const double least =
             method.averaging == Averaging::in_z ? 70 - 10 * std::log10(8 * 14) : -30;
         const double most =
@@ -232,8 +238,9 @@ TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
     }
 }
 
-// A damaged scale makes every code infinite or impossible. Such a sweep is ignored, and the cells
-// have the values of the other one.
+// A damaged scale makes every value of a sweep infinite or impossible. The gridder ignores the
+// sweep, so the cell at its height is not seen, and the cell at the height of the other sweep has
+// its value.
 TEST(ValuesBeyondAllReason, AreNoValues) {
     for (const float scale : {1e-38F, -1e-38F, 1e-3F, std::numeric_limits<float>::denorm_min()}) {
         Pair pair = pair_of(all_of(ref_code(40)), all_of(ref_code(10)));
@@ -249,7 +256,7 @@ TEST(ValuesBeyondAllReason, AreNoValues) {
     }
 }
 
-// Codes of 16 bits can express 30,000 dBZ, which as Z is more than a float can hold.
+// Codes of 16 bits can express 30,000 dBZ, whose Z is more than a float can hold.
 TEST(ValuesBeyondAllReason, AreNeverInfiniteInZ) {
     Pair pair = pair_of(all_of(ref_code(40)), all_of(ref_code(10)));
     for (level2::Sweep& sweep : pair.given.volume.sweeps) {
@@ -274,7 +281,8 @@ struct Mixed {
 constexpr std::uint16_t unseen_code = 2;
 const std::uint16_t echo = ref_code(30);
 
-// Every pair of states on either side of one half, by the rule of docs/geometry.md.
+// Returns pairs of states, with shares below and above one half, and the result by the rule in
+// docs/geometry.md.
 std::vector<Mixed> mixtures() {
     const auto value = CellStatus::value;
     const auto quiet = CellStatus::no_echo;
@@ -302,7 +310,8 @@ std::vector<Mixed> mixtures() {
     };
 }
 
-// Gates are not seen beyond the last one of a radial, which is cut off 10 km before the column.
+// Cuts the radials off 10 km before the column, because a place beyond the last gate of a radial is
+// not seen.
 void hide(level2::Sweep& sweep) {
     for (std::uint16_t& count : sweep.moments[0].gate_counts)
         count = 90;
@@ -321,8 +330,8 @@ TEST(StatusRule, EveryPairOfStatesUpTheColumnByEveryMethod) {
     }
 }
 
-// The same within one sweep, for the gates of a cell, or for the two about a point in azimuth. The
-// shares come from a pattern of 100 radials of one state, then 100 of the other.
+// The states are side by side within each sweep, so the rule mixes the two radials about a point,
+// or all gates of an area. Radials up to number 90 have one state, and all others the other state.
 TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
     for (const Mixed& mixed : mixtures()) {
         if (mixed.low == unseen_code || mixed.high == unseen_code) continue;
@@ -340,11 +349,12 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
         pair.given.spec.center_longitude_deg = there.longitude_deg;
         pair.given.spec.levels_m = {(pair.low_m + pair.high_m) / 2};
         for (const Method& method : all_methods()) {
-            if (method.cell == CellExtent::area) continue;  // contains whole radials: see below
+            if (method.cell == CellExtent::area) continue;  // areas are tested below
             const Grid grid = grid_of(pair.given, method);
             EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
         }
-        // Some 29 km: 16 or 17 radials, about 2 of which are on the wrong side of the center.
+        // A cell of 29 km has 16 or 17 radials. Its center is 2 radials off the border of the
+        // states.
         pair.given.spec.spacing_m = 29000;
         const double shift_deg = mixed.share < 0.5 ? -2 : 2;
         const GeoPoint wide =
@@ -359,7 +369,7 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
     }
 }
 
-// No echo enters a value as the detection limit of its gate, by its weight.
+// A gate of no echo enters a value with its weight and its detection limit.
 TEST(StatusRule, NoEchoEntersAtItsDetectionLimitByEveryMethod) {
     Pair pair = pair_of(all_of(echo), all_of(below_threshold));
     const double share = 0.35;

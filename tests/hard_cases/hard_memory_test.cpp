@@ -1,6 +1,6 @@
-// Small files that could take much memory: whatever they contain, decoding stays below 1 GiB.
+// Tests that decoding stays below 1 GiB of memory for small files that were made to take much more.
 //
-// Each is decoded in a process of its own, whose peak memory the kernel records (proc(5)).
+// Each file is decoded in a new process, whose peak memory the kernel records (proc(5)).
 #include <array>
 #include <charconv>
 #include <chrono>
@@ -33,7 +33,7 @@ long high_water_mib() {
     return -1;
 }
 
-// Returns the peak of the work, or -1 if it crashed.
+// Returns the peak memory of a process that does the work, or -1 if it crashed.
 long peak_mib(const std::function<void()>& work) {
     std::array<int, 2> ends{};
     if (::pipe(ends.data()) != 0) return -1;
@@ -57,7 +57,8 @@ long peak_mib(const std::function<void()>& work) {
     return peak;
 }
 
-// A sanitizer's own memory does not count: it includes freed memory that the sanitizer keeps.
+// Under a sanitizer the peak means nothing, because it includes freed memory that the sanitizer
+// keeps.
 #if defined(STORMCELLAR_SANITIZED)
 constexpr bool peak_is_ours = false;
 #else
@@ -75,7 +76,7 @@ void expect_small(const std::function<void()>& work) {
     EXPECT_LT(peak, most_mib);
 }
 
-// A radial with one moment, unless `gates` is 0.
+// Returns a radial with one moment of `gates` gates, or without moments if `gates` is 0.
 Bytes radial(unsigned cut, unsigned status, unsigned gates, float scale = 1) {
     wire::Writer block;
     if (gates != 0) {
@@ -94,8 +95,8 @@ void append(Bytes& to, const Bytes& more) {
     to.insert(to.end(), more.begin(), more.end());
 }
 
-// A few long radials of several kinds around many empty ones, each of which becomes a row of every
-// kind.
+// Returns many empty radials between a few long radials of several kinds. Each radial takes a row
+// of every kind.
 Bytes amplifier(unsigned cut, unsigned kinds, unsigned short_radials, bool begins = true) {
     Bytes messages;
     for (const bool last : {false, true}) {
@@ -171,7 +172,7 @@ TEST(Memory, PlainMessagesThatGrowWithoutEnd) {
     expect_small([&] { (void)decode(file); });
 }
 
-// 408 kB that took 1504 MiB, because growing arrays were copied and only their contents were
+// A file of 408 kB took 1504 MiB, because growing arrays were copied and only their contents were
 // counted.
 TEST(Memory, RadialsOfThirtyThousandGates) {
     const Bytes file = file_of(wire::ldm_record(repeated(radial(1, 1, 30'000), 20)), 520);
@@ -183,7 +184,7 @@ TEST(Memory, SweepsOfOneRadial) {
     expect_small([&] { (void)decode(file); });
 }
 
-// Seven moments of one gate: their descriptions take more memory than their gates.
+// Moments of one gate take more memory for their descriptions than for their gates.
 TEST(Memory, SweepsOfOneRadialOfOneGate) {
     const Bytes record =
         wire::ldm_record(repeated(wire::message_31({.status = 0, .gates = 1}), 20'000));
@@ -198,7 +199,7 @@ TEST(Memory, SweepsOfOneRadialOfOneGate) {
     });
 }
 
-// A radial that is compressed inside its message: 138 bytes that expand to 64 kB.
+// A radial that is compressed inside its message expands from some 200 bytes to 60 kB.
 TEST(Memory, RadialsThatExpandAreCounted) {
     Bytes large = radial(1, 1, 1);
     large.resize(60'000);
@@ -226,7 +227,7 @@ TEST(Memory, BytesThatAreNoRecordsAreNotHeldWithoutEnd) {
     EXPECT_EQ(growing.finish().error().code, ErrorCode::unsupported);
 }
 
-// A lower cut begins another volume, and each volume has its pattern.
+// Each lower cut begins another volume, and each volume has a copy of the pattern.
 TEST(Memory, VolumesOfOneRadial) {
     Bytes messages;
     for (unsigned i = 0; i < 1000; ++i) {
@@ -268,7 +269,7 @@ TEST(Memory, CompressedInCompressed) {
 }
 
 TEST(Memory, RecordsOfNextToNothing) {
-    // A control word, and the first bytes of a stream.
+    // A record has only a control word and the first bytes of a stream.
     const Bytes record =
         wire::Writer{}.u32(10).text("BZh9").u16(0x3141).u16(0x5926).u16(0x5359).bytes;
     const Bytes file = file_of(record, 2'000'000);
@@ -296,7 +297,7 @@ TEST(Memory, ChunksOfLargeArrays) {
     });
 }
 
-// Records of one radial with two moments of one gate, each a separate fragment.
+// The chunk has records of one radial with two moments of one gate; each record becomes a fragment.
 TEST(Memory, ChunksOfRecordsOfOneRadialHoldWhatTheyMay) {
     const Bytes chunk = file_of(wire::ldm_record(wire::message_31({.gates = 1})), 1000);
     const auto fill = [&](std::uint64_t limit_bytes) {
@@ -331,7 +332,8 @@ TEST(Memory, SweepsThatAreHandedOutAreFew) {
     });
 }
 
-// Each record ends the sweep again. No memory is measured: copying it each time took 32 s.
+// Each record ends the same sweep again. The test measures no memory; it took 32 s when the sweep
+// was copied each time.
 TEST(Memory, ASweepThatEndsWithEachRecord) {
     GrowingVolume growing;
     ASSERT_TRUE(growing.append(

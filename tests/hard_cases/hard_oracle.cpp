@@ -20,7 +20,8 @@ bool begins_sweep(const Radial& radial) {
            status == RadialStatus::start_of_last_elevation;
 }
 
-// Sweeps begin only where the radials say so.
+// Returns a text about a sweep that begins or goes on although the radials say otherwise; empty if
+// there is none.
 std::string wrong_sweep(const Decoded& decoded) {
     const std::vector<Sweep>& sweeps = decoded.volume.sweeps;
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
@@ -49,7 +50,8 @@ Oracle::Oracle(std::span<const std::byte> file) {
 
 bool Oracle::names_something(const DecodeReport& report) const {
     for (const Problem& problem : report.problems) {
-        // If a volume had no end before, the missing end is all that a cut between records shows.
+        // A missing end counts even if the undamaged volume has no end, because a cut between
+        // records shows nothing else.
         if (problem.severity != Severity::note &&
             (problem.code == "no_end_of_volume" || !own_problems_.contains(key_of(problem)))) {
             return true;
@@ -58,8 +60,9 @@ bool Oracle::names_something(const DecodeReport& report) const {
     return false;
 }
 
-// Walks through both in the order of the volume. If the next expected radial may fall, the radials
-// returned decide whether it did: the next expected one that equals it within the same damage.
+// Walks through the expected and the returned radials in the order of the volume. If a returned
+// radial is not the next expected one, but equals a later one within the same damage, the radials
+// between them are lost; otherwise it may be the damaged radial itself.
 Oracle::Match Oracle::match(const Mutant& mutant, const std::vector<RadialIdentity>& found,
                             KindFigures& figures) const {
     Match match;

@@ -1,9 +1,9 @@
 // tests/hard_cases/hard_oracle.h -- decodes mutants and compares them with the undamaged volume.
 //
-// For every mutant it checks: radials are returned as their fates say, in the order in which the
-// radar sent them, and no others; sweeps begin only where a radial says so; whatever is lost is
-// named by a problem that the undamaged volume does not have. Or the whole file is refused, which
-// is allowed only if nothing in it had to be kept.
+// The oracle checks for every mutant that radials are returned as their fates say, in the order in
+// which the radar sent them, and no others; that sweeps begin only where a radial says so; and that
+// for lost radials there is a problem that the undamaged volume does not have. The decoder may
+// refuse the whole file only if it need not keep any radial.
 #pragma once
 
 #include <chrono>
@@ -23,19 +23,19 @@ namespace stormcellar::level2 {
 struct KindFigures {
     std::uint64_t mutants = 0;
     std::uint64_t refused = 0;   // an error instead of a volume
-    std::uint64_t compared = 0;  // radials found equal to the bit
-    std::uint64_t fallen = 0;   // radials in the damage, or guarded with it, that were not returned
-    std::uint64_t beside = 0;   // radials directly after the damage that were not returned
-    std::uint64_t changed = 0;  // radials that show their own damage
+    std::uint64_t compared = 0;  // returned radials that are equal to the bit
+    std::uint64_t fallen = 0;    // lost radials in the damage, or under the same checksum
+    std::uint64_t beside = 0;    // lost radials directly after the damage
+    std::uint64_t changed = 0;   // returned radials that were damaged and are changed
 };
 
 class Oracle {
   public:
-    // The undamaged file, which must decode.
+    // Decodes the undamaged file. Throws if this fails.
     explicit Oracle(std::span<const std::byte> file);
 
     [[nodiscard]] std::size_t radials() const { return radials_.size(); }
-    // Returns what is wrong; empty if everything is right.
+    // Decodes a mutant and returns what is wrong with the result; empty if nothing is.
     [[nodiscard]] std::string check(const Mutant& mutant);
     [[nodiscard]] const std::map<std::string, KindFigures>& figures() const { return figures_; }
     [[nodiscard]] std::chrono::duration<double> slowest() const { return slowest_; }
@@ -43,7 +43,7 @@ class Oracle {
   private:
     struct Match {
         std::string wrong;  // empty: all radials were returned as they should be
-        bool lost = false;  // an expected one was not returned
+        bool lost = false;  // an expected radial was not returned
     };
     [[nodiscard]] bool is(std::optional<std::size_t> radial, RadialIdentity found) const {
         return radial && radials_[*radial] == found;
@@ -61,7 +61,7 @@ class Oracle {
 };
 
 void add(std::map<std::string, KindFigures>& sum, const std::map<std::string, KindFigures>& more);
-// Returns one line for each kind, and the sum.
+// Returns a table with a heading, a line for each kind, and a line with the sums.
 [[nodiscard]] std::string table_of(const std::map<std::string, KindFigures>& figures);
 
 }  // namespace stormcellar::level2

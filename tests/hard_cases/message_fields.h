@@ -1,5 +1,5 @@
-// tests/hard_cases/message_fields.h -- the fields of messages, and the functions that overwrite
-// them.
+// tests/hard_cases/message_fields.h -- lists the fields of messages, and reads and overwrites their
+// numbers.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace stormcellar::level2 {
 
 struct MessageField {
     std::string_view name;
-    std::size_t at = 0;  // in the block, or in the message including its 28 bytes of header
+    std::size_t at = 0;  // offset in the block, or in the message with its 28 bytes of header
     std::size_t width = 0;
-    // True if it gives the place of bytes, or the sweep and azimuth to which they belong.
+    // True if the field gives the place of gates, or the sweep and azimuth to which they belong.
     bool places_gates = false;
-    std::string_view block = {};  // empty: the message
+    std::string_view block = {};  // empty: the field is not in a block
 };
 
 inline constexpr bool placing = true;
@@ -56,7 +56,7 @@ inline constexpr auto fields_of_31 = std::to_array<MessageField>({
     {"fourth pointer", 72, 4, placing},
 });
 
-// Fields of blocks, by the block.
+// Fields in the blocks of message 31.
 inline constexpr auto block_fields_of_31 = std::to_array<MessageField>({
     {"name", 0, 4, placing, "RVOL"},      {"size", 4, 2, false, "RVOL"},
     {"version", 6, 2, false, "RVOL"},     {"latitude", 8, 4, false, "RVOL"},

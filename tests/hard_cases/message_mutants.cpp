@@ -16,7 +16,8 @@ namespace {
 using wire::Bytes;
 using Random = std::mt19937_64;
 
-// Nothing, little, the ends of the range, the neighbors; for 4 bytes also NaN, infinity, 1e30.
+// Returns an extreme number: zero, a small number, an end of the range, or a neighbor of `was`; for
+// 4 bytes also NaN, infinity or 1e30.
 std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
     const std::uint32_t most = width == 1 ? 0xFFU : width == 2 ? 0xFFFFU : 0xFFFFFFFFU;
     const std::array<std::uint32_t, 13> numbers = {
@@ -25,8 +26,8 @@ std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
     return numbers[below(random, width == 4 ? 13 : 10)] & most;
 }
 
-// Returns what was changed; an empty text for a field beyond the end. The field counts from
-// `start`.
+// Overwrites a field, whose offset counts from `start`, and returns a text about the change; an
+// empty text if the field is beyond the end.
 std::string overwrite(Bytes& bytes, std::size_t start, const MessageField& field, Random& random) {
     const std::size_t at = start + field.at;
     if (at + field.width > bytes.size()) return {};
@@ -56,7 +57,7 @@ MessageMutants::Draft MessageMutants::draft() const {
     return draft;
 }
 
-// Returns 0 for what is no radial.
+// Returns the elevation number of a radial, or 0 for any other message.
 std::uint32_t MessageMutants::elevation_number(std::size_t number) const {
     const StreamMessage& message = volume_.messages[number];
     if (!message.radial) return 0;
@@ -64,8 +65,8 @@ std::uint32_t MessageMutants::elevation_number(std::size_t number) const {
     return message.type == 31 ? number_at(bytes, 50, 1) : number_at(bytes, 44, 2);
 }
 
-// Returns true if the radials between these messages are of one volume: what is further apart is
-// taken for another one (level2/decode/late_radials.h).
+// Returns true if the decoder can take the radials between these messages for one volume: they are
+// no more than 15 minutes apart (level2/decode/late_radials.h).
 bool MessageMutants::is_of_one_volume(std::size_t first_message, std::size_t last_message) const {
     constexpr std::uint32_t longest_ms = 15 * 60'000;
     std::optional<std::uint32_t> first;
@@ -80,7 +81,8 @@ bool MessageMutants::is_of_one_volume(std::size_t first_message, std::size_t las
     return !first || last - *first <= longest_ms;
 }
 
-// One in eight is no radial, if there are such messages.
+// Returns the number of a random message. One in eight is no radial, if the volume has such
+// messages.
 std::size_t MessageMutants::any_message(Random& random) const {
     const bool other = random() % 8 == 0;
     std::size_t message = 0;
@@ -126,21 +128,22 @@ void MessageMutants::rearranged(Draft& draft, Random& random) const {
     const std::size_t kind = below(random, kinds.size());
     const std::size_t a = any_message(random);
     std::size_t b = any_message(random);
-    // A radial before its sweep begins a sweep of its own, so only neighbors change places there.
+    // A radial in front of its sweep would begin a new sweep, so swap messages of different sweeps
+    // only with their neighbors.
     if (kind == 2 && elevation_number(a) != elevation_number(b))
         b = std::min(a + 1, draft.order.size() - 1);
     std::vector<std::size_t>& order = draft.order;
     if (kind == 0) order.erase(order.begin() + static_cast<std::ptrdiff_t>(a));
     if (kind == 1) order.insert(order.begin() + static_cast<std::ptrdiff_t>(b), a);
     if (kind == 2) std::swap(order[a], order[b]);
-    // A radial right behind itself is not older than itself, and stays.
+    // A repeated radial directly after the first one is not older, so the decoder keeps both.
     const bool is_beside_itself = kind == 1 && (b == a || b == a + 1);
     draft.is_put_right = !is_beside_itself && is_of_one_volume(std::min(a, b), std::max(a, b));
     draft.mutant.kind = kinds[kind];
     draft.mutant.what += fmt::format(" messages {} and {}", a, b);
 }
 
-// A radial that has lost bytes must never be returned: never half a radial.
+// Adds bytes to a message or removes some. A radial that has lost bytes must never be returned.
 void MessageMutants::resized(Draft& draft, Random& random) const {
     const std::size_t number = any_message(random);
     Bytes& bytes = draft.parts[number];
@@ -178,7 +181,7 @@ void MessageMutants::flipped(Draft& draft, Random& random) const {
     draft.mutant.what += fmt::format(" message {}, bytes{}", number, where);
 }
 
-// Noise or zeros from inside one message on, possibly over the next ones.
+// Overwrites bytes with noise or zeros, from inside one message on and possibly over the next ones.
 void MessageMutants::overwritten(Draft& draft, Random& random) const {
     const bool zeros = random() % 2 == 0;
     const std::size_t first = any_message(random);

@@ -1,4 +1,4 @@
-// tests/hard_cases/message_mutants.h -- damages the message stream, after all checksums.
+// tests/hard_cases/message_mutants.h -- damages the message stream, which no checksum guards.
 #pragma once
 
 #include <random>
@@ -8,8 +8,8 @@
 
 namespace stormcellar::level2 {
 
-// Makes mutants number 0, 1, 2 ... of a plain stream: the kinds alternate, the number decides the
-// rest. Every 16th is packed into one LDM record.
+// Makes numbered mutants of a plain stream. The kinds of damage alternate with the number, and the
+// number decides the rest. Every 16th mutant is packed into one LDM record.
 class MessageMutants {
   public:
     explicit MessageMutants(const UnpackedVolume& volume) : volume_(volume) {}
@@ -17,13 +17,13 @@ class MessageMutants {
 
   private:
     using Random = std::mt19937_64;
-    // The stream in parts, one for each message, and what is expected of each.
+    // The messages of the stream, and the fate of each.
     struct Draft {
         Mutant mutant;
         std::vector<wire::Bytes> parts;
-        std::vector<std::size_t> order;  // messages, by number, in the order of the file
-        std::vector<Fate> fates;         // of the messages
-        bool is_put_right = false;       // what is late or twice comes out where it belongs
+        std::vector<std::size_t> order;  // numbers of the messages in the order of the file
+        std::vector<Fate> fates;         // by number of the message
+        bool is_put_right = false;       // late or repeated radials return to their places
     };
     void field(Draft& draft, Random& random) const;
     void block_field(Draft& draft, Random& random) const;

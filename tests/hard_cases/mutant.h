@@ -1,4 +1,5 @@
-// tests/hard_cases/mutant.h -- a damaged file, and what must still be read from it.
+// tests/hard_cases/mutant.h -- describes a damaged file, and the radials that must still be read
+// from it.
 #pragma once
 
 #include <algorithm>
@@ -16,27 +17,29 @@ namespace stormcellar::level2 {
 enum class Fate {
     kept,      // outside the damage: returned unchanged
     may_fall,  // shares a checksum with damaged bytes: returned unchanged, or not at all
-    beside,    // directly after damage that nothing guards: as above
-    damaged    // its own bytes are changed and nothing guards them: anything, once, or nothing
+    beside,    // directly after damage without a checksum: returned unchanged, or not at all
+    damaged    // changed, without a checksum: returned once with any content, or not at all
 };
 
 struct ExpectedRadial {
-    std::optional<std::size_t> radial;  // its number in the undamaged volume; none: no radial
+    std::optional<std::size_t> radial;  // number in the undamaged volume; none: no radial
     Fate fate = Fate::kept;
 };
 
 struct Mutant {
-    std::string kind;  // figures are counted for each
-    std::string what;  // for a person who has to reproduce it
+    std::string kind;  // kind of damage, by which figures are counted
+    std::string what;  // description of the damage for a person
     wire::Bytes file;
     std::vector<ExpectedRadial> expected;  // in the order of the volume
     // True if the damage changed a length or type, which the report must name even if every radial
     // is kept.
     bool always_named = false;
-    bool anything_after = false;  // nothing guards the rest of the file
+    // True if no checksum guards the rest of the file, so that other radials may follow.
+    bool anything_after = false;
 };
 
-// Sorts the expected radials: one that comes late or twice is returned once, where it belongs.
+// Sorts the expected radials and removes repeated ones, as the decoder does with late and repeated
+// radials.
 inline void put_in_order(std::vector<ExpectedRadial>& expected) {
     std::ranges::sort(expected, {}, &ExpectedRadial::radial);
     const auto is_same = [](const ExpectedRadial& a, const ExpectedRadial& b) {
@@ -45,7 +48,7 @@ inline void put_in_order(std::vector<ExpectedRadial>& expected) {
     expected.erase(std::unique(expected.begin(), expected.end(), is_same), expected.end());
 }
 
-// Returns a whole number below `limit`; 0 if there is none.
+// Returns a random number below `limit`; 0 if `limit` is 0.
 inline std::size_t below(std::mt19937_64& random, std::size_t limit) {
     return static_cast<std::size_t>(random() % std::max<std::size_t>(limit, 1));
 }

@@ -1,7 +1,7 @@
-// Compares real volumes, damaged in every way that mutant.h and its makers know, with the undamaged
-// volumes. An ordinary run takes the start and end of each volume and some mutants of it.
-// STORMCELLAR_MUTANTS=N takes the whole volume (8 MiB of its messages), N mutants of its container
-// and 10 N of its messages.
+// Damages real volumes in many ways (container_mutants.h, message_mutants.h) and compares them with
+// the undamaged volumes. An ordinary run makes some mutants of the start and end of each volume.
+// STORMCELLAR_MUTANTS=N makes N mutants of the container of the whole volume, and 10 N of its
+// messages (8 MiB of them).
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -54,7 +54,8 @@ Size chosen_size() {
     return {mutants, 10 * mutants, SIZE_MAX, std::size_t{8} << 20};
 }
 
-// Volumes, a mosaic and the chunks of two volumes; for chunks, the folder represents the volume.
+// Returns the names of the volumes, of the files of a mosaic, and of two folders with the chunks of
+// a volume.
 std::vector<std::string> names() {
     const auto data = testing::data_directory();
     if (!data) return {"no_real_volumes"};
@@ -71,7 +72,7 @@ std::vector<std::byte> bytes_of(const fs::path& path) {
     return fs::is_directory(path) ? joined_files(path) : read_file(path).value();
 }
 
-// Names what is being decoded, for the handler below to print after a crash or a hang.
+// Description of the present mutant, which say_current() prints after a crash or a hang.
 char current[400];
 
 void say_current(int signal_number) {
@@ -125,7 +126,7 @@ class MutationTest : public ::testing::TestWithParam<std::string> {
                Make make) {
         Oracle oracle(file);
         ASSERT_EQ(oracle.radials(), part.radials);
-        // Every volume has mutants of its own.
+        // Begin with another number for each volume, so that volumes get different mutants.
         const std::string& name = GetParam();
         const std::uint64_t first = crc32(std::as_bytes(std::span{name})) % 1000;
         for (std::uint64_t number = first; number < first + mutants; ++number) {

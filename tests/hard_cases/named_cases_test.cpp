@@ -1,4 +1,4 @@
-// Known kinds of damage, each alone, on volumes made by hand.
+// Tests single known kinds of damage on volumes made by hand.
 #include <algorithm>
 #include <array>
 
@@ -22,7 +22,7 @@ bool has_problem(const DecodeReport& report, std::string_view code) {
                        [&](const Problem& problem) { return problem.code == code; });
 }
 
-// The header, the VCP and three sweeps of six radials as plain messages.
+// Returns a volume of plain messages: the header, the VCP and three sweeps of six radials.
 Bytes plain_volume(const Bytes& vcp) {
     return wire::join({wire::archive_header(), vcp, wire::radial_messages(3, 6)});
 }
@@ -32,7 +32,8 @@ std::vector<RadialIdentity> radials_of(const Bytes& file) {
     return decoded ? identities(decoded->volume) : std::vector<RadialIdentity>{};
 }
 
-// Message 5 says how many cuts follow; as a signed number it can be negative.
+// Message 5 gives its number of cuts, which is negative in some cases if it is read as a signed
+// number.
 class NumberOfCuts : public ::testing::TestWithParam<unsigned> {
   protected:
     static Bytes damaged() {
@@ -46,18 +47,19 @@ TEST_P(NumberOfCuts, BeyondTheMessageCostsThePatternOnly) {
     const auto decoded = decode(damaged());
     ASSERT_TRUE(decoded) << decoded.error().message;
     EXPECT_FALSE(decoded->volume.vcp_message);
-    // The radials themselves name their pattern.
+    // The pattern number comes from the radials.
     EXPECT_EQ(decoded->volume.vcp, 212);
     EXPECT_EQ(decoded->volume.vcp_source, VcpSource::radial);
     EXPECT_EQ(identities(decoded->volume),
               radials_of(plain_volume(wire::vcp_frame(212, elevations_deg))));
 }
 
-// -1, the most negative number, 53 (only 52 fit), none.
+// The values are, as signed numbers, -1, the lowest, the highest, more than the 51 cuts that fit,
+// and 0.
 INSTANTIATE_TEST_SUITE_P(Extremes, NumberOfCuts,
                          ::testing::Values(0xFFFFU, 0x8000U, 0x7FFFU, 53U, 0U));
 
-// The stream after a control word is intact, whatever the control word is.
+// The stream after a wrong control word is intact, so nothing may be lost.
 TEST(ControlWord, ExtremesCostNothing) {
     const Bytes volume = wire::ldm_volume(3, 6);
     const auto expected = radials_of(volume);
@@ -85,14 +87,15 @@ TEST(Cut, AtEveryByteOfAStreamKeepsWhatIsWhole) {
         ASSERT_EQ(found.size(), size / length) << size;
         EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin())) << size;
         EXPECT_TRUE(has_problem(decoded->report, "no_end_of_volume")) << size;
-        // The 12 bytes of the terminal manager and the next one are zeros, like padding.
+        // The 12 bytes of the terminal manager and the byte after them are zeros, so up to 13 bytes
+        // look like padding.
         EXPECT_EQ(has_problem(decoded->report, "damaged_messages"), size % length > 13) << size;
     }
 }
 
 TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
     const Bytes volume = wire::ldm_volume(2, 3, 20);
-    // After the header, the metadata and the first sweep.
+    // The record begins after the header, the metadata and the first sweep.
     std::size_t start = 24;
     for (int record = 0; record < 2; ++record) {
         ByteReader reader{std::span{volume}.subspan(start)};
@@ -116,8 +119,9 @@ TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
 
 // ---- Found by mutants, each in its smallest form
 
-// 2026-11-21, on seven legacy volumes: a header at the wrong place can be plausible, and then so is
-// the one a frame later. The reader took hundreds of frames for messages of unknown types.
+// 2026-11-21, seven legacy volumes: bytes at a wrong place can look like a plausible header, and
+// then the bytes a frame later often do too. The reader took hundreds of frames for messages of
+// unknown types.
 TEST(FoundByMutants, EightBytesLostCostOneLegacyRadial) {
     Bytes radials;
     for (unsigned i = 0; i < 40; ++i) {
@@ -150,7 +154,8 @@ TEST(FoundByMutants, MetadataOfAnotherTypeIsNoRadial) {
 }
 
 // 2026-11-21, KDOX20100911 and L2D_185: message 31 was shorter than a frame, and its type was
-// damaged to one that fills a frame. Zeros among the gates a frame later were enough to believe it.
+// damaged to one that fills a frame. The reader believed it because of zeros among the gates a
+// frame later.
 TEST(FoundByMutants, AFrameDoesNotSwallowTheRadialsInsideIt) {
     Bytes radials;
     for (unsigned i = 0; i < 20; ++i) {
@@ -164,8 +169,8 @@ TEST(FoundByMutants, AFrameDoesNotSwallowTheRadialsInsideIt) {
     EXPECT_EQ(radials_of(wire::join({header, radials})).size(), 19);
 }
 
-// 2026-11-21, KTLX20140101: a record of more than 4 MiB is read block by block, and the control
-// word was not compared with the stream.
+// 2026-11-21, KTLX20140101: a record of more than 4 MiB was read block by block, without a
+// comparison of the control word with the stream.
 TEST(FoundByMutants, TheWrongLengthOfALargeRecordIsNamed) {
     const Bytes radials = wire::radial_messages(1, 1500, 1000);
     ASSERT_GT(radials.size(), std::size_t{4} << 20);
@@ -190,7 +195,8 @@ TEST(FoundByMutants, NotesDoNotCrowdOutErrors) {
     EXPECT_TRUE(has_problem(decoded->report, "gzip_checksum"));
 }
 
-// 2026-11-21: a message 5 that cannot be read was left out, and the report did not mention it.
+// 2026-11-21: the decoder skipped a message 5 that it could not read, and the report did not
+// mention it.
 TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     Bytes vcp = wire::vcp_frame(212, elevations_deg);
     wire::overwrite_u16(vcp, 28 + 6, 0xFFFF);
@@ -199,8 +205,8 @@ TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     EXPECT_FALSE(decoded->report.problems.empty());
 }
 
-// 2026-11-21: the clutter map of KMPX20060106 has no date. So a radial that had lost bytes before
-// it was accepted, with the map in its gates.
+// 2026-11-21: the clutter map of KMPX20060106 has no date, so the reader did not recognize it. It
+// accepted a radial that had lost bytes before the map, with the map in its gates.
 TEST(FoundByMutants, HalfARadialBeforeUndatedFramesDoesNotComeOut) {
     Bytes half = wire::message_1({});
     half.resize(664);

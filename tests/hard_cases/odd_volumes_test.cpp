@@ -1,4 +1,4 @@
-// Volumes that are odd but sound: nothing of them may be lost, and oddities must be reported.
+// Tests that nothing is lost of odd but sound volumes, and that oddities are reported.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(OddVolumes, ASweepOf735Radials) {
     EXPECT_TRUE(decoded.report.complete);
 }
 
-// Super-resolution below and one degree above, in one volume.
+// The volume has super-resolution in the lower sweeps and radials of one degree above.
 TEST(OddVolumes, HalfAndWholeDegreesMixed) {
     Bytes radials = wire::radial_messages(2, 360);
     const std::size_t length = length_of(radials, 720);
@@ -75,7 +75,8 @@ TEST(OddVolumes, TimesMayRunBackwards) {
     EXPECT_TRUE(decoded.report.complete);
 }
 
-// The header's clock may have passed midnight before the radial's, and the other way round.
+// Either the time in the message header or the time of the radial may be after midnight while the
+// other is before.
 TEST(OddVolumes, AVolumeMayCrossMidnight) {
     Bytes radials = wire::radial_messages(1, 20);
     const std::size_t length = length_of(radials, 20);
@@ -96,7 +97,7 @@ TEST(OddVolumes, AVolumeMayCrossMidnight) {
                                [](const Radial& a, const Radial& b) { return a.time < b.time; }));
 }
 
-// AVSET ends a volume before the pattern does.
+// AVSET ends a volume before the last cut of its pattern.
 TEST(OddVolumes, AVolumeThatAvsetEndsIsComplete) {
     const std::vector<float> pattern = {0.5F, 1.5F, 2.4F, 3.4F, 4.3F, 6.0F, 9.9F};
     const auto decoded =
@@ -118,7 +119,7 @@ TEST(OddVolumes, AGapInTheElevationNumbersIsNamed) {
     EXPECT_EQ(codes_of(decoded.report), std::vector<std::string>{"missing_cuts"});
 }
 
-// SAILS and MRLE repeat low elevations: the same angle, other cuts.
+// SAILS and MRLE repeat low elevations as further cuts with the same angle.
 TEST(OddVolumes, TheSameAngleTwiceIsTwoCuts) {
     const std::vector<float> pattern = {0.5F, 0.5F, 1.5F, 0.5F, 0.5F};
     const auto decoded =

@@ -1,10 +1,10 @@
-// An odd value in a field of a radial that leaves the structure intact must not lose a gate. Each
-// field of the message header, of the headers of messages 1 and 31 and of the blocks is set alone,
-// in one radial and in all, to values that no radar sends; every gate of the real volume must still
-// be there.
+// Tests that an odd value in a field of a radial does not lose a gate if the structure of the
+// message stays intact. The test sets each field of the message header, of the headers of messages
+// 1 and 31 and of the blocks to values that no radar sends, in one radial and in all. Every gate of
+// the real volume must still be there.
 //
-// Fields that give the place of bytes, or the sweep and azimuth to which they belong, are
-// different: everything returned must be in the volume, and everything lost must be reported.
+// Fields that give the place of gates, or the sweep and azimuth to which they belong, may lose
+// gates. Then everything returned must be in the volume, and everything lost must be reported.
 // STORMCELLAR_MUTANTS=N takes 8 MiB of each volume instead of its start and end.
 #include <cstdlib>
 #include <map>
@@ -28,7 +28,8 @@ using wire::Bytes;
 std::vector<std::uint32_t> odd_values(std::size_t width) {
     if (width == 1) return {0, 1, 2, 3, 77, 127, 128, 255};
     if (width == 2) return {0, 1, 2, 77, 7304, 40'001, 0x7FFF, 0x8000, 0xFFFF};
-    // They include NaN, infinity, 1e30, lower case, no letters and times after midnight.
+    // These include NaN, infinity, 1e30, text in lower case, text without letters, and a time after
+    // midnight.
     return {0,          1,          0x7FFFFFFF, 0xFFFFFFFF, 0x7FC00000,
             0x7F800000, 0x7149F2CA, 0x6B746C78, 0x2A2A2A2A, 90'000'000};
 }
@@ -44,7 +45,8 @@ std::optional<std::size_t> block_at(std::span<const std::byte> message, std::str
     return std::nullopt;
 }
 
-// Returns false if the radial lacks the field's block, or has the value already.
+// Sets the field to the value. Returns false if the radial lacks the block of the field, or has the
+// value already.
 bool set_field(std::span<std::byte> message, const MessageField& field, std::uint32_t value) {
     std::size_t at = field.at;
     if (!field.block.empty()) {
@@ -75,8 +77,8 @@ std::vector<Gates> gates_of(const Volume& volume) {
     return all;
 }
 
-// Returns true if all gates returned are the radial's own; moments or their last gates may be
-// missing.
+// Returns true if all gates in `found` are gates of the radial. Moments, or the last gates of
+// moments, may be missing.
 bool is_part_of(const Gates& found, const Gates& own) {
     return std::all_of(found.begin(), found.end(), [&](const auto& named) {
         const auto whole = own.find(named.first);
@@ -86,7 +88,8 @@ bool is_part_of(const Gates& found, const Gates& own) {
     });
 }
 
-// Returns the gates that belong to no radial, in the order of the file; empty if there are none.
+// Returns a text about the first returned radial whose gates match no radial of the volume, in the
+// order of the file; empty if there is none.
 std::string invented(const std::vector<Gates>& found, const std::vector<Gates>& own) {
     std::size_t at = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -120,7 +123,7 @@ class OddityTest : public ::testing::TestWithParam<std::string> {
         own_problems_ = decoded->report.problems.size();
     }
 
-    // Sets the field in the radial of this number, or in all. Returns false if in none.
+    // Sets the field in radial `number`, or in all radials. Returns false if no radial changes.
     bool set(UnpackedVolume& odd, const MessageField& field, std::uint32_t value,
              std::optional<std::size_t> number) const {
         bool any = false;

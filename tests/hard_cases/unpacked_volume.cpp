@@ -41,7 +41,7 @@ Bytes gunzip(std::span<const std::byte> bytes) {
         z.avail_out = static_cast<uInt>(out.size() - made);
         code = inflate(&z, Z_NO_FLUSH);
         made = out.size() - z.avail_out;
-        // Several members may follow each other.
+        // The file may have several gzip members.
         if (code == Z_STREAM_END && z.avail_in > 2 && *z.next_in == 0x1F) code = inflateReset(&z);
     }
     inflateEnd(&z);
@@ -59,8 +59,7 @@ std::size_t length_of(std::span<const std::byte> message) {
     return std::min(message.size(), 12 + std::size_t{2} * reader.u16());
 }
 
-// Adds the bytes of the stream from `from` on as messages. Returns the number of radials among
-// them.
+// Adds the messages in the stream from `from` on. Returns the number of radials among them.
 std::size_t append_messages(UnpackedVolume& volume, std::size_t from) {
     const std::size_t radials_before = volume.radials;
     const std::span<const std::byte> stream = volume.stream;

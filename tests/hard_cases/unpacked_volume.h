@@ -1,8 +1,8 @@
-// tests/hard_cases/unpacked_volume.h -- a file taken apart into records and messages.
+// tests/hard_cases/unpacked_volume.h -- splits a file into its records and messages.
 //
-// This is independent of the readers of level2, so that a test can damage one part and knows the
-// others. It trusts its input: use it only for undamaged files, or for the intact start of a
-// damaged one.
+// The code is independent of the readers of level2, so that a test can damage a part whose place it
+// knows. It trusts its input, so use it only for undamaged files, or for the intact start of a
+// damaged file.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct StreamMessage {
     int type = 0;  // -1: a 24-byte volume header inside the stream
     std::size_t offset = 0;
     std::size_t length = 0;
-    std::optional<std::size_t> radial;  // its number among all radials
+    std::optional<std::size_t> radial;  // number among all radials; none: no radial
 
     [[nodiscard]] std::size_t end() const { return offset + length; }
 };
@@ -28,7 +28,7 @@ struct UnpackedVolume {
     wire::Bytes header;                // the first 24 bytes; empty if there is no header
     std::vector<wire::Bytes> records;  // with their control words; empty if the file is not LDM
     std::vector<std::size_t> radials_of_record;
-    wire::Bytes stream;  // all messages
+    wire::Bytes stream;  // all messages, one after the other
     std::vector<StreamMessage> messages;
     std::size_t radials = 0;
 
@@ -36,15 +36,15 @@ struct UnpackedVolume {
     [[nodiscard]] wire::Bytes plain_file() const;  // header and stream
 };
 
-// `stream_limit`: messages beyond this many bytes of the stream are left out.
+// Unpacks a file. Leaves out messages beyond the first `stream_limit` bytes of the stream.
 [[nodiscard]] UnpackedVolume unpack(std::span<const std::byte> file,
                                     std::optional<std::uint64_t> stream_limit = std::nullopt);
 
-// For a volume in records: returns the first records and the last, with at most `most_bytes`
+// Returns the first records of a volume in records, and the last one: at most `most_bytes`
 // compressed bytes, but at least three records.
 [[nodiscard]] UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes);
-// Returns the metadata without its fill frames, the first messages and the last few, as a plain
-// stream.
+// Returns a plain stream of the metadata without its fill frames, the first messages, and the last
+// few messages.
 [[nodiscard]] UnpackedVolume short_stream(const UnpackedVolume& whole, std::size_t most_bytes);
 
 }  // namespace stormcellar::level2
