@@ -81,9 +81,9 @@ class FrontList {
     static HWY_INLINE std::uint8_t first_of(__m512i part) {
         return static_cast<std::uint8_t>(_mm_cvtsi128_si32(_mm512_castsi512_si128(part)));
     }
-    // A move from farther back rotates every register before the one that holds the byte, so that
-    // its last byte comes to its front. That byte then goes to the front of the next register, and
-    // the moved byte to the front of the first.
+    // For a move from farther back, first rotate each register before the one with the moved byte,
+    // so that its last byte comes to the front. Then put this byte at the front of the next
+    // register, and the moved byte at the front of the first register.
     HWY_INLINE void move_far(std::uint32_t place) {
         const __mmask64 first = 1;
         const __m512i front = to_front(part_[0], 63);
@@ -227,7 +227,7 @@ HWY_INLINE bool take_symbols(RunMaker& maker, FrontList& list, const std::uint16
     maker.times = 1;
     list.move(symbols[at] - 1U);
     std::uint64_t bytes = 0;
-    // Each further move ends a run that lies entirely within these symbols.
+    // Each further move ends a run whose symbols are all among these 64.
     for (moves &= moves - 1; moves != 0; moves &= moves - 1) {
         const auto next = static_cast<unsigned>(std::countr_zero(moves));
         const unsigned digits = next - at - 1;

@@ -22,7 +22,7 @@ class RunExpander {
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> out);
     // Returns true if nothing is left.
     [[nodiscard]] bool ended() const { return at_ >= end_ && fill_left_ == 0; }
-    // Returns true if the block ended where a count was due.
+    // Returns true if the block ended before the count of a run.
     [[nodiscard]] bool bad() const { return at_ > end_; }
 
     struct Place {

@@ -21,7 +21,7 @@ std::uint64_t big_endian(std::span<const std::byte> bytes) {
     return number;
 }
 
-// Writes numbers of any width, one after the other.
+// Appends numbers of any width to `out`, without gaps between them.
 class BitWriter {
   public:
     explicit BitWriter(std::vector<std::byte>& out) : out_(out) {}

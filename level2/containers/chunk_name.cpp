@@ -7,7 +7,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// d stands for a digit, s for a separator.
+// Patterns of names: d is a digit, s a separator.
 constexpr std::string_view dashed_volume = "dddddddd-dddddd-";
 constexpr std::string_view key_time = "dddddddddddddds";
 constexpr std::size_t most_digits = 3;

@@ -88,8 +88,8 @@ void CompressStream::take(std::uint32_t code) {
         return;
     }
     if (own) {
-        // The code names the entry that is due now: the previous string followed by its own first
-        // byte.
+        // The code names the entry that this step adds: the previous string followed by its own
+        // first byte.
         enter(*previous_, first_of_previous_);
         first_of_previous_ = expand(code);
     } else {

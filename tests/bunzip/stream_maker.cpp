@@ -98,7 +98,7 @@ void put_block(BitWriter& to, const BlockPlan& block) {
     put_symbols(to, block);
 }
 
-// Returns one after the other of the bytes that decide about a stream; zeros after the last one.
+// Hands out the bytes that decide about a stream, and zeros after the last byte.
 class Choices {
   public:
     explicit Choices(std::span<const std::byte> bytes) : bytes_(bytes) {}

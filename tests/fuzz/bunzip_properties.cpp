@@ -67,8 +67,7 @@ void check_limit(std::span<const std::byte> stream, const LibraryOutcome& unlimi
                     wanted.bytes.begin())) {
         fail("others");
     }
-    // In a damaged stream, one of the two may find the damage before the limit, and the other after
-    // it.
+    // In a damaged stream, bunzip and libbz2 may find the damage on different sides of the limit.
     if (unlimited.status == LibraryOutcome::Status::corrupt) return;
     if (static_cast<int>(outcome.status) != static_cast<int>(wanted.status)) fail("another end");
     if (made.size() != wanted.bytes.size()) fail("others");

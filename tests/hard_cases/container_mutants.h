@@ -25,8 +25,8 @@ class ContainerMutants {
     [[nodiscard]] Mutant overwritten(Random& random) const;
     [[nodiscard]] Mutant gzip(Random& random) const;
 
-    // Returns the radials to expect from these records in this order; those of record `soft` may be
-    // lost.
+    // Returns the radials to expect from these records in this order. Radials of record `soft` may
+    // be lost.
     [[nodiscard]] std::vector<ExpectedRadial> expect(const std::vector<std::size_t>& order,
                                                      std::optional<std::size_t> soft) const;
     [[nodiscard]] std::vector<std::size_t> all_records() const;

@@ -165,7 +165,7 @@ TEST(AzimuthDuplicatesAndLosses, AgreeWithTheOracle) {
         std::vector<level2::Radial>& radials = sweep.radials;
         radials[20].azimuth_deg = radials[21].azimuth_deg;  // a duplicate, and one lost
         radials[100].azimuth_deg = radials[101].azimuth_deg = radials[102].azimuth_deg;
-        radials[359].azimuth_deg = 360;  // north itself, in the other notation
+        radials[359].azimuth_deg = 360;  // north, written as 360 and not as 0
         radials[200].azimuth_deg = -159.5F;
         for (std::size_t i = 240; i < 260; i += 3)
             sweep.moments[0].gate_counts[i] = 0;                       // lost for this moment

@@ -169,8 +169,8 @@ TEST(Decode, ARecordOfAWholeVolumeIsReadBlockByBlock) {
     expect_same_sweeps(decoded->volume, decode(rays).value().volume);
 }
 
-// Of a file that is cut anywhere, the decoder returns the radials of the records before the cut,
-// and reports the cut.
+// Wherever a file is cut, the decoder returns the radials of the records before the cut, and
+// reports the cut.
 TEST(Decode, ACutFileKeepsItsWholeRecords) {
     const Bytes whole = wire::ldm_volume(4, 20);
     for (std::size_t size = 25; size < whole.size(); size += 41) {

@@ -117,7 +117,7 @@ TEST(Message31, ABlockOfALaterBuildIsSkippedAndGarbageIsNot) {
 
 TEST(Message31, AMomentThatComesTwiceIsRefused) {
     wire::Bytes bytes = wire::message_31({});
-    // The pointer of RHO is replaced by that of REF.
+    // Replace the pointer to RHO by the pointer to REF.
     const auto ref = std::to_integer<unsigned>(bytes[28 + 32 + 4 * 3 + 3]);
     bytes[28 + 32 + 4 * 4 + 3] = static_cast<std::byte>(ref);
     bytes[28 + 32 + 4 * 4 + 2] = bytes[28 + 32 + 4 * 3 + 2];

@@ -14,8 +14,8 @@
 //
 // Units     All sizes are in bytes.
 // Threads   Each reader may be used by one thread at a time.
-// Errors    ArchiveReader returns no errors; left_out() lists what it cannot return. See the other
-//           functions.
+// Errors    ArchiveReader returns no errors; left_out() lists what it cannot return. find_member()
+//           and SourceReader::read() state their errors.
 #pragma once
 
 #include <chrono>

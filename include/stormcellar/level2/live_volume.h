@@ -41,10 +41,10 @@ class VolumeBuilder;
 
 struct LiveOptions {
     DecodeOptions decode;
-    // If no chunk comes for this long, the volume is due without its missing chunks.
+    // If no chunk comes for this long, is_due() returns true.
     std::chrono::seconds timeout{600};
-    // After the end has come, the volume is due this long after the newest chunk, even if chunks
-    // are missing.
+    // If chunks are missing, is_due() returns true this long after the newest chunk, once the end
+    // has come.
     std::chrono::seconds grace{30};
     // Stores the sweeps of chunks until they are needed; null: they stay in memory. The depot must
     // outlive the volume.

@@ -15,7 +15,7 @@
 
 namespace stormcellar::level2 {
 
-// Codes are kept as they came, including codes that no ICD names.
+// States of the radar. The decoder also keeps codes that no ICD names.
 enum class RdaState : std::uint16_t {
     start_up = 2,
     standby = 4,
