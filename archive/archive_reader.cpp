@@ -52,7 +52,8 @@ struct ArchiveReader::Impl {
     bool at_end = false;
     bool never_begun = false;  // the first bytes of the archive cannot be read
     std::string why_ended;     // empty: the archive was read to its end, or the end is not reached
-    // Returns the last 512 bytes of the archive. They are zeros if an unpacked tar is complete.
+    // Returns the last 512 bytes of the archive. In a complete tar that is not compressed, they are
+    // zeros.
     std::function<std::vector<std::byte>()> tail;
     int nesting = 0;  // nesting depth of this archive
     // An archive inside this archive, while its members are read.
@@ -198,8 +199,8 @@ struct ArchiveReader::Impl {
         return is_zip(handle.get()) && (packed || !has_directory());
     }
 
-    // Returns false if an unpacked tar does not end with zeros. In all other cases libarchive
-    // itself reports a missing end.
+    // Returns false if a tar that is not compressed does not end with zeros. In all other cases
+    // libarchive itself reports a missing end.
     [[nodiscard]] bool has_its_end() const {
         if (packed || !is_tar(handle.get()) || !tail) return true;
         const std::vector<std::byte> last = tail();

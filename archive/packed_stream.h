@@ -21,10 +21,10 @@ struct archive;
 namespace stormcellar::archive {
 
 // Bounds the bytes that libarchive reads while it looks for the next header. libarchive stores the
-// contents of a header before it returns it (the map of a sparse file takes twelve times its size
-// in memory, the directory of a zip three times), so only the source can bound them. A block counts
-// as a whole, so the source gives its bytes in small blocks. A deadline bounds everything else that
-// libarchive reads, because one call may unpack gigabytes just to skip them.
+// contents of a header before it returns the header (the map of a sparse file takes twelve times
+// its size in memory, the directory of a zip three times), so only the source can bound them. A
+// block counts as a whole, so the source gives its bytes in small blocks. A deadline bounds
+// everything else that libarchive reads, because one call may unpack gigabytes just to skip them.
 class ReadBudget {
   public:
     void set_deadline(SteadyTime deadline) { deadline_ = deadline; }

@@ -22,8 +22,8 @@ namespace stormcellar::bunzip {
 class BlockDecoder {
   public:
     BlockDecoder();
-    // Reads a block from the place after its mark and checksum. It may have `most_bytes` rows. If
-    // the result is not good, the reader's position has no meaning.
+    // Reads a block from the place after its mark and checksum. The block may have up to
+    // `most_bytes` rows. If the result is not good, the reader's position has no meaning.
     [[nodiscard]] Found read(BitReader& reader, std::uint32_t most_bytes, Path path);
     // Returns the bytes of the last block and one more byte, for RunExpander::begin(). Empty if the
     // block was not good.

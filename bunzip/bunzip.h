@@ -38,7 +38,8 @@ enum class Status : std::uint8_t {
 
 class BlockDecoder;
 
-// The memory for decompressing, kept from stream to stream. It is empty until its first use.
+// The memory for decompressing, kept from stream to stream. A Workspace is empty until its first
+// use.
 class Workspace {
   public:
     Workspace();

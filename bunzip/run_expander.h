@@ -30,7 +30,7 @@ class RunExpander {
         std::uint8_t* to;          // the next place to write
     };
     // A kernel that expands bytes before `end` to the room before `to_end`, and returns where it
-    // stopped. It stops early, near the end of the bytes or of the room.
+    // stopped. The kernel stops early, near the end of the bytes or of the room.
     using Expand = Place (*)(Place place, const std::uint8_t* end, const std::uint8_t* to_end);
 
   private:

@@ -4,10 +4,10 @@
 // next() returns the bytes before any damage; end() then reports the damage.
 //
 // Format    3 bytes (1F 9D, then the largest code width, 9 to 16, and 0x80 if code 256 clears the
-//           table). Then follow codes, low bits first, beginning with 9 bits. Codes of one width
-//           come in groups of eight; where the width changes or the table is cleared, the rest of
-//           the group is padding. The format has no checksum and no length, so a cut between two
-//           codes cannot be detected.
+//           table). After them come codes, low bits first, beginning with codes of 9 bits. Codes of
+//           one width come in groups of eight; where the width changes or the table is cleared, the
+//           rest of the group is padding. The format has no checksum and no length, so a cut
+//           between two codes cannot be detected.
 // Source    Welch, IEEE Computer 17(6) 1984, for the algorithm; the behavior of compress 4.0 for
 //           the grouping, which no document describes.
 // Memory    256 KiB of tables, and one piece.

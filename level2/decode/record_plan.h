@@ -34,8 +34,8 @@ namespace stormcellar::level2 {
 class RecordPlan {
   public:
     // Makes a plan. Returns none if the first record does not give the pattern, if the file has
-    // damaged parts or parts other than records, if it has more records than the pattern, or none
-    // after the first. `bytes`, which begin after the 24-byte header, must outlive the plan.
+    // damaged records or parts other than records, or if it has only one record or more records
+    // than the pattern. `bytes`, which begin after the 24-byte header, must outlive the plan.
     [[nodiscard]] static std::optional<RecordPlan> make(std::span<const std::byte> bytes,
                                                         const Selection& selection);
 

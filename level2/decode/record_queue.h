@@ -28,7 +28,8 @@ namespace stormcellar::level2 {
 
 class RecordQueue {
   public:
-    // Returns the parts in order, and none after the last one. One thread at a time calls it.
+    // Returns the parts in order, and none after the last one. The queue calls it from one thread
+    // at a time.
     using Source = std::function<std::optional<LdmPart>()>;
 
     // The bytes of the parts and `selection` must outlive the queue.

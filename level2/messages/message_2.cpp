@@ -96,8 +96,8 @@ void read_open_fields(RdaStatus& status, const Halfwords& halfword) {
     if (build >= 21) status.time_series_recording = halfword.bit(14, 5);
 }
 
-// Reads halfwords 41 to 60. They are zero in build 18, where they are spare, and in builds without
-// them.
+// Reads halfwords 41 to 60. Builds without these halfwords, and build 18, where they are spare,
+// give zeros.
 void read_late_fields(RdaStatus& status, const Halfwords& halfword) {
     if (halfword[60] == 0) return;
     status.version = halfword[60];

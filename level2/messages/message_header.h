@@ -64,9 +64,9 @@ inline constexpr std::size_t sure_message_bytes = 128;  // is_surely_message() r
 // Returns true if the message at the start of `bytes` is a radial whose pointers and gate counts
 // fit into it so well that this is no chance. Name, date, time, numbers and angles do not matter.
 [[nodiscard]] bool places_its_gates(const MessageHeader& header, std::span<const std::byte> bytes);
-// Returns true if `message`, which is as long as its header says, is a credible radial of certain
-// length: message 1 with gate counts in its frame, or a message 31 whose body gives the same
-// length, as all known ones do.
+// Returns true if `message` is a credible radial whose length is beyond doubt: a message 1 with
+// gate counts, or a message 31 whose body gives the same length as its header, as in all known
+// files. `message` must be as long as its header says.
 [[nodiscard]] bool is_firm_radial(const MessageHeader& header, std::span<const std::byte> message);
 
 // Returns the first place at or after `from` where a message of type 1 to 31 surely begins, or

@@ -33,8 +33,8 @@ inline constexpr std::uint64_t output_limit_bytes = std::uint64_t{64} << 20;
 // back unchanged.
 void check_container(std::span<const std::byte> file);
 
-// Checks a message stream without the 24-byte header. It gives the same result packed into an LDM
-// record as unpacked. Good radials before it are kept unchanged.
+// Checks a message stream without the 24-byte header. The stream gives the same result packed into
+// an LDM record as unpacked. Good radials before it are kept unchanged.
 void check_messages(std::span<const std::byte> stream);
 
 // Checks a file that follows eight bytes; these decide how it arrives. While it grows it gives the

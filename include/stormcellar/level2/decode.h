@@ -1,10 +1,10 @@
 // stormcellar/level2/decode.h -- decodes the bytes of a Level II file into a Volume.
 //
-// The decoder recognizes containers by content, never by name, and peels them in a loop: gzip,
-// bzip2 or .Z around the whole file, then a 24-byte header or none, then LDM bzip2 records, or
-// plain 2432-byte frames and messages 31. The input is hostile, so every length is bounded before
-// it is used. The decoder keeps what is whole and lists the damage in the report. It never makes up
-// a sweep and never returns half a radial.
+// The decoder recognizes containers by content, never by name. It unpacks gzip, bzip2 or .Z around
+// the whole file, in several layers if need be. Inside are a 24-byte header, which may be missing,
+// and LDM bzip2 records, or plain 2432-byte frames and messages 31. The input is hostile, so every
+// length is bounded before it is used. The decoder keeps what is whole and lists the damage in the
+// report. It never makes up a sweep and never returns half a radial.
 //
 // Units     Those of stormcellar/level2/volume.h; limits are in bytes.
 // Threads   Pure functions. decode() may use `threads` threads of its own.

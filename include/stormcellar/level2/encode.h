@@ -3,8 +3,8 @@
 // encode() writes an Archive II file as the RDA would send it. A 24-byte header is followed by a
 // metadata record of 134 frames with messages 5 and 2 at their usual places. The frames of clutter
 // maps and adaptation data stay empty, as in files of TDWRs, because a Volume does not hold these
-// data. Then come LDM bzip2 records of up to 120 radials (message 1: 100), none of which spans two
-// sweeps; the last control word is negative. Each sweep is written as the message type that it came
+// data. LDM bzip2 records of up to 120 radials (message 1: 100) follow. No record spans two sweeps,
+// and the last control word is negative. Each sweep is written as the message type that it came
 // from, 31 or 1.
 //
 // decode(encode(v)) gives v to the bit. encode() decodes each record that it makes, and refuses a
@@ -14,7 +14,7 @@
 // station; the decoder then needs it as its fallback.
 //
 // Units     Those of stormcellar/level2/volume.h.
-// Memory    A second copy of the volume.
+// Memory    A second copy of the volume, made to check the result.
 // Threads   Pure functions.
 // Errors    bad_argument for a volume that decode() would not return unchanged; the message names
 //           the part, with indices from 0. Such volumes have numbers between the steps of a field

@@ -57,7 +57,7 @@ void put_aside(LiveChunk& chunk, SweepDepot& depot);
 
 // Decodes a chunk; the caller sets kind and serial. Errors: empty; not_level2; corrupt or truncated
 // if it holds neither a whole header nor a whole message; unsupported if it exceeds `room` or has
-// more than 1000 records; exhausted if the system has no more memory. It may also throw
+// more than 1000 records; exhausted if the system has no more memory. The function may also throw
 // std::bad_alloc.
 [[nodiscard]] Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes,
                                                 const DecodeOptions& options, LiveRoom room);

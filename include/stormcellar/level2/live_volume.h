@@ -71,8 +71,7 @@ class LiveVolume {
     // - not_level2, empty, corrupt or truncated for a chunk that holds nothing whole; finish()
     //   reports it unless a good chunk of its number comes;
     // - unsupported if the chunk exceeds a limit;
-    // - exhausted if the system has no more memory. Then nothing is known about the chunk; add
-    //   it again.
+    // - exhausted if the system has no more memory; the caller should add the chunk again.
     [[nodiscard]] Result<Added> add(int number, ChunkKind kind, std::span<const std::byte> bytes,
                                     Clock::time_point now);
 
