@@ -24,7 +24,7 @@ struct UnitName {
     std::string_view name;  // in lower case
     Slot slot;
     double multiply;
-    double divide;  // a divisor, so that 20 ms is the double nearest to 0.02 s
+    double divide;  // divides, so that 20 ms is exactly the double nearest to 0.02 s
     ValueUnit value_unit = ValueUnit::db;  // for a value
 };
 constexpr std::array unit_names = {UnitName{"m", Slot::position, 1, 1},
@@ -52,7 +52,7 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-// Splits one part, "250 m" or "dE 2", into its number and its unit.
+// One part of a budget, "250 m" or "dE 2", as a number and a unit.
 struct Part {
     double number = 0;
     std::string unit;
@@ -72,7 +72,7 @@ Result<Part> split_part(std::string_view text) {
     }
     const std::string_view behind =
         trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-    // The test also refuses NaN, without comparing it.
+    // signbit() also refuses -0 and isfinite() NaN, without a comparison that would trap.
     if (error != std::errc{} || !std::isfinite(part.number) || std::signbit(part.number)) {
         return fail(ErrorCode::bad_argument,
                     "\"{}\" in the budget must be a finite number and not negative",
@@ -98,7 +98,7 @@ Status take_part(std::string_view text, Budget& budget) {
             "\"{}\" in the budget has {}; the units are m, km, dB, m/s, deg, ratio, dE, ms and s",
             printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
     }
-    // Tested beforehand, because floating-point traps must not see an overflow.
+    // Test before multiplying, because floating-point traps must not see an overflow.
     if (part->number > std::numeric_limits<double>::max() / unit->multiply) {
         return fail(ErrorCode::bad_argument, "\"{}\" in the budget is too large", printable(text));
     }

@@ -17,7 +17,7 @@ Candidate evaluate(const Chain& chain, const Choice& choice) {
     return candidate;
 }
 
-// Measured costs would make the order depend on how busy the machine was.
+// Returns true if the chain has efforts. Otherwise only measured costs can order its choices.
 bool has_efforts(const Chain& chain) {
     for (const Step& step : chain.steps) {
         for (const Effect& effect : step.effects) {
@@ -35,7 +35,8 @@ bool comes_before(const Candidate& a, const Candidate& b, bool by_cost) {
     return a.choice.rungs > b.choice.rungs;
 }
 
-// Returns true if the choice leaves off an effect of unbounded size that could be on.
+// Returns true if the choice leaves off an effect of unbounded size that its settings allow to be
+// on.
 bool is_reckless(const Chain& chain, const Choice& choice, const std::vector<RungRange>& ranges) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         for (std::size_t k = choice.rungs[i]; k < ranges[i].most; ++k) {
@@ -46,7 +47,7 @@ bool is_reckless(const Chain& chain, const Choice& choice, const std::vector<Run
 }
 
 // Advances to the next choice within the ranges, like a counter with one wheel for each step.
-// Returns false after the last one.
+// Returns false after the last choice.
 bool advance(Choice& choice, const std::vector<RungRange>& ranges) {
     for (std::size_t i = ranges.size(); i > 0; --i) {
         if (choice.rungs[i - 1] < ranges[i - 1].most) {

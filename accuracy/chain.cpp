@@ -30,7 +30,7 @@ Status validate_effect(const Effect& effect) {
     return {};
 }
 
-// An effect that is on needs all effects below it in its step.
+// Checks that every effect that is set on can have all effects below it in its step on.
 Status validate_settings(const Step& step) {
     const RungRange range = allowed_rungs(step);
     if (range.least <= range.most) return {};
@@ -53,8 +53,8 @@ Status validate_joint_costs(const Chain& chain) {
     return {};
 }
 
-// Returns the figure of the cheapest choice, plus the figures of all effects that are on and of all
-// joint costs.
+// Returns `cheapest` plus the figures of all effects that are on and of all joint costs; at least
+// 0.
 template <class Figure>
 double sum_over(const Chain& chain, const Choice& choice, double cheapest, const Figure& figure) {
     double sum = cheapest;

@@ -7,7 +7,8 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Sums of weights, and products with q, may be off by this much, which must not cost a rank.
+// Rounding in sums of weights and in products with q may reach this share. It must not shift a
+// rank.
 constexpr double share_slack = 1e-12;
 
 struct Weighted {
@@ -40,7 +41,7 @@ std::optional<ErrorSummary> summarize_weighted(std::vector<Weighted> list) {
     double squares = 0;
     for (const Weighted& entry : list) {
         total += entry.weight;
-        // Errors are taken relative to the largest, so that no square overflows.
+        // Divide by the largest error, so that no square overflows.
         if (summary.max > 0 && !std::isinf(summary.max)) {
             const double part = entry.magnitude / summary.max;
             squares += entry.weight * part * part;

@@ -46,7 +46,7 @@ struct Line {
     std::string predicted;
     std::string share;
     std::string evidence;
-    std::string below;  // lines that explain the line above
+    std::string below;  // an indented explanation, below this line
 };
 
 std::vector<Line> lines_of(const Plan& plan) {

@@ -1,9 +1,8 @@
-// accuracy/explain.h -- the text of `--explain`: the size of each effect, the budget, what is on or
-// off, and why.
+// accuracy/explain.h -- the text of `--explain`: the size of each effect, whether it is on or off
+// and why, and the budget.
 //
-// Lines have at most 80 characters if words allow it. The text of a plan is the same on every
-// machine (measured times belong to the plan and not to the writer). Sizes are rounded up to three
-// digits.
+// Explanations are wrapped at 80 characters; other lines may be longer. The same plan has the same
+// text on every machine. Sizes are rounded up to three digits.
 //
 // Threads   A pure function.
 #pragma once

@@ -9,15 +9,15 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Returns true if the size of the effect is known from a sample only. A sample without the effect
-// proves nothing: in a sparse scene 1 of 8 cells was off by 1.4 dB, but none of the sampled ones.
-// Positions are computed from the geometry, so an effect of size 0 does not touch them.
+// Returns true if only a sample shows how large the effect is. A sample in which the effect does
+// nothing proves nothing: in a sparse scene 1 of 8 cells was off by 1.4 dB, but none of the sampled
+// cells. Positions are computed from the geometry, so an effect with position size 0 moves none.
 bool rests_on_sample(const Effect& effect, Quantity quantity) {
     if (effect.evidence != Evidence::sample) return false;
     return quantity != Quantity::position || effect.predicted.position_m > 0;
 }
 
-// Returns true if the total size of what the choice leaves off is known without a sample.
+// Returns true if the sum that the choice leaves off is known without a sample.
 bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         const std::vector<Effect>& effects = chain.steps[i].effects;
@@ -29,7 +29,7 @@ bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     return true;
 }
 
-// Returns the bounded quantities that are not proven; measuring must check them.
+// Returns the bounded quantities that are not proven, which measuring must check.
 std::vector<Quantity> unproven(const Chain& chain, const Budget& budget, const Choice& choice) {
     std::vector<Quantity> quantities;
     for (const Quantity quantity : all_quantities) {
@@ -47,7 +47,7 @@ bool shown(const Measured& measured, const Budget& budget, const std::vector<Qua
     });
 }
 
-// Returns the measurement, with proven sums for the quantities that were not measured.
+// Returns the measurement with the proven sum of each quantity that has no measured bound.
 Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured measured) {
     const auto fill = [&](Quantity quantity, std::optional<double>& bound) {
         if (bound || !is_proven(chain, candidate.choice, quantity)) return;
@@ -59,8 +59,8 @@ Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured me
     return measured;
 }
 
-// Returns at most `most` candidates that fit the budget by prediction, the cheapest first. If there
-// are more, the most accurate one replaces the last.
+// Returns at most `most` candidates that fit the budget by prediction, in order of rising effort.
+// If more fit, the most accurate of all replaces the last.
 std::vector<Candidate> to_try(const std::vector<Candidate>& candidates, const Budget& budget,
                               std::size_t most) {
     std::vector<Candidate> good;
@@ -94,7 +94,7 @@ std::string describe_measured(const Measured& measured, const Budget& budget, Va
     return text;
 }
 
-// Tries one candidate after another and keeps the results.
+// Tries candidates in turn, and keeps the best measurement.
 class Trial {
   public:
     Trial(const Chain& chain, const Budget& budget, const Measure& measure,
@@ -108,7 +108,7 @@ class Trial {
         return !budget_.time_s || candidate.cost_s + measuring_s_ <= *budget_.time_s;
     }
 
-    // Returns the plan if the candidate meets the budget, otherwise none.
+    // Returns the plan if the candidate meets the budget, else none.
     Result<std::optional<Plan>> attempt(const Candidate& candidate) {
         const auto needed = unproven(chain_, budget_, candidate.choice);
         if (needed.empty()) return finish(candidate, Outcome::met, std::nullopt);
@@ -124,7 +124,8 @@ class Trial {
         return std::nullopt;
     }
 
-    // Returns the best measured plan after all have failed, or none if nothing was measured.
+    // Returns the plan of the best measured candidate, which does not meet the budget; none if
+    // nothing was measured.
     [[nodiscard]] std::optional<Plan> best() const {
         if (!best_) return std::nullopt;
         Plan plan = finish(*best_, Outcome::unmet, best_measured_);
@@ -148,7 +149,8 @@ class Trial {
         return plan;
     }
 
-    // Without a bound nothing is known, so any known error is better.
+    // Keeps the candidate if it is the best so far. Any known error is better than an unknown
+    // error.
     void keep_best(const Candidate& candidate, const Measured& measured,
                    const std::vector<Quantity>& needed) {
         ErrorSize size;
@@ -171,7 +173,7 @@ class Trial {
         best_size_ = size;
     }
 
-    // Returns all settings other than auto, because each narrows the choice.
+    // Returns the effects that the user set off, as text for the shortfall.
     [[nodiscard]] std::string settings_in_the_way() const {
         std::string text;
         for (const Step& step : chain_.steps) {
@@ -214,7 +216,7 @@ Result<Plan> govern(const Chain& chain, const Budget& budget, const Measure& mea
         if (*attempted) return **std::move(attempted);
     }
     if (auto best = trial.best()) return *std::move(best);
-    // The plan fits by prediction, so there was a candidate to try, and time for it.
+    // The plan fits by prediction, so at least one candidate was within the time.
     return fail(ErrorCode::internal, "the governor tried nothing");
 }
 

@@ -1,23 +1,23 @@
-// accuracy/governor.h -- makes a plan and checks its promise on the scene itself.
+// accuracy/governor.h -- makes a plan and checks on the scene itself that the plan keeps the
+// budget.
 //
-// Predictions from a sample can be wrong, and effects can act together. So choices whose predicted
-// sums are within the budget are measured by the caller's `measure`, in order of rising effort, and
-// the first that meets the budget wins. A choice meets a limit
+// Predictions from a sample can be wrong, and effects can act together. So govern() takes the
+// choices whose predicted sums are within the budget, in order of rising effort, has the caller's
+// `measure` measure each, and returns the first that meets the budget. A choice meets a limit
 //   by proof       if every effect left off that touches the quantity has a proven bound (a sample
-//                  that shows no effect is no proof),
+//                  that shows no effect is no proof), or
 //   by measuring   if the measured upper bound is within the limit.
-// A choice that leaves nothing off, or is proven in every bounded quantity, is not measured. If the
-// sample is too small for a bound, the limit is not met, so that no choice passes by luck. After
-// all but one of `most_measured` choices have failed, the most accurate choice of all is tried
-// instead of the next one.
+// A choice that is proven in every bounded quantity is not measured. If the sample is too small for
+// a bound, the limit is not met, so that no choice passes by luck. At most `most_measured` choices
+// are tried. If there are more, the most accurate of all is tried last.
 //
-// The time for measuring counts toward a budget's time: a choice is taken only if its cost and the
-// time measured so far fit. A budget of a time alone is planned and not measured.
+// The time for measuring counts toward a budget's time: a choice is taken only if its cost plus the
+// time measured so far is within it. A budget with only a time is planned and not measured.
 //
 // Units     As in stormcellar/accuracy/budget.h.
 // Threads   Calls `measure` from the calling thread, one call at a time.
-// Errors    Those of plan() and of `measure`. A budget that cannot be met is not an error but a
-//           plan (stormcellar/accuracy/plan.h).
+// Errors    The errors of plan() and of `measure`. If no choice meets the budget, the result is a
+//           plan that says so (stormcellar/accuracy/plan.h).
 #pragma once
 
 #include <functional>
@@ -31,17 +31,17 @@ using Measure = std::function<Result<Measured>(const Choice&)>;
 
 struct GovernorOptions {
     std::size_t most_measured = 16;  // 0 counts as 1
-    std::function<double()> now_s;   // a monotonic clock; none: the system's
+    std::function<double()> now_s;   // a monotonic clock; null: monotonic_s()
 };
 
 [[nodiscard]] Result<Plan> govern(const Chain& chain, const Budget& budget, const Measure& measure,
                                   const GovernorOptions& options = {});
 
-// Returns the plan of one choice without measuring it, for a caller without a budget. Sizes and
+// Returns the plan for a choice without measuring it, for a caller without a budget. Sizes and
 // costs are the predictions of the chain.
 [[nodiscard]] Plan plan_of_default(const Chain& chain, Choice choice);
 
-// Returns govern() if there is a budget, else the plan of `by_default`.
+// Returns govern() if there is a budget, else plan_of_default() of `by_default`.
 [[nodiscard]] Result<Plan> govern_or_default(const Chain& chain,
                                              const std::optional<Budget>& budget,
                                              const Choice& by_default, const Measure& measure);

@@ -7,7 +7,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Returns the criteria of the Pareto front. Less is better in each.
+// Returns the criteria of the Pareto front; less is better.
 std::array<double, 4> criteria(const LadderRow& row, TimeKind kind) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     return {kind == TimeKind::kept ? row.kept_time_s.value_or(row.time_s) : row.time_s,

@@ -77,8 +77,8 @@ std::string gains(const Rung& rung, const Rung& base, ValueUnit unit) {
                        error_in_words(rung, unit));
 }
 
-// Returns the ratio of the fall of the error to the rise of the time, both as powers. An exact form
-// is the end of every ladder and no bargain, so it counts only if there is nothing else.
+// Returns the logarithm of the fall of the error over the logarithm of the rise of the time. An
+// exact rung is no bargain: its value is 0, so it is chosen only if there is no other.
 double bargain(const Rung& rung, const Rung& base) {
     if (rung.error <= 0) return 0;
     return std::log(base.error / rung.error) / std::log(std::max(1.01, rung.time_s / base.time_s));

@@ -1,5 +1,4 @@
-// The ladder as a table for people: its columns have words as headings, and it fits 100 columns of
-// a terminal.
+// Writes the ladder as a table for people, with words as headings, for a terminal of 100 columns.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -22,8 +21,7 @@ std::size_t width_of(const std::string& text) {
     }));
 }
 
-// Returns at most this many characters. A text that is cut ends with periods in place of its last
-// three.
+// Returns the text with at most this many characters. A text that is cut ends with three periods.
 std::string shortened(const std::string& text, std::size_t most) {
     if (width_of(text) <= most) return text;
     std::string out;
@@ -37,10 +35,10 @@ std::string shortened(const std::string& text, std::size_t most) {
 
 using Cell = std::optional<std::string>;
 
-// A column of figures: two lines of heading, and the figure of a row.
+// A column of figures: two lines of heading, and how to get a row's figure.
 struct Heading {
     const char* upper;
-    const char* lower;  // {} stands for the unit of the values
+    const char* lower;  // {} is replaced by the unit of the values
     Cell (*cell)(const LadderRow& row);
 };
 

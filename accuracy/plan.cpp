@@ -18,7 +18,8 @@ bool is_empty(const Budget& budget) {
     return !budget.bounds_errors() && !budget.time_s;
 }
 
-// The error and the saved time if the effect and all effects above it were off.
+// The error that would be left off, and the time saved, if the effect and all effects above it were
+// off.
 struct Lowered {
     ErrorSize left_off;
     double saved_s = 0;
@@ -35,7 +36,7 @@ Lowered without(const Situation& situation, std::size_t at, std::size_t index) {
     return lowered;
 }
 
-// Returns the reason for the effect of that index in step number `at`.
+// Returns the reason why effect `index` of step `at` is on.
 std::string reason_on(const Situation& situation, std::size_t at, std::size_t index) {
     const Step& step = situation.chain.steps[at];
     const Effect& effect = step.effects[index];

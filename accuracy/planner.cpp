@@ -12,7 +12,7 @@ bool in_time(const Candidate& candidate, const Budget& budget) {
     return !budget.time_s || candidate.cost_s <= *budget.time_s;
 }
 
-// The list is in order of rising cost, so the cheapest of equal candidates is kept.
+// Keeps the first of equally accurate candidates, which has the least effort.
 const Candidate* most_accurate_in_time(const std::vector<Candidate>& candidates,
                                        const Budget& budget) {
     const Candidate* best = nullptr;
@@ -25,7 +25,7 @@ const Candidate* most_accurate_in_time(const std::vector<Candidate>& candidates,
     return best;
 }
 
-// Returns only the quantities that the budget bounds.
+// Returns the size in the quantities that the budget bounds, and 0 in others.
 ErrorSize bounded_part(const ErrorSize& size, const Budget& budget) {
     ErrorSize part;
     if (budget.position_m) part.position_m = size.position_m;

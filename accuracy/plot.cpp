@@ -122,7 +122,7 @@ std::string draw_axes(const Plot& plot, const PlotLayout& layout) {
     return svg;
 }
 
-// Returns the largest size, up to title_size, at which the title fits.
+// Returns a size of 9 to title_size at which the title fits, if it fits at 9.
 double size_of_title(const Plot& plot) {
     const auto letters = static_cast<double>(std::max<std::size_t>(1, plot.title.size()));
     return std::clamp((plot.width - 24) / (letters * bold_width), 9.0, title_size);

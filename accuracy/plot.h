@@ -1,13 +1,13 @@
 // accuracy/plot.h -- plots error against time as an SVG picture.
 //
 // Both axes are logarithmic. Each series (a step of the chain) has its own color and shape, which
-// any color vision can distinguish (colors of Okabe and Ito 2008). Points on the Pareto front are
-// filled, and a line joins them. Text is in the viewer's own sans-serif font. The result is
-// well-formed XML 1.0 in UTF-8, with the same bytes for the same plot.
+// readers with any color vision can distinguish (colors of Okabe and Ito 2008). Points on the
+// Pareto front are filled, and a line joins them. Text is in the viewer's sans-serif font. The
+// result is well-formed XML 1.0 in UTF-8, with the same bytes for the same plot.
 //
 // Threads   Pure functions.
-// Errors    bad_argument for no points or more than 400, for a time that is not above zero, an
-//           error that is negative or not finite, and a size outside 400 to 4000 pixels.
+// Errors    bad_argument for no points or more than 400, a time that is not above zero, an error
+//           that is negative or not finite, or a size outside 400 to 4000 pixels.
 #pragma once
 
 #include <string>

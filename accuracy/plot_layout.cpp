@@ -38,7 +38,7 @@ Status validate(const Plot& plot) {
     return {};
 }
 
-// Returns four decades below the greatest error if any error is below that, else 0.
+// Returns the value four decades below the greatest error if any error is below it, else 0.
 double least_on_the_axis(const Plot& plot) {
     double greatest = 0;
     for (const PlotPoint& point : plot.points)
@@ -50,7 +50,7 @@ double least_on_the_axis(const Plot& plot) {
     return needed ? least : 0;
 }
 
-// A logarithmic axis from one pixel to another.
+// A logarithmic axis between two pixel positions.
 struct Axis {
     double low = 0, high = 1;  // log10
     double from = 0, to = 1;   // pixels
@@ -69,7 +69,7 @@ Axis make_axis(const std::vector<double>& numbers, double from, double to) {
         axis.high = first ? log : std::max(axis.high, log);
         first = false;
     }
-    // Room at both ends, and half a decade on each side of a single value.
+    // Leave room at both ends, and make the axis at least one decade long.
     const double room = std::max(0.08 * (axis.high - axis.low), 0.12);
     axis.low -= room;
     axis.high += room;
@@ -122,7 +122,7 @@ PlotBox label_box(const PlotMarker& marker, const std::string& text, double dx, 
     return {x - width / 2, y - height / 2, x + width / 2, y + height / 2};
 }
 
-// Returns the length of a line inside a box, in pixels. It is computed in steps, which is enough to
+// Returns the length of a line inside a box, in pixels. Steps along the line are exact enough to
 // compare places.
 double length_within(const PlotBox& box, const PlotMarker& from, const PlotMarker& to) {
     constexpr double step = 2;
@@ -138,14 +138,14 @@ double length_within(const PlotBox& box, const PlotMarker& from, const PlotMarke
     return within;
 }
 
-// Returns the cost of a place for a label: what it hides, and how far it extends beyond the frame.
+// Returns the cost of a place for a label: how much it hides, and how far it is beyond the frame.
 double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room) {
     double cost = 0;
     for (const PlotLabel& label : layout.labels)
         cost += 2 * box.overlap(label.box);
     for (const PlotMarker& marker : layout.markers)
         cost += 3 * box.overlap(marker_box(marker));
-    // A label over a line is readable, because it has a white edge.
+    // A label over a line counts less: its white edge keeps it readable.
     for (const auto& front : layout.fronts) {
         for (std::size_t i = 1; i < front.size(); ++i)
             cost += 0.5 * length_within(box, front[i - 1], front[i]);
@@ -154,7 +154,7 @@ double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room
     return cost + 4 * (area - box.overlap(room));
 }
 
-// Places a label beside its marker if there is room, else farther off. Takes the first of the best
+// Places a label beside its marker if there is room, else farther away; takes the first of the best
 // places.
 PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::string& text) {
     struct Direction {
@@ -193,7 +193,7 @@ std::size_t series_index(std::vector<std::string>& series, const std::string& na
     return series.size() - 1;
 }
 
-// Returns the points on the front of each series, from left to right.
+// Returns the points on each series' front, from left to right.
 std::vector<std::vector<PlotMarker>> fronts_of(const PlotLayout& layout) {
     std::vector<std::vector<PlotMarker>> fronts(layout.series.size());
     for (const PlotMarker& marker : layout.markers)

@@ -1,8 +1,9 @@
-// accuracy/plot_layout.h -- the places of everything in an accuracy plot.
+// accuracy/plot_layout.h -- the positions of everything in an accuracy plot.
 //
-// Layout and drawing are separate, so that tests can check that nothing overlaps. Errors of 0,
-// which a logarithmic axis cannot show, have a row of their own below it. So do errors more than
-// four decades below the greatest, because they are rounding errors and would compress the rest.
+// Layout and drawing are separate, so that tests can check that nothing overlaps. A logarithmic
+// axis cannot show errors of 0, so they have their own row below it. Errors more than four decades
+// below the greatest are also in that row, because they are rounding errors and would compress the
+// rest of the axis.
 //
 // Units     Pixels, with y downward.
 // Threads   Pure functions.
@@ -33,23 +34,23 @@ struct PlotMarker {
 };
 
 struct PlotLabel {
-    PlotBox box;  // the text lies inside, at the side toward its marker
+    PlotBox box;  // the text is inside, at the side toward its marker
     enum class Side { left, middle, right } side = Side::middle;
     std::string text;
-    std::size_t marker = 0;  // the marker that it belongs to
-    bool leader = false;     // it is away from the marker, so a line leads there
+    std::size_t marker = 0;  // number of the marker that has this label
+    bool leader = false;     // true: the label is away from its marker, so a line joins them
 };
 
 struct PlotLayout {
     PlotBox frame;
-    std::vector<std::vector<PlotMarker>> fronts;  // of each series, from left to right
+    std::vector<std::vector<PlotMarker>> fronts;  // of each series, left to right
     std::vector<double> lines_below;              // y of each line below the title
     std::vector<std::string> series;              // in the order of first appearance
     std::vector<PlotTick> time_ticks, error_ticks;
     std::optional<double> zero_y;     // the row of exact points, if there are any
-    double zero_below = 0;            // that row also holds errors below this one
+    double zero_below = 0;            // the row of exact points also holds errors below this
     std::vector<PlotMarker> markers;  // one for each point, in order
-    std::vector<PlotLabel> labels;    // likewise
+    std::vector<PlotLabel> labels;    // one for each marker, in order
 };
 
 inline constexpr double marker_radius = 5;

@@ -9,7 +9,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// A weight times a count may be off by this much.
+// relative rounding that a weight times a count may have
 constexpr double weight_slack = 1e-9;
 
 double magnitude(double error) {
@@ -23,13 +23,14 @@ bool sensible(const BoundRequest& request) {
            request.confidence < 1;
 }
 
-// Returns how many of n errors may exceed the bound. It is the largest c for which c or fewer
-// errors exceed the true quantile with a probability of at most 1 - confidence. Returns none if
-// even 0 is too likely.
+// Returns how many of n errors may exceed the bound: the largest c for which at most c errors
+// exceed the true quantile with a probability of at most 1 - confidence. Returns none if even 0 is
+// too likely.
 std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest& request) {
     const auto count = static_cast<double>(n);
     const double log_odds = std::log1p(-request.quantile) - std::log(request.quantile);
-    double log_probability = count * std::log(request.quantile);  // for exactly k, which is 0 here
+    double log_probability = count * std::log(request.quantile);  // for exactly k errors; k is 0
+                                                                  // here
     double sum = std::exp(log_probability);
     if (sum > 1 - request.confidence) return std::nullopt;
     std::size_t k = 0;
@@ -43,7 +44,7 @@ std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest
     return k;
 }
 
-// One cluster in the form that the wager needs.
+// One cluster as log_capital() needs it.
 struct Column {
     std::vector<double> sorted;  // magnitudes
     double weight = 1;
@@ -52,8 +53,8 @@ struct Column {
 // The number of stakes. Each stake bets a different fraction of the capital.
 constexpr std::size_t stake_count = 8;
 
-// Returns the logarithm of the mean, over the stakes, of the capital won by betting that t is at
-// least the quantile. It rises with t.
+// Returns the logarithm of the capital won by betting that t is at least the quantile, as a mean
+// over the stakes. It rises with t.
 double log_capital(const std::vector<Column>& columns, double t, double largest_stake,
                    double allowed_share) {
     std::array<double, stake_count> logs{};
@@ -111,7 +112,8 @@ std::optional<double> quantile_upper_bound(std::span<const ErrorCluster> cluster
         column.weight /= most_weight;
     std::sort(candidates.begin(), candidates.end());
 
-    // The heaviest cluster must not take all capital, even if all its errors exceed t.
+    // Choose the largest stake so that a cluster of most_weight leaves some capital even if all its
+    // errors exceed t.
     const double largest_stake = 0.99 / request.quantile;
     const double needed = -std::log(1 - request.confidence);
     const auto wins = [&](double t) {

@@ -1,11 +1,11 @@
-// accuracy/quantile_bound.h -- bounds the errors that were not sampled, from a sample.
+// accuracy/quantile_bound.h -- bounds all errors from a sample of them.
 //
-// The functions return an upper confidence bound of a quantile. Over repeated samples, the bound is
-// below the true quantile of the magnitudes of all errors in at most a share of 1 - confidence of
-// the samples, whatever the distribution (heavy tails, ties, mixtures). It is one of the sampled
-// magnitudes. It is none if the sample is too small to bound the quantile at all; nothing is ever
-// extrapolated. The true quantile is the smallest t that at most a share 1 - quantile of the errors
-// exceeds. A NaN counts as infinite.
+// The functions return an upper confidence bound of a quantile, which is one of the sampled
+// magnitudes. Over repeated samples, the bound is below the true quantile of the magnitudes of all
+// errors in at most a share 1 - confidence of the samples, whatever the distribution (heavy tails,
+// ties, mixtures). The functions return none if the sample is too small to bound the quantile at
+// all; they never extrapolate. The true quantile is the smallest t that at most a share 1 -
+// quantile of the errors exceeds. A NaN counts as infinite.
 //
 // Accuracy  tests/accuracy/quantile_bound_test.cpp enforces the coverage on simulations with known
 //           truth.
@@ -32,26 +32,27 @@ struct BoundRequest {
 
 // Bounds errors in clusters, such as the columns of a grid. Only the clusters are independent; all
 // cells of one cluster may be off together. Clusters may be empty, may differ in size, may be
-// larger the more they are off, and may be drawn without replacement. The sample may favor some of
-// them:
-//   strata        Fix beforehand how many clusters each stratum gives; weight = (clusters in the
-//                 stratum) / (clusters drawn from it).
-//   proportional  Draw in proportion to a size that is known for all, such as the number of cells
-//                 in which the cheap form has a value, with replacement; weight = 1 / size.
+// larger the more they are off, and may be drawn without replacement. The sample may favor some
+// clusters:
+//   strata        Fix beforehand how many clusters to draw from each stratum; weight = (clusters in
+//                 the stratum) / (clusters drawn from it).
+//   proportional  Draw with replacement, in proportion to a size that is known for all clusters,
+//   such
+//                 as the number of cells in which the cheap form has a value; weight = 1 / size.
 // `most_weight` is the largest possible (weight * errors) of any cluster that could have been
 // drawn. It must be known beforehand and not taken from the sample. Without weights it is the
-// number of levels. If a cluster exceeds it, there is no bound.
+// number of levels. If a cluster exceeds `most_weight`, there is no bound.
 //
-// The method is a wager that t is at least the quantile. A cluster with weight w and m errors, k of
-// which exceed t, multiplies the stake by 1 - l w (k - (1 - quantile) m). If t were below the
+// The method is a wager that t is at least the quantile. A cluster with weight w and m errors, of
+// which k exceed t, multiplies the stake by 1 - l w (k - (1 - quantile) m). If t were below the
 // quantile, the expected stake would not grow (for strata by the inequality of the means). So by
-// Markov's inequality it reaches 1 / (1 - confidence) with a probability of at most 1 - confidence.
-// The stake is shared among eight values of l. (After Waudby-Smith and Ramdas 2024, "Estimating
-// means of bounded random variables by betting".)
+// Markov's inequality the stake reaches 1 / (1 - confidence) with a probability of at most 1 -
+// confidence. The stake is shared among eight values of l. (After Waudby-Smith and Ramdas 2024,
+// "Estimating means of bounded random variables by betting".)
 //
-// The 99th percentile at 99.9 % needs 902 clusters that are as heavy as most_weight, and ten times
-// as many if they have a tenth of it. So draw columns in proportion to the errors that they may
-// hold.
+// The 99th percentile at 99.9 % needs 902 clusters whose (weight * errors) is most_weight, or ten
+// times as many with a tenth of that. So draw columns in proportion to the number of errors that
+// they may hold.
 [[nodiscard]] std::optional<double> quantile_upper_bound(std::span<const ErrorCluster> clusters,
                                                          double most_weight,
                                                          const BoundRequest& request);

@@ -1,4 +1,4 @@
-// accuracy/timing.h -- measures how long work takes, in a way that is fair to all pieces.
+// accuracy/timing.h -- measures how long pieces of work take, in equal conditions.
 //
 // Units     Seconds.
 // Threads   Runs the work on the calling thread.
@@ -12,19 +12,19 @@ namespace stormcellar::accuracy {
 
 // Returns the seconds of a monotonic clock.
 [[nodiscard]] double monotonic_s();
-// Returns the processor seconds of the calling thread, which leave out other work of the machine.
+// Returns the processor time of the calling thread, which other work of the machine does not enter.
 [[nodiscard]] double thread_s();
 
 struct Timing {
-    double first_s = 0;   // the first run, which makes everything that later runs reuse
-    double least_s = 0;   // of the later runs; the first run if there is no other
-    double median_s = 0;  // of the same runs; for an even number, the mean of the middle two
+    double first_s = 0;   // the first run, which also makes everything that later runs reuse
+    double least_s = 0;   // the fastest later run, or the first run if there is only one
+    double median_s = 0;  // the median of the same runs (for an even number, the mean of the middle
+                          // two)
 };
 
-// Runs each piece of work `rounds` times (0 counts as 1). Each round runs every piece once, one
-// after the other, so that the load and the temperature of the machine affect all alike. Every
-// other round goes backward, so that no piece always follows the same one. All first runs are in
-// the first round.
+// Runs each piece of work `rounds` times (0 counts as 1). Each round runs every piece once, so that
+// the load and the temperature of the machine affect all pieces alike. Every second round runs them
+// in reverse order, so that no piece always follows the same piece.
 [[nodiscard]] std::vector<Timing> time_in_rounds(
     std::span<const std::function<void()>> works, int rounds,
     const std::function<double()>& now_s = monotonic_s);
