@@ -1,19 +1,18 @@
-// stormcellar/accuracy/budget.h -- the error, or the time, that a user allows.
+// stormcellar/accuracy/budget.h -- the error or the time that a user allows.
 //
-// A budget bounds MODEL error: the error of a rung against the exact form of its chain, on the same
-// gates. It does not bound how well the radar sampled the storm; that error is reported and never
-// budgeted.
-//   position_m  largest distance between the place of a cell's sample and its true place
-//   value       99th percentile over the cells valued in both, in the unit of the moment
+// A budget bounds the model error: the error of a rung against the exact form of its chain, on the
+// same gates. It does not bound how well the radar sampled the storm; that error is reported, but
+// has no budget.
+//   position_m  largest distance between the sample of a cell and its true place
+//   value       99th percentile over cells with a value in both forms, in the unit of the moment
 //   image_de    99th percentile over the pixels, CIEDE2000
 //   time_s      wall clock time of the whole chain
-// An error of 0 means exact: the planner may then leave off only effects that are predicted to
-// change nothing. A time of 0 is refused. A quantity without a budget is not bounded.
+// An error of 0 means exact: the planner may then leave off only effects whose predicted size is 0.
+// A time of 0 is refused. A quantity without a budget is not bounded.
 //
 // Units     Each member names its unit; `value` is in `value_unit`.
 // Threads   Budgets are plain values and all functions are pure, so any thread may use them.
-// Errors    parse_budget() returns bad_argument, and the message names the part that it did not
-//           understand.
+// Errors    parse_budget() returns bad_argument; the message says what is wrong.
 #pragma once
 
 #include <optional>
@@ -32,14 +31,14 @@ struct Budget {
     std::optional<double> image_de;
     std::optional<double> time_s;
 
-    // Returns the limit for one kind of error, or none if the budget does not bound it.
+    // Returns the limit of one quantity, or none if the budget does not bound it.
     [[nodiscard]] std::optional<double> limit(Quantity quantity) const;
-    // Returns true if any error is bounded. If not, the budget holds only a time, or nothing.
+    // Returns true if any error is bounded; false if the budget has only a time, or nothing.
     [[nodiscard]] bool bounds_errors() const;
     bool operator==(const Budget&) const = default;
 };
 
-// parse_budget() refuses texts of more bytes than this.
+// The greatest number of bytes that parse_budget() accepts.
 inline constexpr std::size_t longest_budget_text = 200;
 
 // Parses the parts of a budget, separated by commas: "250 m, 0.5 dB", "0.5 m/s", "dE 2", "20 ms".
@@ -47,8 +46,7 @@ inline constexpr std::size_t longest_budget_text = 200;
 // ratio, dE (before or after its number), ms and s, in upper or lower case.
 [[nodiscard]] Result<Budget> parse_budget(std::string_view text);
 
-// Writes a budget as text that parse_budget() reads: parse_budget(format_budget(b)) == b for every
-// budget `b` that parse_budget() returns.
+// Writes a budget as text from which parse_budget() reads the same budget.
 [[nodiscard]] std::string format_budget(const Budget& budget);
 
 }  // namespace stormcellar::accuracy

@@ -3,7 +3,7 @@
 //
 // Units     Costs are in seconds. Efforts are in the chain's own fixed scale.
 // Threads   Candidates are plain values and all functions are pure.
-// Errors    Only list_candidates() can fail.
+// Errors    Only list_candidates() returns errors.
 #pragma once
 
 #include <vector>
@@ -17,38 +17,36 @@ struct Candidate {
     Choice choice;
     double cost_s = 0;    // predicted, for the whole chain
     double effort = 0;    // for the whole chain, in the chain's fixed scale
-    ErrorSize left_off;   // the SUM of the predictions of all effects that are off
-    std::size_t off = 0;  // the number of those effects
+    ErrorSize left_off;   // left_off() of the choice
+    std::size_t off = 0;  // the number of effects that are off, including Setting::not_asked
 };
 
-// list_candidates() refuses a chain with more choices than this, because the search would take too
-// long.
+// The most choices that list_candidates() accepts; a search through more takes too long.
 inline constexpr std::size_t most_candidates = 65536;
 
-// Returns the choices that the settings allow, in order of rising effort. Effort rather than cost
-// decides, so that the cheapest choice does not depend on how busy the machine is; a chain without
-// efforts is ordered by cost.
+// Returns the choices that the settings allow, in order of rising effort. A chain without efforts
+// is ordered by cost instead; costs are measured, so that order depends on how busy the machine
+// was.
 //
-// A choice is left out if it leaves off an effect of unbounded size that may be on. No budget
-// allows that, not even a budget that does not bound the quantity. Among equals the choice with
-// fewer effects left off comes first, because its accuracy costs nothing. After that, the choice
-// with the higher rung at the first step where the two differ comes first.
+// A choice that leaves off an effect of unbounded size, although the settings allow it to be on, is
+// not listed: no budget allows that, not even a budget that does not bound the quantity. Among
+// choices of equal effort, the choice with fewer effects off comes first, because its accuracy
+// costs nothing; then the choice with the higher rung at the first step where two choices differ.
 //
-// Errors: those of validate(); unsupported for more than most_candidates choices.
+// Errors: the errors of validate(); unsupported for more than most_candidates choices.
 [[nodiscard]] Result<std::vector<Candidate>> list_candidates(const Chain& chain);
 
-// Returns true if each sum is within its limit. A quantity without a budget has no limit.
+// Returns true if each size is within the budget's limit, or the budget has no limit for it.
 [[nodiscard]] bool within(const ErrorSize& size, const Budget& budget);
 
 // Returns the largest share of its limit that any of the three errors takes: 0 if there is no
-// error, 1 if a limit is used up, infinity for any error against a limit of 0. For a budget that
-// bounds no error the limits are 250 m, 0.5 of the moment's unit and dE 2, so that choices can
+// error, 1 if a limit is just used up, infinity for any error against a limit of 0. If the budget
+// bounds no error, the limits are 250 m, 0.5 of the moment's unit and dE 2, so that choices can
 // still be compared.
 [[nodiscard]] double worst_share(const ErrorSize& size, const Budget& budget);
 
-// Returns true if `a` is nearer to the budget than `b` by worst_share(). If both are equal (both
-// unbounded, or limited by the same quantity), the sum of the shares of 250 m, 0.5 of the unit and
-// dE 2 decides.
+// Returns true if `a` has the smaller worst_share(). If both have the same share, returns true if
+// `a` has the smaller sum of shares of 250 m, 0.5 of the unit and dE 2.
 [[nodiscard]] bool is_more_accurate(const ErrorSize& a, const ErrorSize& b, const Budget& budget);
 
 }  // namespace stormcellar::accuracy

@@ -1,9 +1,9 @@
-// stormcellar/accuracy/effect.h -- one physical or optical effect: what it is, how large it is in
-// this scene, and what it costs.
+// stormcellar/accuracy/effect.h -- one physical or optical effect: its meaning, its size in a
+// scene, and its cost.
 //
-// An effect is one step up a ladder: if it is on, a step of the chain uses its next rung. The room
-// that does the step predicts the effect's size and cost for the scene at hand. This room knows no
-// physics.
+// An effect is one step up a ladder: if it is on, a step of the chain uses the next rung. The
+// module that does the step predicts the effect's size and cost for each scene. This module knows
+// no physics.
 //
 // Units     Costs are in seconds; the units of sizes are in stormcellar/accuracy/quantity.h.
 // Threads   Effects are plain values and all functions are pure.
@@ -20,14 +20,14 @@
 namespace stormcellar::accuracy {
 
 // The requested state of an effect. not_asked: the scene does not ask for the effect, so the exact
-// form lacks it too and leaving it off is no error. Light is an example: a picture without shadows
-// is not wrong.
+// form lacks it too, and leaving it off is no error. For example, a picture without shadows is not
+// wrong.
 enum class Setting { automatic, on, off, not_asked };
 
 // The source of the predicted size.
 enum class Evidence {
     exact,         // computed for this very scene
-    proven_bound,  // never exceeded in the scene, whatever rungs the other steps use
+    proven_bound,  // never exceeded in this scene, whatever rungs the other steps use
     sample,        // estimated from a sample; measuring must verify it (accuracy/governor.h)
 };
 [[nodiscard]] std::string_view name_of(Evidence evidence);  // "exact", "proven", "sample"
@@ -35,17 +35,17 @@ enum class Evidence {
 struct Effect {
     std::string name;  // snake_case, e.g. "refraction"
     std::string what;  // one plain sentence: "The beam bends more or less than over a 4/3 earth."
-    std::string rung;  // the rung when the effect is on, e.g. "ray traced"
-    ErrorSize predicted;  // this rung against the rung below it, with everything else exact
+    std::string rung;  // the rung that is used if the effect is on, e.g. "ray traced"
+    ErrorSize predicted;  // this rung against the next lower rung, with everything else exact
     Evidence evidence = Evidence::sample;
-    double cost_s = 0;  // extra time when it is on; never negative
+    double cost_s = 0;  // extra time if the effect is on; never negative
     Setting setting = Setting::automatic;
-    // The extra time in a fixed scale that is the same for all scenes and is not measured. Efforts
-    // order the choices, so that the cheapest choice does not depend on how busy the machine was.
+    // The extra time in a fixed scale that is the same for all scenes and is not measured. Choices
+    // are ordered by effort, so that the cheapest does not depend on how busy the machine was.
     double effort = 0;
 };
 
-// Returns an effect whose size and cost are 0, because they are not predicted yet.
+// Returns an effect with predicted size and cost 0, which the caller fills in.
 [[nodiscard]] Effect make_effect(std::string name, std::string rung, std::string what,
                                  double effort = 0);
 
@@ -59,9 +59,8 @@ struct EffectOverride {
     Setting setting = Setting::automatic;
 };
 
-// Parses "NAME=on", "NAME=off" or "NAME=auto". `names` are the effects that exist. Returns
-// bad_argument for anything else; if the name is similar to one of `names`, the message suggests
-// it.
+// Parses "NAME=on", "NAME=off" or "NAME=auto", where `names` lists the effects that exist. Returns
+// bad_argument for any other text; the message suggests a similar name if there is one.
 [[nodiscard]] Result<EffectOverride> parse_override(std::string_view text,
                                                     const std::vector<std::string>& names);
 

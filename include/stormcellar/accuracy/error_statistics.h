@@ -1,12 +1,12 @@
-// stormcellar/accuracy/error_statistics.h -- figures that sum up a list of errors.
+// stormcellar/accuracy/error_statistics.h -- figures that summarize a list of errors.
 //
-// The figures describe the given errors. To draw conclusions from a sample about all errors, use
-// accuracy/quantile_bound.h; do not mistake one for the other. Errors are signed; all figures
-// describe their magnitudes. An error that is NaN counts as infinite, so that it hides nothing.
+// The figures describe the given errors only; accuracy/quantile_bound.h draws conclusions from a
+// sample about all errors. Errors are signed; all figures describe their magnitudes. A NaN counts
+// as an infinite error, so that it stays visible.
 //
 // Units     All errors of a list, and its figures, are in one unit of the caller's choice.
 // Threads   Pure functions and plain values.
-// Errors    None; a list without errors has no summary.
+// Errors    None; an empty list has no summary.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@
 
 namespace stormcellar::accuracy {
 
-// Errors that may depend on each other, such as those of the cells of one column. The clusters of a
-// sample must have been drawn independently of each other.
+// Errors that may depend on each other, such as the errors of all cells of one column. The clusters
+// of a sample must have been drawn independently of each other.
 struct ErrorCluster {
     std::vector<double> errors;
-    double weight = 1;  // number of clusters that this one represents, in any one scale; above 0
+    double weight = 1;  // number of clusters that this cluster represents, in any scale; above 0
 };
 
 struct ErrorSummary {
@@ -28,19 +28,19 @@ struct ErrorSummary {
     double rms = 0, p95 = 0, p99 = 0, max = 0;
 };
 
-// Returns the figures, or none if there are no errors. The quantile q is the smallest error that at
-// least a share q of the (weighted) errors does not exceed, so it is always one of the errors.
+// Returns the figures, or none without errors. The quantile q is the smallest of the errors that at
+// least a share q of the (weighted) errors does not exceed.
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const double> errors);
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const ErrorCluster> clusters);
 
-// Number of cells whose status (value, no echo, not seen, range folded) was compared, and number
-// that differed. They are counted separately, because a value has an error only if both sides have
-// a value.
+// The number of cells whose status (value, no echo, not seen, range folded) was compared, and the
+// number of cells where it differed. Status is counted separately, because only a cell with a value
+// on both sides has an error.
 struct StatusCounts {
     std::uint64_t compared = 0;
     std::uint64_t disagreeing = 0;
 
-    // Returns the share of cells that disagree, or 0 if nothing was compared.
+    // Returns the share of compared cells that disagree, or 0 if no cell was compared.
     [[nodiscard]] double share() const;
     StatusCounts& operator+=(const StatusCounts& other);
     bool operator==(const StatusCounts&) const = default;

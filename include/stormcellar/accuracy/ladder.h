@@ -1,12 +1,12 @@
 // stormcellar/accuracy/ladder.h -- the table of accuracy against time, with a row for each rung.
 //
-// Each row describes a step at one rung, with everything else exact, compared with the exact form
-// of the chain. The Markdown table and (in the command line) the JSON are made from the same
-// fields. The keys name their units, as in "value_p99_db". The text table is for people: it has
-// fewer columns, with words for headings.
+// Each row describes one rung of a step, with everything else exact, compared with the exact form
+// of the chain. fields() serves the Markdown table and the command line's JSON; its keys name their
+// units, as in "value_p99_db". format_table() is for people: it has fewer columns, with words as
+// headings.
 //
 // Threads   Rows are plain values and all functions are pure, but for mark_pareto(), which changes
-//           the rows that it is given.
+//           its rows.
 // Errors    None.
 #pragma once
 
@@ -26,8 +26,8 @@ struct LadderRow {
     std::string step;
     std::size_t rung = 0;
     std::string name;
-    double time_s = 0;                  // the time of the first run, which makes everything anew
-    std::optional<double> kept_time_s;  // the time if the next volume reuses what one volume leaves
+    double time_s = 0;                  // of the first run, which makes everything anew
+    std::optional<double> kept_time_s;  // of a run that reuses what the run before it made
     std::optional<double> position_max_m;
     std::optional<double> position_rms_m;
     std::optional<ErrorSummary> value;  // in the moment's unit
@@ -36,28 +36,30 @@ struct LadderRow {
     bool pareto = false;
 };
 
-// the time that counts; a row without a kept time counts with its first
+// The time by which rows are compared. A row without kept_time_s always uses time_s.
 enum class TimeKind { first, kept };
 
-// Sets `pareto` in every row, for each step by itself. A row is on the front unless another row of
+// Sets `pareto` in every row, separately for each step. A row is on the front unless another row of
 // its step is at least as good in time, 99th percentile of the value, largest position error and
-// 99th percentile of the color, and better in one of them. Rows that are equal in all of these are
-// on the front together. A missing error counts as infinite, so a row cannot win by not being
+// 99th percentile of the color, and better in one of them. Rows that are equal in all four are on
+// the front together. A missing error counts as infinite, so a row cannot win because it was not
 // measured.
 void mark_pareto(std::span<LadderRow> rows, TimeKind kind = TimeKind::first);
 
 struct LadderField {
     std::string key;
-    std::variant<std::monostate, std::string, std::uint64_t, double, bool> value;  // null if empty
+    std::variant<std::monostate, std::string, std::uint64_t, double, bool> value;  // null if
+                                                                                   // monostate
 };
 // Returns the fields of a row: the same keys in the same order for every row.
 [[nodiscard]] std::vector<LadderField> fields(const LadderRow& row, ValueUnit unit);
 
-// Returns the table as text of at most 100 columns; each line ends with "\n". The rungs of a step
-// are below its name. A column without any value is left out, and "-" marks a missing value.
-// "first" is time_s, "further" kept_time_s, and "position" the largest position error. "usual", "99
-// in 100" and "largest" are the root mean square, the 99th percentile and the largest of the
-// values. "state" is the share of cells in another state, and "worth it" is `pareto`.
+// Returns the table as text of at most 100 columns, or more if the figures need it; each line ends
+// with "\n". The rungs of a step are below the step's name. A column without any value is omitted,
+// and "-" marks a missing value. The headings are "first" for time_s, "further" for kept_time_s,
+// "position" for the largest position error, "usual", "99 in 100" and "largest" for the root mean
+// square, the 99th percentile and the largest of the value errors, "color" for image_p99_de,
+// "state" for the share of cells with another status, and "worth it" for `pareto`.
 [[nodiscard]] std::string format_table(std::span<const LadderRow> rows, ValueUnit unit);
 
 }  // namespace stormcellar::accuracy

@@ -1,9 +1,8 @@
-// stormcellar/accuracy/quantity.h -- the quantities that errors are measured in, and how they are
-// written.
+// stormcellar/accuracy/quantity.h -- the quantities of errors, and how they are written as text.
 //
 // There are three quantities, which are never mixed: the distance of a cell's sample from its true
 // place, the error of a value, and the error of a picture's color. Sizes are magnitudes: never
-// negative and never NaN. Infinity means that no bound is known.
+// negative and never NaN. An infinite size has no known bound.
 //
 // Units     Meters for positions, the unit of the moment (ValueUnit) for values, CIEDE2000 for
 //           colors.
@@ -25,7 +24,7 @@ enum class ValueUnit { db, mps, degree, ratio };
 enum class Quantity { position, value, image };
 inline constexpr std::array all_quantities = {Quantity::position, Quantity::value, Quantity::image};
 
-// Returns the figure of the three that belongs to the quantity.
+// Returns one of the three figures: the one for `quantity`.
 template <class Figure>
 [[nodiscard]] const Figure& figure_of(Quantity quantity, const Figure& position,
                                       const Figure& value, const Figure& image) {
@@ -42,23 +41,23 @@ template <class Figure>
 
 struct ErrorSize {
     double position_m = 0;
-    double value = 0;     // in the ValueUnit of the chain or budget that holds it
+    double value = 0;     // in the ValueUnit of the chain or budget
     double image_de = 0;  // CIEDE2000
 
-    // Returns the size of one quantity.
+    // Returns the size in one quantity.
     [[nodiscard]] double of(Quantity quantity) const;
     ErrorSize& operator+=(const ErrorSize& other);
     bool operator==(const ErrorSize&) const = default;
 };
 
-// Returns true if no bound is known for any quantity.
+// Returns true if the size in at least one quantity is infinite.
 [[nodiscard]] bool is_unbounded(const ErrorSize& size);
 
-// Writes a number with three significant digits, rounded UP so that no error looks smaller than it
-// is, or "unbounded" for infinity. The text is for people; format_budget() writes budgets without
-// loss.
+// Writes a number with three significant digits, rounded up so that no error looks smaller than it
+// is (except beyond 1e290 or below 1e-290). Writes "unbounded" for infinity and "unknown" for NaN.
+// The text is for people; format_budget() writes budgets without loss.
 [[nodiscard]] std::string format_number(double number);
-// Writes one size with its unit, by format_number().
+// Writes a size with its unit, by format_number(); "unbounded" has no unit.
 [[nodiscard]] std::string format_quantity(Quantity quantity, double size, ValueUnit unit);
 // Writes the quantities that are not zero, such as "412 m, 0.2 dB", or "0" if all are zero.
 [[nodiscard]] std::string format_size(const ErrorSize& size, ValueUnit unit);
