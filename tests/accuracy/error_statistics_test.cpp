@@ -33,7 +33,8 @@ TEST(ErrorStatistics, FiguresAreOfMagnitudes) {
     EXPECT_EQ(zero->max, 0);
 }
 
-// The definition, by counting: the smallest error that at least q percent of all do not exceed.
+// Counts the quantile by its definition: the smallest error that at least q percent of all errors
+// do not exceed.
 double counted_quantile(const std::vector<double>& errors, std::size_t q_percent) {
     std::vector<double> magnitudes;
     for (const double error : errors)

@@ -62,7 +62,7 @@ TEST(Governor, APredictionThatWasWrongCostsTheNextRung) {
     const Plan plan = governed(small_chain(), "250 m, 0.5 dB", sample);
     EXPECT_TRUE(plan.meets_budget);
     EXPECT_EQ(plan.choice.rungs, (Rungs{0, 1, 1}));
-    EXPECT_EQ(sample.seen, (std::vector<Rungs>{{0, 1, 0}}));  // the next one is proven
+    EXPECT_EQ(sample.seen, (std::vector<Rungs>{{0, 1, 0}}));  // the choice after it is proven
     EXPECT_EQ(plan.measured_choices, 1U);
     EXPECT_FALSE(plan.measured);
     EXPECT_EQ(plan.decisions[3].effect, "linear_mean");
@@ -81,7 +81,7 @@ TEST(Governor, TooSmallASampleProvesNothing) {
     Sample sample{[](const Choice&) { return std::nullopt; }};
     const Plan plan = governed(small_chain(), "250 m, 0.5 dB", sample);
     EXPECT_TRUE(plan.meets_budget);
-    EXPECT_EQ(plan.choice.rungs, (Rungs{0, 1, 1}));  // leaves off only what is proven
+    EXPECT_EQ(plan.choice.rungs, (Rungs{0, 1, 1}));  // leaves off only proven effects
 }
 
 TEST(Governor, ABudgetThatIsNotMetNamesTheBestAndItsError) {
@@ -124,7 +124,7 @@ TEST(Governor, AnErrorOfMeasuringIsPassedOn) {
     EXPECT_EQ(plan.error().message, "the volume is gone");
 }
 
-// Ten steps with effects whose errors are known only by sampling.
+// Returns ten steps with effects whose errors only samples show.
 Chain sampled_chain() {
     Chain chain;
     for (int i = 0; i < 10; ++i) {
@@ -141,7 +141,7 @@ Chain sampled_chain() {
 TEST(Governor, AfterManyFailuresTheMostAccurateIsTried) {
     Sample sample{[](const Choice&) { return 9.0; }};
     const Plan plan = governed(sampled_chain(), "0.5 dB", sample, 5);
-    EXPECT_TRUE(plan.meets_budget);  // leaving nothing off is exact
+    EXPECT_TRUE(plan.meets_budget);  // a choice that leaves nothing off is exact
     EXPECT_EQ(plan.choice.rungs, Rungs(10, 1));
     EXPECT_EQ(sample.seen.size(), 4U);
 }
@@ -182,8 +182,8 @@ TEST(Governor, NeverTakesWhatWasNotShown) {
     EXPECT_GT(met, 1000);
 }
 
-// A plan stated 0 dB, since a sample had shown nothing, where 1 of 8 cells was off by 1.4 dB
-// (2026-11-25).
+// Regression of 2026-11-25: a plan promised 0 dB, because the sample had shown no error, although 1
+// of 8 cells was off by 1.4 dB.
 TEST(Governor, ASampleThatShowsNoEffectIsMeasuredAllTheSame) {
     Chain chain;
     chain.steps.push_back(

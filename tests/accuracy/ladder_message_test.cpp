@@ -46,7 +46,8 @@ TEST(LadderMessage, PraisesNothingThatIsNotBetter) {
     EXPECT_EQ(said_by({message_row("chain", "linear (default)", 2, 4),
                        message_row("chain", "slow", 20, 4.5)}),
               "no slower rung has a smaller error than linear");
-    // Faster and more accurate than the slow one: only that is worth its time.
+    // A rung that is faster and more accurate than the slow rung: only the former is worth its
+    // time.
     EXPECT_EQ(said_by({message_row("chain", "linear (default)", 2, 4),
                        message_row("chain", "good", 4, 1), message_row("chain", "bad", 8, 2)}),
               "good costs 2 times the time of linear and divides the error by 4 (to 1 dB)");

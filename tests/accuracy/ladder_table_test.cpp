@@ -40,7 +40,7 @@ TEST(LadderTable, IsAlignedByCharactersBelowItsSteps) {
     EXPECT_EQ(format_table({}, ValueUnit::db), "");
 }
 
-// The table had 175 columns and broke on every terminal (2026-11-25).
+// Regression of 2026-11-25: the table had 175 columns and wrapped on every terminal.
 TEST(LadderTable, FitsAHundredColumnsWhateverItHolds) {
     LadderRow full = table_row(
         "interpolation", "all values of each step, in their order, and longer", 123.456, 123.456);

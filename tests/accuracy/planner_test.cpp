@@ -25,7 +25,7 @@ Budget budget_of(const char* text) {
 }
 
 TEST(Planner, TheSumOfWhatIsLeftOffIsWithinTheBudgetNotEachAlone) {
-    // The errors are 200, 240 and 30 m: each alone is within 250 m.
+    // The errors are 200, 240 and 30 m. Each alone is within 250 m, but their sum is not.
     const Plan made = plan_of(small_chain(), "250 m, 0.5 dB");
     EXPECT_TRUE(made.meets_budget);
     EXPECT_EQ(made.choice.rungs, (Rungs{0, 1, 0}));
@@ -48,7 +48,8 @@ TEST(Planner, AnEffectThatChangesNothingStaysOffEvenWhenExact) {
     EXPECT_EQ(plan_of(chain, "0 m, 0 dB").choice.rungs, (Rungs{0, 2, 1}));
 }
 
-// Leaving off refraction exceeds the budget; the other quantities and effects must still count.
+// Refraction is set off, which alone exceeds the budget. The other quantities and effects must
+// still count.
 TEST(Planner, TheBestOfThoseThatAllMissIsTheMostAccurateInTheRest) {
     Chain chain = small_chain();
     chain.steps[0].effects[0].setting = Setting::off;
@@ -90,7 +91,8 @@ TEST(Planner, ErrorsAndATimeMustBothHold) {
 TEST(Planner, SettingsInTheWayAreNamed) {
     Chain chain = small_chain();
     chain.steps[1].effects[0].setting = Setting::off;
-    chain.steps[2].effects[0].setting = Setting::off;  // it contributes nothing to position
+    chain.steps[2].effects[0].setting = Setting::off;  // the averaging is set off; it has no
+                                                       // position error
     const Plan far = plan_of(chain, "100 m");
     EXPECT_FALSE(far.meets_budget);
     EXPECT_EQ(far.choice.rungs, (Rungs{1, 0, 0}));
@@ -112,14 +114,12 @@ TEST(Planner, BudgetsThatBoundNothingOrInAnotherUnitAreRefused) {
     EXPECT_EQ(other.error().message, "the budget is in m/s, but the values are in dB");
 }
 
-// Another way to find the cheapest choice: depth first, one effect after the other, with running
-// sums.
-// along.
+// Finds the cheapest choice in another way: depth first, effect by effect, with running sums.
 struct Search {
     const Chain& chain;
     const Budget& budget;
     std::optional<double> least_cost_s;
-    std::vector<std::size_t> on = {};  // of each step so far
+    std::vector<std::size_t> on = {};  // rung of each step so far
 
     void step(std::size_t index, double cost_s, ErrorSize off) {
         if (index == chain.steps.size()) {
@@ -184,8 +184,8 @@ TEST(Planner, IsTheCheapestThatASearchOfAnotherKindFinds) {
 }
 
 TEST(Planner, NoEffectIsOnThatCouldBeOff) {
-    // If the budget of errors is met, lowering any step to any lower rung breaks it or saves
-    // nothing.
+    // If the plan meets a budget of errors, every lower rung of any step must break the budget or
+    // save nothing.
     std::mt19937_64 random(4);
     for (int trial = 0; trial < 2000; ++trial) {
         const Chain chain = random_chain(random);

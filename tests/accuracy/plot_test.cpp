@@ -41,7 +41,7 @@ std::size_t count(const std::string& text, const std::string& part) {
     return found;
 }
 
-// Parses the SVG with an independent XML parser and returns its texts, one a line.
+// Parses the SVG with an independent XML parser and returns its texts, one per line.
 stormcellar::testing::ProgramResult parse_xml(const std::string& svg) {
     const stormcellar::testing::TemporaryDirectory directory;
     const auto path = directory.path() / "plot.svg";
@@ -88,7 +88,7 @@ TEST(Plot, TextFromOutsideIsTextAndNothingElse) {
 
 TEST(Plot, EveryPointIsDrawnAndTheFrontIsALine) {
     const std::string svg = drawn(small_plot());
-    EXPECT_EQ(count(svg, "<circle"), 3U + 1);  // one for interpolation, and one in its legend
+    EXPECT_EQ(count(svg, "<circle"), 3U + 1);  // one in the plot, and one in the legend
     EXPECT_EQ(count(svg, "<polyline"), 1U);    // a single point has no line
     EXPECT_EQ(count(svg, "fill=\"#ffffff\" stroke=\"#0072B2\""), 1U);  // hollow: not on the front
     EXPECT_THAT(svg, Not(HasSubstr("http://www.w3.org/1999/xlink")));
@@ -112,7 +112,7 @@ TEST(Plot, ThirtyFiveSeriesLookDifferent) {
         plot.points.push_back({"", std::to_string(i), 1.0 + i, 1.0 + i, true});
     }
     const std::string svg = drawn(plot);
-    // The color and the shape of the markers in the legend, one after the other.
+    // The color and the shape of each marker in the legend, in turn.
     for (const char* color :
          {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"}) {
         EXPECT_EQ(count(svg, std::string("fill=\"") + color), 10U) << color;

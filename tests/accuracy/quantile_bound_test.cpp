@@ -1,7 +1,6 @@
-// Tests that the coverage is what accuracy/quantile_bound.h promises, by simulations whose true
-// quantile is known: with heavy tails, ties, clusters of related errors, and strata. Each test
-// states how many of its trials may miss: the promised share plus four standard deviations of the
-// number of misses.
+// Tests the coverage that accuracy/quantile_bound.h promises, by simulations whose true quantile is
+// known: with heavy tails, ties, clusters of related errors, and strata. Each test states how many
+// of its trials may miss: the promised share plus four standard deviations of the number of misses.
 #include "accuracy/quantile_bound.h"
 
 #include <algorithm>
@@ -49,7 +48,7 @@ Outcome simulate(int trials, double truth, const std::function<std::optional<dou
 TEST(QuantileBound, IndependentErrorsAreCoveredAsPromised) {
     struct Law {
         const char* name;
-        std::function<double(double)> inverse;  // of the distribution of the magnitude
+        std::function<double(double)> inverse;  // inverse of the distribution of magnitudes
     };
     const std::vector<Law> laws = {{"uniform", [](double u) { return u; }},
                                    {"exponential", [](double u) { return -std::log1p(-u); }},
@@ -59,7 +58,7 @@ TEST(QuantileBound, IndependentErrorsAreCoveredAsPromised) {
     Random random(20261121);
     for (const Law& law : laws) {
         for (const BoundRequest request : {BoundRequest{0.99, 0.9}, BoundRequest{0.95, 0.99}}) {
-            // The smallest value whose share of larger ones is at most 1 - quantile.
+            // The smallest value that at most a share 1 - quantile of the magnitudes exceeds.
             const double truth = law.inverse(std::nextafter(request.quantile, 0));
             const int trials = 4000;
             const Outcome outcome = simulate(trials, truth, [&] {
@@ -100,7 +99,7 @@ TEST(QuantileBound, TooFewErrorsHaveNoBound) {
     EXPECT_EQ(quantile_upper_bound(ramp(688), {}), 687);
     EXPECT_FALSE(quantile_upper_bound(ramp(58), {0.95, 0.95}));
     EXPECT_EQ(quantile_upper_bound(ramp(59), {0.95, 0.95}), 58);  // Wilks 1941
-    // Conover: with 93 errors, the second largest.
+    // Conover: the bound is the second largest of 93 errors.
     EXPECT_EQ(quantile_upper_bound(ramp(92), {0.95, 0.95}), 91);
     EXPECT_EQ(quantile_upper_bound(ramp(93), {0.95, 0.95}), 91);
 }
@@ -140,8 +139,8 @@ TEST(QuantileBound, HowManyClustersItTakes) {
     EXPECT_NEAR(static_cast<double>(needed(5, 20)), 4 * 902, 20);
 }
 
-// Columns of which a share `bad` have errors in all of their cells; bad columns have more cells.
-// The error of a bad column is drawn from a distribution whose tail has no mean.
+// Columns, of which a share `bad` have errors in all of their cells; bad columns have more cells.
+// The errors of bad columns have a distribution whose tail has no mean.
 struct Columns {
     double bad = 0.01;
     std::size_t small = 4, large = 20;
@@ -156,7 +155,7 @@ struct Columns {
             cluster.errors.push_back(-uniform(random));
         return cluster;
     }
-    // A share s of all cells is bad. A share s * 10 / t of all errors is above t > 10.
+    // Of all cells, a share s is bad. Of all errors, a share s * 10 / t is above t, for t > 10.
     [[nodiscard]] double truth(double quantile) const {
         const double cells_bad = bad * static_cast<double>(large);
         const double share = cells_bad / (cells_bad + (1 - bad) * static_cast<double>(small));
@@ -186,7 +185,7 @@ TEST(QuantileBound, ClustersThatAreOffTogetherAreCovered) {
 }
 
 TEST(QuantileBound, TakingCellsForIndependentWouldMiss) {
-    // Shows that the test above can fail: the same columns, with cells treated as independent.
+    // Treats the cells of the same columns as independent, to show that the test above can fail.
     Random random(12);
     const Columns columns{0.02};
     const int trials = 1000;
@@ -202,8 +201,8 @@ TEST(QuantileBound, TakingCellsForIndependentWouldMiss) {
 }
 
 TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
-    // A tenth of the columns, near the radar, are sampled as often as all others together, and are
-    // bad more often.
+    // The sample draws as many columns from the tenth near the radar as from all others together,
+    // and columns near the radar are bad more often.
     Random random(13);
     const BoundRequest request{0.95, 0.9};
     const Columns near{0.3, 20, 20};
@@ -226,7 +225,7 @@ TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
         trials, truth, [&] { return quantile_upper_bound(sample(0.1, 0.9), 18, request); });
     EXPECT_EQ(outcome.bounds, trials);
     EXPECT_LE(outcome.misses, allowed_misses(trials, request.confidence));
-    // The scale of the weights does not matter.
+    // Multiplying all weights by one number must not change the bound.
     Random same = random;
     const auto one = quantile_upper_bound(sample(0.125, 1), 20, request);
     random = same;
@@ -234,8 +233,8 @@ TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
 }
 
 TEST(QuantileBound, ColumnsDrawnInProportionToTheirSizeAreCovered) {
-    // Sizes are 1 to 20, and large columns are bad more often. A sample of 1000 drawn by size is as
-    // good as one many times larger drawn evenly.
+    // Columns have 1 to 20 cells, and large columns are bad more often. A sample of 1000 drawn by
+    // size is as good as a much larger sample drawn evenly.
     struct Held {
         std::size_t size;
         bool bad;
@@ -307,8 +306,9 @@ TEST(QuantileBound, AtTheConfidenceThatIsUsedNearlyNoneMisses) {
 }
 
 TEST(QuantileBound, WithManyClustersTheBoundComesNear) {
-    // Independent errors in columns: 20,000 columns of 10 cells bound the 99th percentile of |e| to
-    // 1 %.
+    // With independent errors in columns, 20,000 columns of 10 cells bound the 99th percentile of
+    // e
+    //  to 1 %.
     Random random(16);
     std::vector<ErrorCluster> clusters(20000);
     for (ErrorCluster& cluster : clusters) {

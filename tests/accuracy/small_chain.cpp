@@ -49,14 +49,14 @@ Chain random_chain(std::mt19937_64& random) {
             effect.cost_s = below(4);
             step.effects.push_back(effect);
         }
-        // The first few are set on, the last few are set off or left alone.
+        // Some of the first effects are set on, and some of the last are set off; others keep auto.
         const unsigned on = effects > 0 && below(4) == 0 ? below(effects) : 0;
         for (unsigned k = 0; k < on; ++k)
             step.effects[k].setting = Setting::on;
         if (effects > on && below(4) == 0) step.effects[effects - 1].setting = Setting::off;
         chain.steps.push_back(step);
     }
-    // The reduction is small enough that no chain costs less than its other rungs.
+    // A joint cost saves at most the cost of its second effect, so that no chain costs less than 0.
     for (std::size_t i = 1; i < chain.steps.size(); ++i) {
         if (chain.steps[i - 1].effects.empty() || chain.steps[i].effects.empty()) continue;
         const double spared_s = chain.steps[i].effects[0].cost_s;

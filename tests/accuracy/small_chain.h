@@ -8,14 +8,14 @@
 
 namespace stormcellar::accuracy::testing {
 
-// A chain of a beam (4/3 earth, traced) and a frame (sphere, ellipsoid, geodesic), with values in
-// decibels. Refraction is 200 m and costs 1 s; the ellipsoid is 240 m and costs 0.1 s; the geodesic
-// is 30 m and costs 2 s; averaging (dB, linear Z) is 0.3 dB and costs 0.5 s. Averaging is known by
-// sample, the others are proven.
+// Returns a chain of a beam (4/3 earth, traced), a frame (sphere, ellipsoid, geodesic) and
+// averaging (dB, linear Z), with values in decibels. Refraction is 200 m and costs 1 s; the
+// ellipsoid is 240 m and costs 0.1 s; the geodesic is 30 m and costs 2 s; linear Z is 0.3 dB and
+// costs 0.5 s. The size of linear Z is known from a sample; the other sizes are proven.
 [[nodiscard]] Chain small_chain();
 
-// Up to four steps of up to three effects, with small whole numbers so that ties and exact sums
-// occur. Some effects are set on or off, but never in contradiction.
+// Returns a chain of up to four steps of up to three effects, with small whole numbers, so that
+// ties and exact sums occur. Some effects are set on or off, but never in contradiction.
 [[nodiscard]] Chain random_chain(std::mt19937_64& random);
 
 // Returns the plan for `budget`. Throws if the budget is malformed or cannot be met.

@@ -10,7 +10,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// The work takes the time that it is told to, on the test's own clock.
+// Each piece of work advances the test's own clock by the time that the test states.
 TEST(Timing, FirstLeastAndMedianOfRuns) {
     double clock_s = 0;
     const auto now_s = [&] { return clock_s; };
@@ -43,7 +43,8 @@ TEST(Timing, RoundsTurnRoundSoThatNoneIsAlwaysBehindTheSame) {
 }
 
 TEST(Timing, ASlowerMachineIsSharedByAll) {
-    // The machine is twice as slow in later rounds; the two works must still be told apart.
+    // The machine is twice as slow in later rounds; the timings must still show which work is
+    // slower.
     double clock_s = 0;
     int runs = 0;
     const auto work = [&](double cost_s) {
