@@ -7,13 +7,13 @@
 // Source    Doviak & Zrnic (1993) eqs 2.28b-c, rearranged so that nothing cancels.
 // Threads   A BeamGeometry is immutable, so any thread may use it.
 // Errors    None: NaN in, NaN out.
-// Accuracy  Each line is enforced by tests/grid/beam_geometry_test.cpp. height, arc  1e-9 m of the
-//           formula in 113-bit floats, for ranges of -1 to 470 km and
-//                        elevations of -5 to 60 degrees
-//           round trip   1e-9 m and 1e-12 degrees for ranges of 1 km and more
-//           float        Do not narrow: the same formula in float errs by 0.1 m.
-//           NOT covered  the model itself: the radius along the azimuth (7 m at 230 km, 28 m at 460
-//                        km, 35 N) and refraction other than 4/3 (docs/geometry.md)
+// Accuracy  Each line is enforced by tests/grid/beam_geometry_test.cpp.
+//             height, arc  1e-9 m of the formula in 113-bit floats, for ranges of -1 to 470 km and
+//                          elevations of -5 to 60 degrees
+//             round trip   1e-9 m and 1e-12 degrees for ranges of 1 km and more
+//             float        Do not narrow: the same formula in float errs by 0.1 m.
+//             NOT covered  the model itself: the radius along the azimuth (7 m at 230 km, 28 m at
+//                          460 km, 35 N) and refraction other than 4/3 (docs/geometry.md)
 #pragma once
 
 namespace stormcellar::grid {
@@ -42,20 +42,20 @@ class BeamGeometry {
     BeamGeometry(double site_latitude_deg, double antenna_altitude_m) noexcept;
 
     [[nodiscard]] EarthPoint forward(AntennaPoint gate) const noexcept;  // NaN in, NaN out
-    // Solves forward() for the gate, in closed form. The range is never negative, and the antenna
-    // itself has elevation 0.
+    // Returns the gate at a point, in closed form. The range is never negative; the antenna itself
+    // has elevation 0.
     [[nodiscard]] AntennaPoint inverse(EarthPoint point) const noexcept;
 
-    // Returns the range and the height at which a beam of this elevation passes over the arc.
-    // Returns NaN if it never does: elevation + arc / radius must stay below 90 degrees.
+    // Returns the range and the height at which a beam of this elevation passes over the arc, or
+    // NaN if the beam never does: elevation + arc / radius must stay below 90 degrees.
     struct BeamPoint {
         double range_m = 0;
         double height_m = 0;
     };
     [[nodiscard]] BeamPoint over(double arc_m, double elevation_deg) const noexcept;
 
-    // height_over() gives over().height_m for many arcs and elevations, within 1e-8 m. The caller
-    // computes the angle of each arc and of each elevation once, and combines them.
+    // Returns over().height_m within 1e-8 m. A caller with many arcs and elevations computes the
+    // angle of each arc and of each elevation once, and combines them here.
     struct Angle {
         double sine = 0, cosine = 1;
     };

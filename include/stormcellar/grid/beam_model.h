@@ -1,15 +1,15 @@
 // stormcellar/grid/beam_model.h -- the rungs of the beam: a flat earth, a 4/3 earth, and a ray
 // traced through a profile of the air.
 //
-// Units     Meters and degrees; heights are above mean sea level. The sphere is that of
+// Units     Meters and degrees; heights are above mean sea level. The sphere is the sphere of
 //           stormcellar/grid/beam_geometry.h.
-// Range     As the radar reports it. The traced beam takes it for the optical path
-//           (stormcellar/grid/ray_tracer.h); the two others take it for the path itself, as their
-//           formulas do.
+// Range     As the radar reports it. The traced beam takes the range for the optical path
+//           (stormcellar/grid/ray_tracer.h). The two other beams take it for the length of the
+//           path.
 // Cost      path() integrates a traced beam once (some 70 us; 0.2 ms with 300 levels). After that,
-//           a question to the path costs tens of nanoseconds.
+//           each call of the path costs tens of nanoseconds.
 // Threads   Both classes are immutable and cheap to copy; many threads may use one object.
-// Errors    None: what a path does not reach is NaN.
+// Errors    None: results are NaN where a path does not go.
 // Accuracy  Enforced by tests/grid/beam_model_test.cpp. Flat earth: 1e-9 m of its formula. 4/3
 //           earth: the bits of BeamGeometry. Traced: see stormcellar/grid/ray_tracer.h. over()
 //           undoes at() to 1 mm.
@@ -35,7 +35,7 @@ class BeamPath {
   public:
     // Returns the arc and the height of a gate, or NaN where the path does not go.
     [[nodiscard]] EarthPoint at(double range_m) const noexcept;
-    // Returns the range and the height over an arc, or NaN where the path never passes.
+    // Returns the range and the height over an arc, or NaN where the path never passes over it.
     [[nodiscard]] BeamGeometry::BeamPoint over(double arc_m) const noexcept;
 
   private:
@@ -88,15 +88,15 @@ class BeamModel {
     RangeKind range_kind_ = RangeKind::optical;
 };
 
-// The largest difference between two models, over the beams of some elevations, wherever either
-// model puts a beam within the limits. It is infinite if only one of the models reaches a place,
-// for example when a duct bends the other beam away.
+// The largest difference between two models, over the beams of some elevations, at all places
+// within the limits that either model reaches. It is infinite if only one model reaches some place,
+// for example because a duct bends the beam of the other model away.
 //
-// Arcs and ranges are compared every 500 m, including one step beyond the limits. The difference
-// between those points exceeds the result by less than 0.1 m (enforced, down to levels 50 m apart,
-// without ducts). Tables with that step that are linear in between hold no larger differences.
+// Arcs and ranges are compared every 500 m, up to one step beyond the limits. Between these points
+// the difference exceeds the result by less than 0.1 m (enforced for levels at least 50 m apart,
+// without ducts). A table that is linear between the same points differs no more.
 struct BeamLimits {
-    double arc_m = 470e3;  // arcs from 0 to this one
+    double arc_m = 470e3;  // arcs from 0 to here
     double range_m = 470e3;
     double floor_m = 0;       // heights from here
     double ceiling_m = 20e3;  // to here

@@ -1,11 +1,11 @@
-// stormcellar/grid/brick_grid.h -- a quantized grid in bricks in memory. It owns the bytes that a
-// BrickView shows.
+// stormcellar/grid/brick_grid.h -- a quantized grid in bricks in memory. A BrickGrid owns the bytes
+// that a BrickView shows.
 //
-// Codes are dense-addressed (stormcellar/grid/brick_view.h), yet bricks without values take no
-// memory in a large grid: 7000 x 3500 x 33 cells take 1.1 GiB of addresses, but pages only for the
-// bricks that were written. The last bricks reach beyond the edge of the grid. Their places there
-// are not cells: they have code 0, and they do not count when a brick is checked for cells that are
-// all alike.
+// Every brick has a fixed address (stormcellar/grid/brick_view.h), yet in a large grid a brick
+// without values takes no memory: 7000 x 3500 x 33 cells reserve 1.1 GiB of addresses, but use
+// memory pages only for bricks that were written. The last bricks reach beyond the edge of the
+// grid. Places beyond the edge are not cells: their code is 0, and a brick counts as uniform
+// whatever they hold.
 //
 // Threads   Any thread may call const functions. Different BricksWriters may write different bricks
 //           at the same time.
@@ -41,15 +41,15 @@ class BrickGrid {
     [[nodiscard]] std::uint64_t clamped_count() const { return clamped_count_; }
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
 
-    // Takes over the states and counts of the writers. Each writer must have written bricks after
-    // those of the writer before it, in rising order, so that the states are in the order of their
-    // bricks.
+    // Takes over the states and counts of the writers. Each writer must have written its bricks in
+    // rising order, after all bricks of the writer before it, so that the states are in the order
+    // of their bricks.
     void finish(std::span<BricksWriter> writers);
 
-    // clear() makes bricks not seen, so that they can be written anew. finish_again() then takes
-    // over from their writers, which may have written in any order. Afterward the states are in the
-    // order of their bricks again, as if the grid had been written at once. Only clamped_count()
-    // differs, because it also counts the values of bricks that were cleared.
+    // To write bricks anew, call clear() for each, which makes it not seen, then finish_again()
+    // with the writers, which may have written in any order. Afterward the states are in the order
+    // of their bricks, as if the grid had been written at once. Only clamped_count() differs: it
+    // still includes the values of cleared bricks.
     void clear(std::size_t brick);
     void finish_again(std::span<BricksWriter> writers);
 
@@ -74,15 +74,15 @@ struct BrickExtent {
 [[nodiscard]] BrickExtent brick_extent(const GridSpec& spec, int bx, int by, int bz);
 
 // Writes the bricks of a new BrickGrid, each at most once and in rising order. Bricks that are not
-// written are not seen. The grid must outlive the writer and must not move. BrickGrid::finish()
-// ends the writing.
+// written stay not seen. The grid must outlive the writer and must not move. At the end, pass the
+// writer to BrickGrid::finish().
 class BricksWriter {
   public:
     explicit BricksWriter(BrickGrid& grid) : grid_(&grid) {}
 
     void put_uniform(std::size_t brick, CellStatus status);
-    // Writes 4,096 codes, which must be 0 in all places beyond the extent. Code must be as long as
-    // the codes of the grid.
+    // Writes 4,096 codes, which must be 0 in all places beyond the extent. The size of Code must
+    // equal the quantization's code_bytes.
     template <class Code>
     void put_codes(std::size_t brick, const Code* codes, const BrickExtent& extent);
     // Writes 1,024 bytes of states, none of which may be a value.
@@ -104,7 +104,7 @@ class BricksWriter {
     std::uint64_t clamped_count_ = 0;
 };
 
-// Turns bricks into a dense grid: the value and the status of every cell of the view.
+// Copies a grid in bricks into a dense grid: the value and the status of every cell.
 [[nodiscard]] Grid to_dense(const BrickView& view);
 
 }  // namespace stormcellar::grid

@@ -1,13 +1,12 @@
 // stormcellar/grid/brick_view.h -- a read-only view of a quantized grid in bricks, in memory or in
 // a mapped file.
 //
-// The codes are dense-addressed: every brick of 16x16x16 cells has its fixed place. The address of
-// a cell is therefore the sum of three numbers, one for each axis, and needs no lookup. Bricks that
-// hold no value are absent: their place reads as zeros (a hole in a sparse file, or untouched
-// memory), and the entry of the brick gives their status. A brick of 8-bit codes is one page of
-// 4,096 bytes.
+// Every brick of 16x16x16 cells has a fixed address, so the address of a cell is the sum of three
+// numbers, one for each axis, and needs no lookup. Bricks that hold no value are absent: their
+// bytes read as zeros (a hole in a sparse file, or untouched memory), and their entry gives their
+// status. A brick of 8-bit codes is one page of 4,096 bytes.
 //
-// Inside a brick z runs fastest, then y, then x. The bricks follow each other in the same order.
+// Inside a brick z runs fastest, then y, then x. Bricks are in the same order.
 // Code 0 means not seen, 1 no echo and 2 range folded; from 3 on, value = first_value + step *
 // (code - 3).
 //
@@ -41,7 +40,7 @@ struct Quantization {
     bool operator==(const Quantization&) const = default;
 };
 
-// Returns steps that are no coarser than the radar's own codes, such as 0.5 dBZ from -32 for REF.
+// Returns steps no coarser than the radar's own codes, such as 0.5 dBZ from -32 for REF.
 [[nodiscard]] Quantization default_quantization(level2::Moment moment);
 
 enum class BrickKind : std::uint8_t {
@@ -57,20 +56,20 @@ struct BrickEntry {
     std::uint16_t min_code = 0;     // over the cells with a value
     std::uint16_t max_code = 0;
     std::uint32_t status_index = 0;  // status_only: the number of its 1,024-byte block
-    std::uint32_t packed_bytes = 0;  // stored in a file with packed codes: the bytes that they take
+    std::uint32_t packed_bytes = 0;  // stored in a file with packed codes: their length in the file
     std::uint64_t checksum = 0;      // XXH3 of the brick's codes or of its states
 };
 static_assert(sizeof(BrickEntry) == 24);
 
 class SweepLookup;  // stormcellar/grid/sweep_lookup.h
 
-// A view of one sweep (a ppi) has no bricks. Its spec, of one level, is the plane about the radar
-// on which the sweep is drawn, and `sweep` gives the content of a place.
+// The view of one sweep (a ppi) has no bricks. Its spec has one level, the plane about the radar on
+// which the sweep is drawn, and `sweep` finds the gate at a place.
 struct BrickView {
     const GridSpec* spec = nullptr;
     Quantization quantization;
     int bricks_x = 0, bricks_y = 0, bricks_z = 0;
-    std::span<const std::byte> codes;  // bricks_x * y * z places of 4,096 * code_bytes bytes
+    std::span<const std::byte> codes;  // bricks_x * bricks_y * bricks_z * 4,096 * code_bytes bytes
     std::span<const BrickEntry> bricks;
     std::span<const std::byte> states;  // blocks of 1,024 bytes, 4 cells a byte, low bits first
     const SweepLookup* sweep = nullptr;
@@ -81,7 +80,7 @@ struct BrickView {
                    static_cast<std::size_t>(bricks_z) +
                static_cast<std::size_t>(bz);
     }
-    // These are the offsets of a cell along each axis, in codes. The address of a cell is their
+    // These return the offset of a cell along each axis, in codes. The address of a cell is their
     // sum.
     [[nodiscard]] std::size_t offset_x(int ix) const {
         return brick_index(ix / brick_edge, 0, 0) * brick_cells +
@@ -95,9 +94,9 @@ struct BrickView {
         return brick_index(0, 0, iz / brick_edge) * brick_cells +
                static_cast<std::size_t>(iz % brick_edge);
     }
-    // Returns the stored code at an offset; 0 inside absent bricks, whatever their status.
+    // Returns the stored code at an offset; always 0 inside absent bricks.
     [[nodiscard]] std::uint16_t code_at(std::size_t offset) const;
-    // Returns the status of any cell, in absent bricks too. This is slow. The cell must exist.
+    // Returns the status of any cell, in absent bricks too, but slowly. The cell must exist.
     [[nodiscard]] CellStatus status(int ix, int iy, int iz) const;
     [[nodiscard]] float value(int ix, int iy, int iz) const;  // the cell's status must be value
 };

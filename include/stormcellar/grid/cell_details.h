@@ -1,24 +1,25 @@
 // stormcellar/grid/cell_details.h -- details of a cell besides its value, on demand.
 //
-// Details are known for each cell that is not `not_seen`. They come from the nearest gates (nearest
-// radial, nearest in range) of the sweeps that the cell is made of. These are the two sweeps that
-// bracket the cell, with weights linear in height. Above and below all sweeps, beside a lost cut
-// and for Interpolation::nearest, only the nearer sweep counts. Only gates that see the place
-// count, whatever else the method mixes in:
+// A detail can be known only for a cell that is not `not_seen`. Details describe the nearest gates
+// (nearest radial, nearest in range) of the sweeps that make up the cell. These are the two sweeps
+// that bracket the cell, with weights linear in height. Above and below all sweeps, beside a lost
+// cut and for Interpolation::nearest, only the nearer sweep counts. Only gates that see the place
+// count, even if the method mixes in more gates:
 //   age            s; the weighted mean of the times of the radials of these gates, minus the frame
-//                  time (GridderOptions::frame_time): negative before it, positive after it. It is
-//                  not known if one of these radials has no time, or if the volume has none and no
-//                  frame time is given.
+//                  time (GridderOptions::frame_time): negative before it, positive after it. The
+//                  age
+//                  is unknown if one of these radials has no time, or if the volume has no time and
+//                  no frame time is given.
 //   height_offset  m; the height of the cell minus the height of the center of the nearest of these
 //                  beams over the same place: positive above the beam
-//   distance       m; the distance in space from the center of the cell to the nearest of the
-//                  centers of these gates: hypot of the difference in height and of the distance in
-//                  the plane about the site in which arc and azimuth are polar coordinates
-//   weight         1; the share of the mixed weight that was seen, which is 1 - u of the status
-//                  rule (grid/sweep/mixture.h): 1/2 to 1
+//   distance       m; the distance in space from the center of the cell to the nearest center of
+//                  these gates: hypot of the difference in height and the distance in the plane
+//                  about the site in which arc and azimuth are polar coordinates
+//   weight         1; the share of the mixed weight that was seen, 1 - u of the status rule
+//                  (grid/sweep/mixture.h): 1/2 to 1
 // If a cell has an extent, its weight describes the whole cell and its other details describe the
-// center. If several gates are mixed, or the cell has an extent, other gates may see a cell that
-// none of the nearest gates sees. Then only its weight is known.
+// center. If the method mixes several gates, or the cell has an extent, a cell may be seen although
+// none of its nearest gates sees it. Then only its weight is known.
 //
 // Units     Seconds and meters, as above.
 // Threads   Plain values; see CellDetails::put() for writing.
@@ -39,7 +40,7 @@
 
 namespace stormcellar::grid {
 
-// The choice whether any details are computed.
+// Whether any details are computed: true if the caller asks for them.
 using ChosenDetails = Chosen<false, false>;
 
 enum class Detail : std::uint8_t { age, height_offset, distance, weight };
@@ -68,16 +69,15 @@ class DetailSet {
 class CellDetails {
   public:
     CellDetails() = default;
-    // Makes room for the details of the set. None is known yet.
+    // Makes room for the details of the set, for every cell. All begin as unknown.
     CellDetails(DetailSet set, std::size_t cells);
 
     [[nodiscard]] DetailSet set() const { return set_; }
     // Returns a detail, or none if it is not known or was not asked for.
     [[nodiscard]] std::optional<float> at(Detail detail, std::size_t cell) const;
-    // Returns the number of cells that have room; 0 if no detail was asked for.
+    // Returns the number of cells with room for details; 0 if the set is empty.
     [[nodiscard]] std::size_t size() const { return known_.size(); }
-    // Sets a detail, which must be in the set. Different threads may put details of different
-    // cells.
+    // Sets a detail, which must be in the set. Threads may call this at once for different cells.
     void put(Detail detail, std::size_t cell, float value);
 
   private:

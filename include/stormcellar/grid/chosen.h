@@ -1,24 +1,24 @@
-// stormcellar/grid/chosen.h -- a rung that the caller chooses, unless the library is built for one
-// chain alone.
+// stormcellar/grid/chosen.h -- a rung that the caller chooses, unless the library is built for a
+// single chain.
 //
-// In a normal build the library has every rung of every step, and a Chosen is a value like any
-// other. To count the cost of the choice itself, scripts/check-costs builds the library without it,
-// with -DSTORMCELLAR_CHAIN=
+// In a normal build the library has every rung of every step, and a Chosen is an ordinary value.
+// scripts/check-costs counts the cost of the choice itself, so it also builds the library without
+// choices, with -DSTORMCELLAR_CHAIN=
 //   usual     the default chain, without any effect that is off by default
 //   cheapest  every effect off: flat earth, one elevation for each sweep, nearest, a point, on a
 //             sphere
-// In these builds a Chosen is a constant, so the compiler drops every other rung and every test of
-// which rung it is. Such a library is only for counting: it aborts if another rung is asked for.
+// In these builds a Chosen is a constant, so the compiler drops all other rungs and all tests of
+// the rung. Such a library serves only for counting: it aborts if a caller chooses another rung.
 //
 // Threads   Plain values.
-// Errors    None, but for the abort in the builds for counting.
+// Errors    None; only the builds for counting abort.
 #pragma once
 
 #include <cstdlib>
 
 namespace stormcellar::grid {
 
-// A Chosen converts to and from its rung: NOLINTBEGIN(google-explicit-constructor)
+// NOLINTBEGIN(google-explicit-constructor): a Chosen converts to and from its rung.
 #if defined(STORMCELLAR_USUAL_CHAIN) || defined(STORMCELLAR_CHEAPEST_CHAIN)
 
 template <auto usual, auto cheapest>

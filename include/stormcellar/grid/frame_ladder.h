@@ -1,23 +1,22 @@
 // stormcellar/grid/frame_ladder.h -- the rungs of the site frame: how to find azimuth and arc from
 // a site, and how far off each rung may put a column.
 //
-// The error of a column is a distance in the azimuthal equidistant plane about the site. It is
-// measured between the true place of the column (by geodesics of WGS84) and the azimuth and arc
-// that a ColumnGeometry keeps.
+// The error of a column is a distance in the azimuthal equidistant plane about the site, from the
+// true place of the column (by geodesics of WGS84) to its azimuth and arc in a ColumnGeometry.
 //
-// tests/grid/frame_ladder_test.cpp enforces each of these bounds, for grids all round their site:
-// sites from pole to pole, 15 to 450 km. It checks that no error exceeds the bound, and that the
-// bound is at most twice the largest error.
-//   storage   Azimuth and arc are floats, so they are off by half a unit in their last places: 0.13
-//             m at 470 km (in azimuths of 256 degrees and more). Every rung has this error.
+// tests/grid/frame_ladder_test.cpp enforces each of these bounds, for grids all around their site,
+// sites from pole to pole and reaches of 15 to 450 km. It checks that no error exceeds the bound,
+// and that the bound is at most twice the largest error.
+//   storage   Azimuth and arc are floats, so they are off by half a unit in their last place: 0.13
+//             m at 470 km (for azimuths of 256 degrees and more). Every rung has this error.
 //   geodesic  1e-6 m and storage.
 //   table     1e-3 m and storage. Polynomials pass through exact geodesics at their nodes and are
 //             checked where their error peaks. Where they cannot keep the bound, the geodesic is
 //             solved exactly (grid/place/frame_table.h).
-//   sphere    The integral along the arc of the largest error in scale of the sphere, see
-//             docs/geometry.md: 239 / 573 / 1226 m at 100 / 230 / 460 km and 35 N.
+//   sphere    The integral along the arc of the largest error in scale of the sphere (see
+//             docs/geometry.md): 239 / 573 / 1226 m at 100 / 230 / 460 km and 35 N.
 // A grid in the azimuthal equidistant projection about the site itself is in closed form on every
-// rung, and has the error of storage alone.
+// rung, and has only the error of storage.
 //
 // Units     Meters and degrees.
 // Threads   Pure functions.
@@ -32,8 +31,8 @@
 
 namespace stormcellar::grid {
 
-// The rungs, from coarse to exact. The table is also the cheapest, except for grids of a few
-// hundred columns (docs/geometry.md).
+// The rungs, from coarse to exact. The table is the cheapest, except for grids of a few hundred
+// columns (docs/geometry.md).
 enum class FrameKind : std::uint8_t {
     sphere,    // great circles of a sphere of 6371 km
     table,     // polynomials through exact geodesics
@@ -45,19 +44,19 @@ using ChosenFrame = Chosen<FrameKind::table, FrameKind::sphere>;
 // Returns true if the plane of the grid is the plane about the site.
 [[nodiscard]] bool is_centered_at(const SitePosition& site, const GridSpec& spec);
 
-// Returns a distance from the site that no column exceeds. It is within 2 % of the farthest column,
+// Returns a distance from the site that no column exceeds: at most 2 % beyond the farthest column,
 // or half the earth.
 [[nodiscard]] double reach_m(const SitePosition& site, const GridSpec& spec);
 
-// These return bounds on the error in meters, over all columns whose arc is at most `reach_m`, as
-// listed above.
+// These return bounds on the error in meters, as listed above, for columns with arcs of at most
+// `reach_m`.
 [[nodiscard]] double storage_error_bound_m(double reach_m) noexcept;
 [[nodiscard]] double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept;
-// Returns a bound on the whole error of the rung, storage included. For a radar, give the lesser of
-// reach_m() and its range.
+// Returns a bound on the whole error of the rung, including storage. For a radar, pass the lesser
+// of reach_m() and the radar's range.
 [[nodiscard]] double frame_error_bound_m(FrameKind kind, double site_latitude_deg,
                                          double reach_m) noexcept;
-// Does the same for the grid of a site, over all its columns.
+// Returns the same bound for all columns of a site's grid.
 [[nodiscard]] double frame_error_bound_m(FrameKind kind, const SitePosition& site,
                                          const GridSpec& spec);
 

@@ -20,7 +20,7 @@
 
 namespace stormcellar::grid {
 
-// The four states of a cell (docs/geometry.md). They are kept apart from the gate to the pixel.
+// The four states of a cell (docs/geometry.md). Every step from gate to pixel keeps them apart.
 enum class CellStatus : std::uint8_t {
     not_seen = 0,      // blind region, beyond range, missing radials or sweeps
     no_echo = 1,       // seen, below threshold
@@ -33,47 +33,48 @@ enum class CellStatus : std::uint8_t {
 struct SweepTime {
     double elevation_deg = 0;
     UtcTime start;                 // time of the first radial
-    double first_azimuth_deg = 0;  // azimuth of that radial
-    double degrees_per_s = 0;      // clockwise; 0: not known, the whole sweep has the time `start`
+    double first_azimuth_deg = 0;  // azimuth of the first radial
+    double degrees_per_s = 0;      // clockwise; 0: unknown, `start` counts for the whole sweep
     bool operator==(const SweepTime&) const = default;
 };
 
-// The volume of one site, as one part of a frame made from several volumes
+// The volume of one site, as a part of a frame that is merged from several volumes
 // (pipeline/mosaic/frame_parts.h).
 struct FramePart {
     std::string icao;
-    UtcTime time;                   // start of the volume, which names it in time
-    std::uint64_t fingerprint = 0;  // identifies its cells, its place and its times
-    GridWindow window;              // the columns of the frame on which it lies
+    UtcTime time;                   // start of the volume, which identifies it
+    std::uint64_t fingerprint = 0;  // identifies the part's cells, position and times
+    GridWindow window;              // the columns of the frame that the part covers
     bool operator==(const FramePart&) const = default;
 };
 
-// The origin of a grid, and how it was made. Every file and every loop holds it.
+// The origin of a grid, and how it was made. Every grid file and every loop file holds it.
 struct Provenance {
-    // Names of the volumes by level2::volume_name(), so that a grid has the same bytes wherever it
-    // was made. Grids that never reach a cache have names of files instead, without directories.
+    // Names of the volumes by level2::volume_name(), so that a grid has the same bytes on every
+    // machine. Grids that never reach a cache have the names of their files instead, without
+    // directories.
     std::vector<std::string> source_files;
     std::vector<std::string> stations;  // ICAOs
     std::string method;                 // e.g. "column-linear"
     std::string beam_model;             // e.g. "4/3 earth"
-    std::string averaging;              // "dBZ" or "Z"
-    std::string effects;  // rungs chosen by a plan, as in "frame: sphere, beam: ..."; or empty
-    std::string predicted_error;  // as predicted by that plan; or empty
+    std::string averaging;              // "Z", or the moment's unit, such as "dBZ"
+    std::string effects;          // a plan's rungs, as in "frame: sphere, beam: ..."; or empty
+    std::string predicted_error;  // the plan's prediction; or empty
     std::string software_version;
     int vcp = 0;                     // 0: unknown
     bool partial = false;            // the volume was not complete
     std::vector<std::string> notes;  // e.g. that a position disagrees with the table
-    // The faults that the radars report about themselves: "KTLX: standby, maintenance required".
+    // Faults that the radars report about themselves, as in "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles;
-    // For a mosaic: the machines whose partials came too late and are missing, and since when:
-    // "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
+    // For a mosaic: machines whose partials came too late and are missing, with the time of their
+    // last partial, as in "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
     std::vector<std::string> left_out;
-    // For a frame between volumes: whether a later volume will change it, and the number of volumes
-    // that it is made from. The revision is 0 if the grid is not a frame.
+    // For a frame between volumes: true if a later volume will change the frame; and the number of
+    // volumes that it is made from, or 0 if the grid is not a frame.
     bool provisional = false;
     int revision = 0;
-    std::vector<FramePart> parts;  // of a frame, by ICAO, then time; empty: not known, or no frame
-    // of a frame: identifies the rules that merged the parts; 0: not known
+    std::vector<FramePart> parts;  // of a frame, by ICAO, then time; empty: unknown, or not a frame
+    // of a frame: identifies the rules that merged the parts; 0: unknown
     std::uint64_t recipe = 0;
     // the sweeps used, rising; empty for several sites or without times
     std::vector<SweepTime> sweeps;
@@ -90,20 +91,20 @@ struct SitePosition {
 struct Grid {
     GridSpec spec;
     level2::Moment moment = level2::Moment::ref;
-    UtcTime time;        // start of the volume, which names the grid in time
+    UtcTime time;        // start of the volume, which identifies the grid
     UtcTime start_time;  // time of the first radial used
     UtcTime end_time;    // time of the last radial used
-    // The instant for which the grid was made, if that is not the start of the volume.
+    // The instant for which the grid was made, if it differs from the start of the volume.
     std::optional<UtcTime> frame_time;
     std::vector<SitePosition> sites;
     Provenance provenance;
-    // index by spec.index(); 0, without meaning, where there is no value
+    // index by spec.index(); 0, without meaning, where the status is not `value`
     std::vector<float> values;
     std::vector<CellStatus> status;  // same shape
-    CellDetails details;             // same shape if they were asked for, else empty
-    // For a mosaic (stormcellar/grid/mosaic.h): how many sites see a cell, and the sum of their
-    // weights; 0 where no site sees it. Both have the same shape if they were asked for, else they
-    // are empty.
+    CellDetails details;             // same shape if the caller asked for details, else empty
+    // For a mosaic (stormcellar/grid/mosaic.h): the number of sites that see a cell, and the sum of
+    // their weights; 0 where no site sees the cell. Each has the same shape if the caller asked for
+    // it, else it is empty.
     std::vector<std::uint16_t> site_counts;
     std::vector<float> site_weights;
 };

@@ -1,11 +1,11 @@
 // stormcellar/grid/grid_sampler.h -- samples a grid between its cells, from the eight cells around
 // a place with linear weights.
 //
-// A place is within the grid if there are cells on all sides of it: up to the centers of the
-// outermost cells, and exactly at the level of a grid that has only one.
+// A place is within the grid if it is between the centers of the outermost cells. In a grid with
+// one level, it must be exactly at that level.
 //
-// Units     Columns are those of GridProjection (ix at the center of column ix). Levels are counted
-//           in the same way; between two levels they are linear in height (meters).
+// Units     Columns are counted as in GridProjection (ix is the center of column ix). Levels are
+//           counted in the same way; between two levels they are linear in height (meters).
 // Threads   Immutable; any thread may use it. The bytes of the view must outlive it.
 // Errors    None; a place outside the grid gives false or none.
 #pragma once
@@ -33,17 +33,17 @@ class GridSampler {
     // Returns the place of a height among the levels, linear between them. Returns NaN below the
     // lowest level and above the highest.
     [[nodiscard]] double level_at(double height_m) const;
-    // Finds the eight cells around a place and their weights. Returns false if the place is not
-    // within the grid, or is NaN. If all eight have the same state, the first may have all the
+    // Finds the eight cells around a place and their weights. Returns false if the place is outside
+    // the grid or NaN. If all eight are in a brick with a single status, the first has all the
     // weight.
     [[nodiscard]] bool find(ColumnPoint column, double level, Corners& corners) const;
-    // Returns the weighted mean, or none unless every cell with a weight has a value.
+    // Returns the weighted mean, or none unless every cell with a weight above 0 has a value.
     [[nodiscard]] std::optional<float> value(ColumnPoint column, double level) const;
 
     [[nodiscard]] const BrickView& view() const { return view_; }
 
   private:
-    // The part of an address and of a brick number that one cell adds along one axis.
+    // What one cell adds to an address and to a brick number along one axis.
     struct Step {
         std::size_t offset = 0;
         std::size_t brick = 0;

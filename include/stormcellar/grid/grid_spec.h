@@ -3,12 +3,12 @@
 // A grid has nx columns from west to east, ny rows from south to north and a list of levels. Cells
 // are point samples at their centers, which are symmetrical about the center of the grid: 512
 // columns at 1 km have centers at -255.5 ... 255.5 km. Levels are heights above mean sea level. A
-// grid is regular either in meters of the plane of its projection, or in degrees of latitude and
-// longitude. stormcellar/grid/projection.h says where on the earth a column is.
+// grid is regular either in meters on the plane of its projection, or in degrees of latitude and
+// longitude. stormcellar/grid/projection.h converts between columns and places on the earth.
 //
-// A window of a grid is a grid too. It has the same projection and the same center, and its middle
-// is off the center by `offset_*_cells` (stormcellar/grid/grid_window.h). Its columns are at the
-// same places to the bit.
+// A window of a grid is itself a grid. It has the same projection and center, but its middle is off
+// the center by `offset_*_cells` (stormcellar/grid/grid_window.h). Its columns are exactly at
+// columns of the larger grid, to the bit.
 //
 // Units     Meters and degrees (WGS84).
 // Threads   Plain data and pure functions.
@@ -40,7 +40,7 @@ struct ProjectionFacts {
     std::string_view name = {};                        // in options, domain files and JSON
     std::array<std::string_view, 2> short_names = {};  // more names on the command line, or empty
     bool in_degrees = false;       // rows and columns are regular in degrees, else in meters
-    bool takes_parallels = false;  // GridSpec::parallels_deg
+    bool takes_parallels = false;  // true if it has GridSpec::parallels_deg
     bool is_polar = false;         // true to distance and azimuth from the center
 };
 inline constexpr auto projection_facts = std::to_array<ProjectionFacts>({
@@ -49,13 +49,13 @@ inline constexpr auto projection_facts = std::to_array<ProjectionFacts>({
     {Projection::lambert_conformal, "lambert_conformal", {"lambert", "lcc"}, false, true},
 });
 inline constexpr ProjectionFacts no_projection = {{}, "unknown", {}};
-// Returns the facts of a projection. A number that is no projection, which a damaged file may hold,
-// has the facts of `no_projection`.
+// Returns the facts of a projection. A number that is no projection (from a damaged file) has the
+// facts of `no_projection`.
 [[nodiscard]] constexpr const ProjectionFacts& facts_of(Projection projection) {
     const auto at = static_cast<std::size_t>(projection);
     return at < projection_facts.size() ? projection_facts[at] : no_projection;
 }
-// Returns the name of a projection. It is the CF grid_mapping_name, such as
+// Returns the name of a projection. The name is the CF grid_mapping_name, such as
 // "azimuthal_equidistant", except for lambert_conformal.
 [[nodiscard]] constexpr std::string_view projection_name(Projection projection) {
     return facts_of(projection).name;
@@ -70,15 +70,15 @@ struct GridSpec {
     Projection projection = Projection::azimuthal_equidistant;
     double center_latitude_deg = 0;
     double center_longitude_deg = 0;
-    double spacing_m = 1000;  // for a projection with a plane; 0 for one in degrees
-    double spacing_deg = 0;   // for a projection in degrees, in both directions; else 0
-    // The standard parallels of a projection that takes them, which may be equal; else 0.
+    double spacing_m = 1000;  // 0 for a projection in degrees
+    double spacing_deg = 0;   // in both directions; 0 for a projection in meters
+    // The standard parallels, which may be equal, for a projection that takes them; else 0.
     std::array<double, 2> parallels_deg{};
     int nx = 460;
     int ny = 460;
     std::vector<double> levels_m;  // strictly rising, at least one
-    // The middle of the grid as seen from the center: columns to the east and rows to the north, in
-    // halves. Both are 0 except in windows of a larger grid.
+    // The middle of the grid minus its center, in columns to the east and rows to the north;
+    // multiples of one half. Both are 0 except in windows of a larger grid.
     double offset_x_cells = 0;
     double offset_y_cells = 0;
 
@@ -89,9 +89,8 @@ struct GridSpec {
     }
     [[nodiscard]] std::size_t cell_count() const { return column_count() * levels_m.size(); }
 
-    // These return the size of a column in meters. With a plane this is the spacing. For a
-    // projection in degrees it is the width or height at the center of the grid, for users that
-    // take the grid as a plane (pictures).
+    // These return the size of a column in meters: the spacing, or for a projection in degrees the
+    // width or height at the center of the grid. Pictures treat such a grid as a plane.
     [[nodiscard]] double cell_width_m() const {
         return in_degrees() ? width_at_center_m() : spacing_m;
     }
@@ -99,14 +98,14 @@ struct GridSpec {
         return in_degrees() ? height_at_center_m() : spacing_m;
     }
     // These return the column and the row of the center, exactly. The center may be between two
-    // columns, and beyond the grid.
+    // columns, or outside the grid.
     [[nodiscard]] double center_x() const { return 0.5 * (nx - 1) - offset_x_cells; }
     [[nodiscard]] double center_y() const { return 0.5 * (ny - 1) - offset_y_cells; }
-    // These return the center of column ix (east of the grid's center) and of row iy (north of it),
-    // in that plane.
+    // These return the center of column ix (meters east of the grid's center) and of row iy (meters
+    // north of it), in that plane.
     [[nodiscard]] double x_m(int ix) const { return (ix - center_x()) * cell_width_m(); }
     [[nodiscard]] double y_m(int iy) const { return (iy - center_y()) * cell_height_m(); }
-    // These do the same, counted from the middle of the grid. Pictures are made about the middle.
+    // These return the same from the middle of the grid, which is the origin in pictures.
     [[nodiscard]] double x_from_middle_m(int ix) const {
         return (ix - 0.5 * (nx - 1)) * cell_width_m();
     }
@@ -128,9 +127,9 @@ struct GridSpec {
     [[nodiscard]] double height_at_center_m() const;
 };
 
-// A rectangle of columns of a grid (stormcellar/grid/grid_window.h).
+// A rectangle of columns of a domain's grid (stormcellar/grid/grid_window.h).
 struct GridWindow {
-    int first_x = 0;  // columns and rows of the domain
+    int first_x = 0;  // column and row of the domain
     int first_y = 0;
     int nx = 0;
     int ny = 0;
@@ -150,14 +149,15 @@ struct DegreeLength {
 [[nodiscard]] GridSpec default_spec(double center_latitude_deg, double center_longitude_deg);
 
 // Checks a spec. Returns bad_argument unless:
-// - there are 1 to 16384 columns, 1 to 16384 rows and 1 to 1024 levels;
-// - the spacing is positive and finite, and the center is on the earth;
+// - there are 1 to 16384 columns, 1 to 16384 rows, 1 to 1024 levels and at most 2^30 cells;
+// - the spacing is above 0 and at most 1000 km or 10 degrees, and the center is on the earth;
 // - the levels rise strictly within -1 to 60 km;
-// - the offsets are halves, and keep the grid within one of 16384 by 16384 about the center;
+// - the offsets are multiples of one half, and keep the grid within 16384 by 16384 columns about
+//   the center;
 // - the projection covers the grid: latitude_longitude ends at the poles and spans at most 360
 //   degrees; lambert_conformal has parallels within -89 to 89 degrees that are not opposite, and
-//   holds neither a pole nor the cut opposite its central meridian;
-// - whatever the projection does not use is 0.
+//   its grid holds neither a pole nor the cut opposite its central meridian;
+// - all fields that the projection does not use are 0.
 [[nodiscard]] Status validate(const GridSpec& spec);
 
 }  // namespace stormcellar::grid

@@ -1,14 +1,14 @@
 // stormcellar/grid/grid_window.h -- rectangles of columns of a domain's grid, as grids of their
 // own.
 //
-// The data of one site in a large domain are gridded on the columns of the domain, in a window: a
-// GridSpec with the same projection, center and levels, whose columns are at the same places to the
-// bit. So nothing is interpolated twice, and the windows of many sites can be merged cell by cell
-// (stormcellar/grid/mosaic.h).
+// The data of one site in a large domain are gridded on columns of the domain, in a window: a
+// GridSpec with the same projection, center and levels, whose columns are exactly columns of the
+// domain, to the bit. So no step interpolates the data again, and the windows of many sites can be
+// merged cell by cell (stormcellar/grid/mosaic.h).
 //
 // Units     Columns and rows; meters for reaches.
 // Threads   Pure functions.
-// Errors    None; a function returns none for what does not fit.
+// Errors    None; window_of() and site_window() return none where no window fits.
 #pragma once
 
 #include <optional>
@@ -26,20 +26,19 @@ inline constexpr double site_reach_m = 460000;
 // of another domain.
 [[nodiscard]] GridSpec window_spec(const GridSpec& domain, const GridWindow& window);
 
-// Returns the window of the domain that a spec describes. Returns none if the columns of the spec
-// are not columns of the domain, or its levels are not those of the domain.
+// Returns the window of the domain that a spec describes. Returns none if columns of the spec are
+// not columns of the domain, or if the levels differ.
 [[nodiscard]] std::optional<GridWindow> window_of(const GridSpec& domain, const GridSpec& spec);
 
-// Returns true if the window starts and ends at whole bricks, or ends with the domain. Merging
-// requires this.
+// Returns true if the window starts at whole bricks, and ends at whole bricks or with the domain.
+// Merging requires this.
 [[nodiscard]] bool is_whole_bricks(const GridSpec& domain, const GridWindow& window);
 
 // Returns a window of whole bricks that holds every column of a valid domain within `reach_m` (at
 // most 2,000 km) of the site. Returns none if the site certainly reaches no column.
-//
-// The window is at most one brick larger on each side than the smallest such window. There is one
-// exception: where the reach holds a pole or a place that a projection tears apart (the antipode of
-// its center, the cut of a cone, both ends of a grid all round the earth), the window may be as
+// The window is at most one brick larger on each side than the smallest such window, with one
+// exception: if the reach holds a pole or a place that a projection tears apart (the antipode of
+// its center, the cut of a cone, both ends of a grid all around the earth), the window may be as
 // wide or as high as the domain.
 [[nodiscard]] std::optional<GridWindow> site_window(const GridSpec& domain,
                                                     const SitePosition& site,

@@ -2,12 +2,13 @@
 //
 // All cells of a column share azimuth and arc, so each sweep is sampled once for each column
 // (nearest gate and radial). Then the column is filled upward, linear in height between the beams
-// of sweeps that are adjacent in the VCP. Nothing is invented: cells are "not seen" more than half
-// a beam width above the highest and below the lowest sweep, beyond the last gate, in azimuth gaps,
-// and where a cut is missing. docs/geometry.md has the rule for mixed states.
+// of sweeps that are adjacent in the VCP. The gridder invents nothing: cells are "not seen" more
+// than half a beam width above the highest and below the lowest sweep, beyond the last gate, in
+// azimuth gaps, and where a cut is missing. docs/geometry.md has the rule for mixed states. This
+// describes the default method; stormcellar/grid/method.h lists others.
 //
-// Values are averaged as the method says (stormcellar/grid/method.h). Values that wrap (VEL, PHI)
-// are averaged on their circle.
+// Values are averaged as the method says. Values that wrap (VEL, PHI) are averaged on their circle,
+// unless the method says otherwise.
 //
 // Model     WGS84 for the site frame. The method selects the beam; by default it is over a sphere
 //           of 4/3 Gaussian radius.
@@ -15,10 +16,12 @@
 // Threads   Pure functions; make_grid() uses `threads` threads of its own. The result has the same
 //           bits for any number of threads.
 // Errors    See make_grid().
-// Accuracy  A cell's gate is within 0.15 m of range of the model. Its weights are those of the
-//           model for a beam up to 0.25 m higher or lower, with edges up to 1 m higher or lower
-//           (grid/sweep/polar_sweep.h). tests/grid/gridder_oracle_test.cpp enforces both for whole
-//           grids. The model's own error is in docs/geometry.md.
+// Accuracy  For the gate of a cell, the range is within 0.15 m of the model. The weights of a cell
+//           equal the model's weights for a beam up to 0.25 m higher or lower, with edges up to 1
+//           m
+//           higher or lower (grid/sweep/polar_sweep.h). tests/grid/gridder_oracle_test.cpp
+//           enforces
+//           both for whole grids. docs/geometry.md has the error of the model itself.
 #pragma once
 
 #include <memory>
@@ -46,7 +49,7 @@ struct GridderOptions {
     // The profile of the air for traced beams; none: the exponential reference atmosphere.
     std::optional<RefractivityProfile> profile = std::nullopt;
     // The rule that chooses among equally good sweeps of an elevation: the newest, or the nearest
-    // to the frame time. See stormcellar/grid/sweep_choice.h.
+    // to the frame time (stormcellar/grid/sweep_choice.h).
     enum class Repeats { newest, nearest_in_time };
     Repeats repeats = Repeats::newest;
     // The instant for which the grid is made; none: the start of the volume.
@@ -59,15 +62,15 @@ struct GridderOptions {
 // (WSR-88D).
 [[nodiscard]] double beam_width_of(std::string_view icao);
 
-// Returns the sweeps that make_grid() uses for the moment, by the beam width and `repeats` of the
-// options.
+// Returns the sweeps that make_grid() uses with these options.
 [[nodiscard]] std::vector<ChosenSweep> sweeps_to_grid(const level2::Volume& volume,
                                                       const SitePosition& site,
                                                       const GridderOptions& options);
 
 // Grids a volume. The caller fills in provenance.source_files and .partial. Errors: not_found if
-// the volume has no sweep with the moment; bad_argument for a geometry made for another site, a
-// beam width that is not within 0 to 5 degrees, a frame time that no radar can mean, or no threads.
+// the volume has no sweep with the moment; bad_argument for a geometry made for another place, an
+// antenna altitude beyond 10 km, a beam width outside 0 to 5 degrees, averaging in Z of another
+// moment than REF, an implausible frame time, or fewer than one thread.
 [[nodiscard]] Result<Grid> make_grid(const level2::Volume& volume, const SitePosition& site,
                                      const ColumnGeometry& geometry, const GridderOptions& options);
 

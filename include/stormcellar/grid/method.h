@@ -1,14 +1,13 @@
 // stormcellar/grid/method.h -- how a grid is made: one rung for each step from the antenna to the
 // cell.
 //
-// The steps, each of which has rungs from cheap to exact (docs/accuracy.md):
-//   frame          where a column lies as the site sees it
-//   beam           where a gate lies in the vertical plane of its azimuth
+// Each step has rungs from cheap to exact (docs/accuracy.md):
+//   frame          how azimuth and arc of a column are found (not in Method; see ColumnGeometry)
+//   beam           where a gate is in the vertical plane of its azimuth
 //   elevation      one elevation for the sweep (the median), or the measured one of each radial
 //   interpolation  which gates make up a point, and how much each counts
 //   cell           a point at the center of the cell, or the mean over the cell
-//   averaging      in the moment's own unit (dBZ), or in linear Z, which is the quantity that adds
-//                  up
+//   averaging      in the moment's own unit (dBZ), or in linear Z, which is proportional to power
 //
 // Threads   Plain values and pure functions.
 // Errors    None; an unknown name gives none.
@@ -40,14 +39,14 @@ using ChosenAveraging = Chosen<Averaging::in_db, Averaging::in_db>;
 using ChosenElevation = Chosen<true, false>;
 using ChosenCircle = Chosen<true, false>;
 
-// Returns the extent of cells that a method's name stands for; point for an unknown name.
+// Returns the extent of cells in a method that Method::name() calls so; point for an unknown name.
 [[nodiscard]] CellExtent cell_extent_of(std::string_view method_name);
 
 // Facts about an interpolation. CONTRIBUTING.md says how to add one.
 struct InterpolationFacts {
     Interpolation interpolation = Interpolation::nearest;
     std::string_view name = {};
-    bool takes_one_gate = false;  // of each sweep, so that whole columns are filled at once
+    bool takes_one_gate = false;  // of each sweep, so whole columns are filled at once
     bool is_by_pattern = false;   // more sweeps than the two around a level may count
 };
 inline constexpr auto interpolation_facts = std::to_array<InterpolationFacts>({
@@ -69,11 +68,11 @@ struct Method {
     ChosenExtent cell = {};                  // a point
     ChosenAveraging averaging = {};          // in dB; in_z is for reflectivity only
     ChosenElevation radial_elevations = {};  // true: the measured elevation of each radial
-    // True for moments that wrap. If false, their values are averaged as plain numbers.
+    // True: values of moments that wrap are averaged on their circle; false: as plain numbers.
     ChosenCircle on_circle = {};
 
-    // Returns "column-nearest", "column-linear", "eight-point", "beam-weighted" or "area,
-    // beam-weighted".
+    // Returns a name for provenance: "column-nearest", "column-linear", "eight-point" or
+    // "beam-weighted", with "area, " before it if cells are areas.
     [[nodiscard]] std::string name() const;
     bool operator==(const Method&) const = default;
 };

@@ -1,28 +1,30 @@
 // stormcellar/grid/mosaic.h -- merges grids of many sites, each on a window of a domain's grid,
 // into one grid.
 //
-// Each site is gridded once, on the columns of the domain (site_window(), window_spec()), and kept
-// as bricks. This is the site's partial. Merging goes brick by brick and reads only bricks in which
-// a site sees something. A new volume of one site costs only the bricks that its window touches
-// (update()).
+// Each site is gridded once, on columns of the domain (site_window(), window_spec()), and kept as
+// bricks: the site's partial. merge() goes brick by brick and reads only bricks in which a site
+// sees something. After a new volume of one site, update() merges only the bricks that the site's
+// window touches.
 //
-// In each cell only the sites that see it count. Each of them has a state, and a weight that
+// In each cell only the sites that see it count. Each of these sites has a state, and a weight that
 // depends on the arc r from the cell's column to the site:
 //   mean               The weight is 1.
 //   distance_weighted  The weight is exp(-r^2 / L^2) (Zhang, Howard and Gourley 2005; with L = 250
-//                      km Lakshmanan et al. 2006). It is never below 1e-30, so that the only site
-//                      that sees a cell is not lost.
-//     both             States mix by the rule of docs/geometry.md: the cell is range folded if the
-//                      weight of that state is the largest, no echo if that outweighs values, else
-//                      the weighted mean of the values. For REF, a site that sees no echo enters
-//                      the mean with its detection limit (the curve of grid/beam/detection_limit.h
-//                      at the slant range of the cell); for other moments it does not enter.
+//                      km Lakshmanan et al. 2006). It is never below 1e-30, so that a cell that
+//                      only
+//                      one far site sees keeps its state.
+//     both             States mix by the rule of docs/geometry.md: the cell is range folded if that
+//                      state has the largest weight, else no echo if that state outweighs values,
+//                      else the weighted mean of the values. For REF, a site that sees no echo
+//                      enters the mean with its detection limit (the curve of
+//                      grid/beam/detection_limit.h at the slant range of the cell); for other
+//                      moments it does not enter.
 //   maximum            The largest value if there is any; else no echo if any site sees no echo;
 //                      else range folded.
 //   nearest            The state and the value of the nearest site that sees the cell. If two sites
 //                      are equally near, the first by name counts. VEL (velocities toward different
 //                      radars) and PHI (each radar's own offset) allow no other rule.
-// A cell that no site sees is not seen. With one site alone, every cell is as in its partial.
+// A cell that no site sees is not seen. With a single site, every cell is as in its partial.
 //
 // Units     Meters for distances; values are in the unit of the moment.
 // Threads   Pure functions, but for update_in_place(), which changes its mosaic. The result has the
@@ -30,10 +32,12 @@
 //           order of ICAO, then position).
 // Errors    See each function.
 // Accuracy  Enforced by tests/grid/mosaic_test.cpp with 1- and 2-byte codes. A merged value is
-//           within 0.51 steps of the codes of the exact rule applied to the values that the
-//           partials hold. If that is below the least code (a mean with detection limits), it is
-//           the least code. The state is that of the exact rule, except where two weights differ by
-//           less than 1e-5 of themselves. The errors of the partials themselves come on top.
+//           within 0.51 steps of the codes of the exact rule applied to the values in the
+//           partials.
+//           If the exact result is below the least code (in a mean with detection limits), the
+//           merged value is the least code. The state equals the exact rule's state, except where
+//           two weights differ by less than 1e-5 of themselves. The partials' own errors add to
+//           this.
 #pragma once
 
 #include <array>
@@ -73,26 +77,26 @@ struct MosaicOptions {
     Overlap overlap = Overlap::distance_weighted;
     Averaging averaging = Averaging::in_db;  // in_z is for reflectivity only
     double length_m = 250000;                // L; 1 km to 10,000 km
-    bool counts = false;                     // make Mosaic::counts and Mosaic::weights too
+    bool counts = false;                     // also make Mosaic::counts, Mosaic::weights
     bool weights = false;
     int threads = 1;
 };
 
-// The grid of one site.
+// The grid of one site, as an input of a mosaic.
 struct Partial {
-    BrickView view;  // a window of whole bricks; its spec and its bytes must outlive the call
+    BrickView view;  // a window of whole bricks; its spec and bytes must outlive the call
     SitePosition site;
-    // The distances from this site, over a window that holds the window of the view. If null, the
+    // The distances from this site, for a window that holds the window of the view. If null, the
     // call computes them.
     std::shared_ptr<const SiteDistance> distance = nullptr;
 };
 
-// The bricks of a mosaic, in memory or in a file. Counts and weights have the same cells: a value
-// where a site sees the cell, else not seen.
+// The bricks of a mosaic, in memory or in a file. In counts and weights a cell has a value where a
+// site sees it, and is not seen elsewhere.
 struct MosaicView {
     BrickView cells;
-    std::optional<BrickView> counts;   // how many sites see the cell, exact up to 252
-    std::optional<BrickView> weights;  // the sum of their weights; within 2^-11, up to 63
+    std::optional<BrickView> counts;   // the number of sites that see a cell, exact up to 252
+    std::optional<BrickView> weights;  // the sum of the sites' weights, within 2^-11, up to 63
 };
 
 struct Mosaic {
@@ -102,32 +106,31 @@ struct Mosaic {
     [[nodiscard]] MosaicView view() const;  // valid as long as this lives and is not moved
 };
 
-// Merges partials, which must all have the same quantization. Without any partial the result is a
-// mosaic in which nothing is seen, in the default quantization of the moment.
+// Merges partials, which must all have the same quantization. Without partials, returns a mosaic in
+// which nothing is seen, in the default quantization of the moment.
 //
 // Errors: bad_argument for an invalid domain or options; a moment that the overlap or the averaging
 // cannot mix; a partial that is not a window of whole bricks of the domain, has another
-// quantization, or has distances for another place; the same site twice.
+// quantization, has distances for another place, or is not on the earth; the same site twice.
 [[nodiscard]] Result<Mosaic> merge(const GridSpec& domain, std::span<const Partial> partials,
                                    const MosaicOptions& options);
 
-// Returns the same bits as merge() of all partials, at the cost of the bricks within `changed`.
-// These are the windows of every partial that came, went or was replaced since `previous` was made
-// with the same options. All other bricks are copied from `previous`, and no partials are read for
-// them.
+// Returns the same bits as merge() of all partials, but merges only the bricks within `changed`:
+// the windows of every partial that was added, removed or replaced since `previous` was made with
+// the same options. All other bricks are copied from `previous`.
 //
-// Errors: those of merge(); bad_argument if the previous mosaic is of another domain or
-// quantization, or lacks the counts or weights that are asked for.
+// Errors: those of merge(); bad_argument if `previous` is incomplete or lacks the counts or weights
+// that the options ask for.
 [[nodiscard]] Result<Mosaic> update(const MosaicView& previous, std::span<const Partial> partials,
                                     std::span<const GridWindow> changed,
                                     const MosaicOptions& options);
 
-// Gives the same bits as update(), but changes `mosaic` itself. Nothing is copied, so it costs the
-// changed bricks and one pass over the table and the states. It needs only the partials whose
-// windows hold something that changed. A mosaic that is too large for all partials at once can be
-// made stripe by stripe from an empty one, the merge() of no partials.
+// Changes `mosaic` into the same bits as update() returns. Copies nothing, so the cost is the
+// changed bricks and one pass over the table and the states. Needs only the partials whose windows
+// touch `changed`. A mosaic too large for all partials at once can be made stripe by stripe from an
+// empty one, which merge() of no partials returns.
 //
-// No view of the mosaic may be in use. Errors are those of update(), found before anything changes.
+// No view of the mosaic may be in use. Errors: those of update(), before anything changes.
 [[nodiscard]] Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
                                      std::span<const GridWindow> changed,
                                      const MosaicOptions& options);

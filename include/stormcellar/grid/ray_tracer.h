@@ -1,19 +1,20 @@
 // stormcellar/grid/ray_tracer.h -- the path of a radar beam's axis through spherical layers of air.
 //
 // Units     Meters; heights are above mean sea level; the arc is along the sphere at sea level.
-// Model     A ray over a sphere (that of stormcellar/grid/beam_geometry.h), bent by Bouguer's law:
+// Model     A ray over the sphere of stormcellar/grid/beam_geometry.h, bent by Bouguer's law:
 //           n r cos(elevation) is the same everywhere along the ray.
-// Range     The OPTICAL path. The radar measures time and turns it into range with the speed of
-//           light in vacuum, so its range is the integral of n along the ray. It is longer than the
-//           path itself: by 56 m at 230 km and 75 m at 460 km, at 0.5 degrees in the exponential
-//           reference atmosphere. RangeKind::geometric counts the path itself, as textbooks do.
-// Method    Runge-Kutta of order 4 on the height, the sine of the elevation and the arc. Steps of
-//           at most 2 km end at each border between layers and at each turning point. Hermite
-//           cubics interpolate between them.
-// Ends      The ray ends where the range is reached or where it meets the floor.
-// Bounded   After 20,000 steps the ray no longer stops exactly at layers and turning points.
+// Range     The optical path. The radar measures time and multiplies it by the speed of light in
+//           vacuum, so its range is the integral of n along the ray. That is longer than the
+//           geometric path: by 56 m at 230 km and 75 m at 460 km, at 0.5 degrees in the
+//           exponential
+//           reference atmosphere. RangeKind::geometric uses the geometric path, as textbooks do.
+// Method    Runge-Kutta of order 4 for the height, the sine of the elevation and the arc. Steps
+//           are at most 2 km and end at each border between layers and at each turning point.
+//           Hermite cubics interpolate between the ends of steps.
+// Ends      The ray ends at the farthest range asked for, or where it meets the floor.
+// Bounded   After 20,000 steps, steps no longer end exactly at borders and turning points.
 // Threads   A TracedRay is immutable, so any thread may use it.
-// Errors    None: places that the ray does not reach are NaN.
+// Errors    None: results are NaN where the ray does not go.
 // Accuracy  Enforced by tests/grid/ray_tracer_test.cpp against quadrature of Bouguer's law in
 //           113-bit floats. Height and arc: 1 mm for ranges of -1 to 470 km, elevations of -5 to 60
 //           degrees, antennas at -100 to 4,000 m, and levels 10 m and more apart. Trapped in a
@@ -33,14 +34,14 @@ struct RayOptions {
     double earth_radius_m = 0;  // radius of the sphere at sea level
     double antenna_altitude_m = 0;
     double elevation_deg = 0;  // at the antenna, -90 to 90
-    // how far the ray also continues behind the antenna, where there is no floor
+    // how far the ray also runs behind the antenna, without a floor
     double behind_m = 0;
     double farthest_m = 0;
-    double floor_m = -500;  // below all land; the antenna's altitude if the antenna is lower
+    double floor_m = -500;  // below all land; if the antenna is lower, its altitude counts instead
     RangeKind range_kind = RangeKind::optical;
 };
 
-// A point of the ray, and the direction of the ray there.
+// A point of the ray, and the ray's direction there.
 struct RayNode {
     double range_m = 0;
     double height_m = 0;

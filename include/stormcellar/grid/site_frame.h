@@ -1,8 +1,8 @@
 // stormcellar/grid/site_frame.h -- geodesics from one point of the WGS84 ellipsoid: azimuth and arc
 // to any other point.
 //
-// Heights above mean sea level are used as heights above the ellipsoid, which makes a difference of
-// about 1 m at 230 km.
+// Callers use heights above mean sea level as heights above the ellipsoid, which makes a difference
+// of about 1 m at 230 km.
 //
 // Units     Meters along the ellipsoid; degrees; azimuths are clockwise from north, [0, 360).
 // Source    Karney (2013), Algorithms for geodesics, through GeographicLib.
@@ -19,7 +19,7 @@ struct GeoPoint {
     double longitude_deg = 0;  // [-180, 180]
 };
 
-// The place of a point as seen from the origin of the frame. The origin itself has azimuth 0.
+// A point as seen from the origin of the frame. The origin itself has azimuth 0.
 struct PolarPoint {
     double azimuth_deg = 0;
     double arc_m = 0;
@@ -40,8 +40,8 @@ class SiteFrame {
     [[nodiscard]] PolarPoint to_polar(GeoPoint point) const noexcept;
     [[nodiscard]] GeoPoint to_geo(PolarPoint point) const noexcept;
 
-    // These convert between azimuth and arc and the azimuthal equidistant plane about the origin, x
-    // to the east and y to the north, in closed form.
+    // These convert between polar points and the azimuthal equidistant plane about the origin, in
+    // closed form.
     [[nodiscard]] static PolarPoint from_plane(double x_m, double y_m) noexcept;
     [[nodiscard]] static PlanePoint to_plane(PolarPoint point) noexcept;
 

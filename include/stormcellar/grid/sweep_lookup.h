@@ -1,11 +1,11 @@
 // stormcellar/grid/sweep_lookup.h -- one sweep as the radar saw it: finds the gate at a place.
 //
 // A place belongs to the radial whose azimuth is nearest. If neighboring radials are more than one
-// and a half spacings apart, each of the two reaches half a spacing, and nothing was seen in
-// between. Along the radial, a place belongs to the gate whose center is nearest, by the beam of
-// 4/3 of the earth's radius at the median elevation of the sweep's radials. Radials that were
-// measured more than half a beam off that elevation are left out, as in grids. Nothing is mixed or
-// quantized: the result is the value of one gate.
+// and a half spacings apart, each covers half a spacing, and the gap between was not seen. Along
+// the radial, a place belongs to the gate whose center is nearest, by the 4/3-earth beam at the
+// median elevation of the sweep's radials. Radials measured more than half a beam off that
+// elevation are left out, as in grids. Nothing is mixed or quantized: the result is the value of
+// one gate.
 //
 // Units     Meters and degrees; values are in the unit of the moment. Heights are above mean sea
 //           level. Places are azimuth and arc from the antenna (stormcellar/grid/site_frame.h).
@@ -31,10 +31,10 @@
 
 namespace stormcellar::grid {
 
-// Selects a sweep of a volume. Without a number, the sweep whose fixed angle is nearest to the
-// elevation is selected, at most `farthest_deg` from it; without an elevation, the lowest sweep. If
-// several sweeps have one angle (SAILS, split cuts), the newest that choose_sweeps() finds as good
-// as the others is selected, or the nearest to a time.
+// Selects a sweep of a volume: by its number, if that is given; else the sweep whose fixed angle is
+// nearest to the elevation, at most `farthest_deg` from it; without an elevation, the lowest sweep.
+// If several sweeps have one angle (SAILS, split cuts), the rules of choose_sweeps() select the
+// newest that is as good as the others, or the nearest to a time.
 struct SweepWish {
     static constexpr double farthest_deg = 1;
     std::optional<double> elevation_deg{};
@@ -44,16 +44,16 @@ struct SweepWish {
 
 struct SweepFacts {
     std::size_t number = 0;      // index in Volume::sweeps
-    int cut = 0;                 // of the VCP, from 1
-    double elevation_deg = 0;    // the median of the radials
-    double fixed_angle_deg = 0;  // the VCP's if it is known, else the measured one
+    int cut = 0;                 // number of the VCP's cut, from 1
+    double elevation_deg = 0;    // the median of the radials used
+    double fixed_angle_deg = 0;  // the VCP's if it is plausible, else the measured one
     std::size_t radial_count = 0;
     double azimuth_spacing_deg = 0;
     double gate_spacing_m = 0;  // the smallest, if the radials differ
     double last_gate_m = 0;     // slant range of the far end of the last gate
-    double greatest_arc_m = 0;  // the same along the earth
-    float nyquist_mps = 0;      // of the first radial; 0: not known
-    UtcTime start, end;         // of the first and the last radial; the epoch: not known
+    double greatest_arc_m = 0;  // the arc at that range, at most the lookup's limit
+    float nyquist_mps = 0;      // of the first radial used; 0: unknown
+    UtcTime start, end;         // first and last time of a radial; the epoch: unknown
 };
 
 // Contents of one gate.
@@ -69,15 +69,15 @@ struct GatePosition {
     double azimuth_deg = 0;    // of the radial
     double elevation_deg = 0;  // of the radial, as measured
     double range_m = 0;        // slant range of the center of the gate
-    double height_m = 0;       // of the beam's axis there, at the elevation of the sweep
+    double height_m = 0;       // of the beam's axis at the gate, at the elevation of the sweep
     UtcTime time;              // of the radial
 };
 
 class SweepLookup {
   public:
-    // Finds the sweep and prepares it. The object shares the volume, because it reads the sweep
-    // from there. Errors: not_found if no sweep holds the moment, or not the numbered sweep, or
-    // none near that elevation; the message lists the sweeps that hold it.
+    // Finds the sweep and prepares it. The object shares ownership of the volume. Errors: not_found
+    // if no sweep holds the moment, the numbered sweep does not hold it, or no sweep is near the
+    // elevation; except in the first case, the message lists the sweeps that hold it.
     [[nodiscard]] static Result<SweepLookup> find(std::shared_ptr<const level2::Volume> volume,
                                                   const SitePosition& site, level2::Moment moment,
                                                   double half_beam_deg, const SweepWish& wish);
@@ -90,7 +90,8 @@ class SweepLookup {
     [[nodiscard]] level2::Moment moment() const;
     // Returns the gate at a place. The arc must be at least 0, and the azimuth within [0, 360].
     [[nodiscard]] GateValue at(PolarPoint place) const;
-    // Returns none if no radial saw the place, or if it is beyond the gates.
+    // Returns the gate at a place, or none if no radial saw the place or the place is beyond the
+    // gates.
     [[nodiscard]] std::optional<GatePosition> position(PolarPoint place) const;
 
   private:
@@ -99,8 +100,8 @@ class SweepLookup {
     std::unique_ptr<const Prepared> prepared_;
 };
 
-// Returns the fixed angles of the sweeps that hold the moment, one for each elevation, rising.
-// SweepWish::elevation_deg can find these.
+// Returns the fixed angle of one sweep for each elevation at which the moment was measured, lowest
+// first. SweepWish::elevation_deg finds these sweeps.
 [[nodiscard]] std::vector<double> elevations_deg(const level2::Volume& volume,
                                                  level2::Moment moment, double half_beam_deg);
 
