@@ -11,7 +11,7 @@
 
 namespace stormcellar::grid {
 
-// The place of an arc in the tables.
+// The place of an arc in an ArcTable.
 struct ArcPlace {
     std::size_t index = 0;
     float fraction = 0;
@@ -35,8 +35,8 @@ class ArcTable {
     }
     // Returns the value at the arc index * step_m.
     [[nodiscard]] float operator[](std::size_t index) const { return values_[index]; }
-    // Returns the place of an arc, which must be at least 0. The table must have more than index +
-    // 1 entries.
+    // Returns the place of an arc, which must be at least 0. A table can evaluate it only if it has
+    // more than index + 1 entries.
     [[nodiscard]] static ArcPlace place_of(float arc_m) {
         const float along = arc_m / static_cast<float>(step_m);
         const auto index = static_cast<std::size_t>(along);

@@ -1,11 +1,12 @@
 // grid/beam/beam_pattern.h -- how much a gate counts for a point off the axis of its beam.
 //
-// The weight is the one-way power pattern of the antenna, taken as a Gaussian of the half-power
-// width, so it is 1/2 at half a width off the axis. The pattern is cut off at `reach`. It is
-// lowered and scaled so that it is 0 there and still 1 on the axis:
+// The weight is the one-way power pattern of the antenna, a Gaussian of the half-power width, so it
+// is 1/2 at half a width off the axis. The pattern is lowered and scaled so that it is still 1 on
+// the axis and 0 from `reach` on:
 //   weight(x) = (G(x) - G(reach)) / (1 - G(reach)),   G(x) = exp(-4 ln 2 (x / width)^2)
 // Here width = reach = the larger of the beam width and the distance between neighboring radials or
-// sweeps. So at least two radials or sweeps count everywhere between them. On the axis of one, only
+// sweeps. So at least two radials or sweeps count everywhere between them. On the axis of a radial
+// or sweep, no other counts, unless another is nearer than the beam width.
 // that one counts, unless another is nearer than the beam width.
 //
 // Source    Probert-Jones (1962), who takes the main lobe as a Gaussian.

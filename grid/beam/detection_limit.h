@@ -1,14 +1,14 @@
 // grid/beam/detection_limit.h -- the weakest reflectivity that a radar can show at a range.
 //
-// "No echo" stands for this value where a cell mixes it with echo (docs/geometry.md).
+// Where a cell mixes no echo with echo, no echo counts as this value (docs/geometry.md).
 //   limit_dbz = dbz0 + 20 log10(range / 1 km) + attenuation * range + snr_threshold
 // Message 31 has dbz0 (the calibration: the reflectivity at 1 km of an echo as strong as the
 // noise), the attenuation and the threshold. If the message has no calibration, a fixed curve
-// replaces dbz0 + snr_threshold: -41.5 dBZ for WSR-88D (-7.5 dBZ at 50 km, the specified
-// sensitivity) and -46 dBZ for TDWR (as the data show).
+// replaces dbz0 + snr_threshold: -41.5 dBZ for a WSR-88D (-7.5 dBZ at 50 km, the specified
+// sensitivity) and -46 dBZ for a TDWR (as the data show).
 //
 // Threads   Plain values and pure functions.
-// Accuracy  The weakest echo of real volumes lies within 3.5 dB of the limit (docs/geometry.md).
+// Accuracy  The weakest echo of real volumes is within 3.5 dB of the limit (docs/geometry.md).
 // Source    ICD 2620002 tables XVII-B, E, F and H.
 #pragma once
 
@@ -23,7 +23,7 @@ struct DetectionLimit {
     double at_1km_dbz = wsr88d_limit_at_1km_dbz;  // without attenuation
     double attenuation_db_per_km = 0;             // both ways, positive
 
-    // Ranges below 100 m count as 100 m.
+    // Returns the limit in dBZ. Ranges below 100 m count as 100 m.
     [[nodiscard]] double at(double range_m) const;
 };
 

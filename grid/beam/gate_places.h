@@ -1,7 +1,7 @@
 // grid/beam/gate_places.h -- where the centers of a sweep's gates are.
 //
-// Each gate has a parabola through three places: at the sweep's elevation, half a beam below it and
-// half a beam above it.
+// For each gate, the place of the gate is a parabola in the elevation, through three places: at the
+// sweep's elevation, half a beam below it and half a beam above it.
 //
 // Accuracy  0.02 m of the beam model, for radials up to half a beam off, ranges to 470 km,
 //           elevations of -5 to 60 degrees and the 4/3 earth (enforced by
@@ -25,13 +25,13 @@ class GatePlaces {
                double half_beam_deg);
 
     // Returns the place of a gate, for a radial that is higher than the sweep by `offset_deg`. The
-    // gate must be at least 0 and below the moment's stride. Returns none where the beam does not
-    // go.
+    // gate must be at least 0 and below the moment's stride. Returns none if the beam does not
+    // reach the gate.
     [[nodiscard]] std::optional<EarthPoint> at(std::int32_t gate, double offset_deg) const;
 
   private:
-    // middle + halves * (linear + halves * square), where halves counts half beams off the
-    // elevation.
+    // The place is middle + halves * (linear + halves * square), where halves is offset_deg in half
+    // beams.
     struct Place {
         EarthPoint middle, linear, square;
     };

@@ -1,8 +1,8 @@
 // grid/cells/code_block.h -- the codes of a rectangle of columns and sixteen levels, unpacked.
 //
-// A block holds 16-bit codes, states included, for every kind of brick (uniform, states, codes of
-// one or two bytes). Places beyond the grid are not seen. Only steps inside the grid room that read
-// the neighbors of a cell use it.
+// A block holds 16-bit codes, or the code of a state, for every kind of brick (uniform, states,
+// codes of one or two bytes). Places beyond the grid are not seen. Only code inside grid/ that
+// reads the neighbors of a cell uses a CodeBlock.
 //
 // Threads   One thread for each object.
 #pragma once
@@ -15,14 +15,15 @@
 
 namespace stormcellar::grid {
 
-// The columns [x0, x1] x [y0, y1], with both ends included. They may lie beyond the grid.
+// The columns [x0, x1] x [y0, y1], both ends included. They may be beyond the grid.
 struct ColumnBox {
     int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
 };
 
 class CodeBlock {
   public:
-    // Returns the state of all columns if it is the same everywhere and not a value, else none.
+    // Returns the state of all columns of the box in the bricks at `bz` if those are uniform with
+    // one state, else none. Columns beyond the grid count as not seen.
     [[nodiscard]] static std::optional<CellStatus> uniform_status(const BrickView& view,
                                                                   const ColumnBox& box, int bz);
     void read(const BrickView& view, const ColumnBox& box, int bz);

@@ -1,10 +1,10 @@
 // grid/cells/grid_tally.h -- counts what many grids of one shape show, for statistics over months
-// and years: the greatest value and the echo top of each column and, if asked for, the values of
-// each cell.
+// and years: the greatest value and the echo top of each column and, on request, the values of each
+// cell.
 //
-// Places that were not seen are counted apart from places without echo, so that a blind region is
-// not taken for a dry one. The tallies of the parts of a period, added in any order, equal the
-// tally of the whole period bit for bit (grid/cells/value_tally.h, with units and accuracy).
+// Places that were not seen are counted separately from places without echo, so that a blind region
+// does not look dry. The tallies of the parts of a period, added in any order, equal the tally of
+// the whole period bit for bit (grid/cells/value_tally.h, which has units and accuracy).
 //
 // Range     2^32 grids.
 // Threads   Plain data; one thread at a time changes it.
@@ -32,21 +32,22 @@ class GridTally {
 
     GridTally(GridSpec spec, Quantization quantization, Tallied tallied = Tallied::columns);
 
-    // Counts one grid. Each column counts whether any of its cells was seen, its greatest value,
-    // and the highest level with 18.5 dBZ.
+    // Counts one grid: for each column, whether any of its cells was seen, its greatest value, and
+    // the highest level with at least 18.5 dBZ.
     [[nodiscard]] Status add(const BrickView& grid);
     [[nodiscard]] Status add(const GridTally& more);
 
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
     [[nodiscard]] const Quantization& quantization() const { return quantization_; }
     [[nodiscard]] std::uint64_t grids() const { return grids_; }
-    // The greatest values of the columns; the index is iy * nx + ix.
+    // Returns the tally of the columns' greatest values; the index is iy * nx + ix.
     [[nodiscard]] const ValueTally& columns() const { return columns_; }
-    // The values of the cells; the index is GridSpec::index(). None if cells are not counted.
+    // Returns the tally of the cells' values; the index is GridSpec::index(). None if cells are not
+    // counted.
     [[nodiscard]] const std::optional<ValueTally>& cells() const { return cells_; }
     [[nodiscard]] std::uint32_t tops_from(std::size_t column, std::size_t level) const;
 
-    // to_bytes() returns all counts and sums as bytes() bytes, and from_bytes() reads them back.
+    // to_bytes() returns all counts and sums, bytes() bytes in all. from_bytes() reads them back.
     // Errors: truncated, corrupt.
     [[nodiscard]] std::vector<std::byte> to_bytes() const;
     [[nodiscard]] Status from_bytes(std::span<const std::byte> bytes);

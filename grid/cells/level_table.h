@@ -1,6 +1,6 @@
 // grid/cells/level_table.h -- the levels of a grid, and the place of a height among them.
 //
-// A lookup is exact: it starts in a table of equal steps and ends on the levels themselves.
+// A lookup is exact: a table of equal steps gives a start, and the search ends on the levels.
 //
 // Threads   Immutable.
 #pragma once
@@ -16,7 +16,7 @@ namespace stormcellar::grid {
 
 class LevelTable {
   public:
-    // Levels must rise. There must be at least one.
+    // The levels must rise; there must be at least one.
     explicit LevelTable(std::vector<float> levels_m)
         : levels_m_(std::move(levels_m)),
           steps_(static_cast<float>(steps_a_level * levels_m_.size())),
@@ -25,8 +25,8 @@ class LevelTable {
         const std::size_t steps = steps_a_level * levels_m_.size();
         first_of_step_.reserve(steps + 1);
         for (std::size_t step = 0; step <= steps; ++step) {
-            // The start of a step is half a step lower, so that rounding cannot make a lookup pass
-            // over a level.
+            // Start each step half a step lower, so that rounding cannot make a lookup skip a
+            // level.
             const float begin = static_cast<float>(step) - 0.5F;
             while (level + 1 < levels_m_.size() && step_of(levels_m_[level]) < begin)
                 ++level;

@@ -1,6 +1,7 @@
-// grid/cells/moment_rules.h -- what a grid does with the values of each moment.
+// grid/cells/moment_rules.h -- how grids treat the values of each moment.
 //
-// One row for each moment adds what grids need to stormcellar/level2/moment.h.
+// Extends stormcellar/level2/moment.h by one row for each moment.
+//
 // Threads   Constants.
 #pragma once
 
@@ -14,12 +15,12 @@ namespace stormcellar::grid {
 
 struct MomentRules {
     level2::Moment moment = level2::Moment::ref;
-    // The coding of stored values. Steps are no coarser than the radar's own codes.
+    // How values are stored. Steps are no coarser than the radar's own codes.
     Quantization quantization = {};
-    accuracy::ValueUnit value_unit = accuracy::ValueUnit::ratio;  // of errors
-    // True if a gate without echo enters a mean as the weakest echo that it could have shown.
+    accuracy::ValueUnit value_unit = accuracy::ValueUnit::ratio;  // unit of errors
+    // True if no echo enters a mean with the detection limit of its gate.
     bool has_detection_limit = false;
-    // Reason why values of different sites are not mixed; empty if they are mixed.
+    // The reason why values of different sites are not mixed; empty if they are mixed.
     std::string_view why_sites_stay_apart = {};
 };
 

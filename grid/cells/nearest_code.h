@@ -1,4 +1,4 @@
-// grid/cells/nearest_code.h -- the code nearest to a value.
+// grid/cells/nearest_code.h -- rounds a value to a code.
 //
 // Threads   Pure function.
 #pragma once
@@ -7,13 +7,13 @@
 
 namespace stormcellar::grid {
 
-// Returns a whole number, which may be outside the range of codes.
+// Returns the code nearest to a value, as a whole number that may be outside the range of codes.
 [[nodiscard]] inline double nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
         static_cast<double>(quantization.step);
-    // Adding 2^52 rounds to the nearest whole number (halves to the even one), because numbers
-    // above 2^52 have no fraction.
+    // Adding 2^52 rounds to the nearest whole number (halves to even), because doubles above 2^52
+    // have no fraction.
     constexpr double no_fraction = 0x1.8p52;
     return steps + no_fraction - no_fraction + first_value_code;
 }

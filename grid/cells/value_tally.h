@@ -1,14 +1,17 @@
-// grid/cells/value_tally.h -- counts the values that places had in many grids.
+// grid/cells/value_tally.h -- counts the values of places in many grids.
 //
 // A place is a cell, or a column with its greatest value (grid/cells/grid_tally.h). All sums are
-// integers of codes and counts, so the tallies of the parts of a period, added in any order, equal
-// the tally of the whole period bit for bit.
+// integers, so the tallies of the parts of a period, added in any order, equal the tally of the
+// whole period bit for bit.
 //
 // Units     Reflectivity in dBZ.
 // Range     2^32 grids.
 // Threads   Plain data; one thread at a time changes it.
-// Accuracy  A quantile is the middle of a bin of 5 dBZ, so it is within 2.5 dBZ. Means and maxima
-//           are exact for the codes. A sum of Z counts each value to 0.001 mm^6/m^3.
+// Accuracy  A quantile is the middle of a bin of 5 dBZ, so it is within 2.5 dBZ, except in the
+// first
+//           and the last bin. Means and maxima are exact for the codes. A sum of Z rounds each
+//           value
+//           to 0.001 mm^6/m^3.
 #pragma once
 
 #include <algorithm>
@@ -28,17 +31,16 @@ class ValueTally {
     // Bin 0 counts values below -30 dBZ, the last bin values of 75 dBZ and more.
     static constexpr std::size_t bins = 23;
     static constexpr double first_edge_dbz = -30, bin_width_db = 5;
-    [[nodiscard]] static double edge_dbz(std::size_t bin);  // lower edge of bin 1 and above
+    [[nodiscard]] static double edge_dbz(std::size_t bin);  // the lower edge; bin 0 has none
 
     ValueTally(std::size_t places, Quantization quantization);
 
-    // Counts a place that was seen once more, with its code. A code below first_value_code means
-    // that the place had no value.
+    // Counts a place that one more grid has seen. A code below first_value_code means no value.
     void count(std::size_t place, std::uint16_t code) {
         ++seen_[place];
         if (code >= first_value_code) count_value(place, code);
     }
-    // `more` must have as many places and the same quantization.
+    // Adds a tally, which must have as many places and the same quantization.
     void add(const ValueTally& more);
 
     [[nodiscard]] std::size_t places() const { return seen_.size(); }
@@ -50,13 +52,14 @@ class ValueTally {
     [[nodiscard]] std::uint32_t from_bin_on(std::size_t place, std::size_t bin) const;
     // The following functions cover only the grids in which the place has a value.
     [[nodiscard]] double greatest_dbz(std::size_t place) const;
-    [[nodiscard]] double mean_dbz(std::size_t place) const;       // of the values in dBZ
-    [[nodiscard]] double mean_z_as_dbz(std::size_t place) const;  // of the values as Z
-    // Returns the middle of the bin in which the share of the values is reached.
+    [[nodiscard]] double mean_dbz(std::size_t place) const;       // mean of the values in dBZ
+    [[nodiscard]] double mean_z_as_dbz(std::size_t place) const;  // mean of the values as Z, in dBZ
+    // Returns the middle of the first bin up to which at least this share of the values is.
     [[nodiscard]] double quantile_dbz(std::size_t place, double share) const;
 
-    // append_to() appends all counts and sums as bytes_of() bytes, and take_from() removes as many
-    // bytes from the front. Errors: corrupt, for a greatest value that no grid can have.
+    // append_to() appends all counts and sums, bytes_of() bytes in all. take_from() reads and
+    // removes as many bytes from the front. Errors: corrupt, for a greatest value that no grid can
+    // have.
     void append_to(std::vector<std::byte>& bytes) const;
     [[nodiscard]] Status take_from(std::span<const std::byte>& bytes);
     [[nodiscard]] static std::uint64_t bytes_of(std::size_t places);
@@ -68,17 +71,17 @@ class ValueTally {
     std::vector<std::uint32_t> seen_, in_bins_;
     std::vector<std::uint16_t> greatest_;        // codes; 0: no value
     std::vector<std::uint64_t> codes_, powers_;  // sums of codes, and of Z in thousandths
-    std::vector<std::uint8_t> bin_of_;           // by code
-    std::vector<std::uint64_t> power_of_;        // by code
+    std::vector<std::uint8_t> bin_of_;           // the bin of each code
+    std::vector<std::uint64_t> power_of_;        // the Z of each code, in thousandths
 };
 
-// Appends numbers as bytes, one after the other.
+// Appends the bytes of all numbers.
 template <class Number>
 void append_numbers(const std::vector<Number>& numbers, std::vector<std::byte>& bytes) {
     const auto more = std::as_bytes(std::span(numbers));
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
-// Fills `numbers` from the front of `bytes`, which must hold enough bytes, and removes those.
+// Fills `numbers` from the front of `bytes`, which must be long enough, and removes what it read.
 template <class Number>
 void take_numbers(std::span<const std::byte>& bytes, std::vector<Number>& numbers) {
     const auto target = std::as_writable_bytes(std::span(numbers));

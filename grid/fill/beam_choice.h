@@ -1,9 +1,9 @@
-// grid/fill/beam_choice.h -- decides which beams make up a height of a column, for values and
+// grid/fill/beam_choice.h -- decides which beams count at a height of a column, for values and
 // details.
 //
-// Between two adjacent beams both count, by upper_share(). Elsewhere (below the lowest beam, above
-// the highest, beside a lost cut) at most one beam counts, the result of beam_alone(). A beam is
-// any type with `height_m`, `lower_edge_m` and `upper_edge_m`.
+// Between two adjacent beams both count, with the shares of upper_share(). Elsewhere (below the
+// lowest beam, above the highest, beside a lost cut) at most one beam counts, which beam_alone()
+// returns. A beam is any type with `height_m`, `lower_edge_m` and `upper_edge_m`.
 //
 // Threads   Pure functions.
 #pragma once
@@ -11,8 +11,8 @@
 namespace stormcellar::grid {
 
 // Returns the beam that counts alone at a height: the nearer of the beams whose edges enclose the
-// height, or the lower one if both are equally near. Returns null if no beam encloses the height,
-// which is then not seen. `below` is the highest beam at or below the height, and `above` the
+// height, or the lower beam if both are equally near. Returns null if no beam encloses the height;
+// the height is then not seen. `below` is the highest beam at or below the height, and `above` the
 // lowest beam above it; either is null if there is no such beam.
 template <class Beam>
 [[nodiscard]] const Beam* beam_alone(const Beam* below, const Beam* above, float height_m) {

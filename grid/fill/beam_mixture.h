@@ -1,5 +1,4 @@
-// grid/fill/beam_mixture.h -- makes the mixture of gates of one sweep over one column, by any
-// method.
+// grid/fill/beam_mixture.h -- mixes the gates of one sweep over one column, by any method.
 //
 // Units     Meters above mean sea level for heights, degrees for angles.
 // Threads   Pure functions.
@@ -11,8 +10,8 @@
 
 namespace stormcellar::grid {
 
-// The contribution of one sweep to a column. Within a column, heights rise or stay equal from each
-// sweep to the next.
+// The contribution of one sweep to a column. From each sweep to the next, heights rise or stay
+// equal.
 struct BeamMixture {
     Mixture mixture;
     float height_m = 0;
@@ -22,15 +21,15 @@ struct BeamMixture {
     bool adjacent_to_next = true;
 };
 
-// Returns the mixture of gates that the method takes from the sweep at an azimuth and arc.
-// `footprint` is the outline of a cell with an extent, and null for a point. A cell that holds no
-// gate's center is taken as a point.
+// Returns the mixture of the sweep's gates at an azimuth and arc. `footprint` is the outline of a
+// cell with an extent, or null for a point. A cell that holds no gate's center is treated as a
+// point.
 [[nodiscard]] Mixture mixture_over(const PolarSweep& sweep, const Method& method,
                                    float beam_width_deg, float azimuth_deg, ArcPlace place,
                                    const Footprint* footprint);
 
 // Returns the heights of the beam over an azimuth and arc, with an empty mixture. The beam has the
-// elevation of its nearest radial if the method uses measured elevations, else that of the sweep.
+// elevation of its nearest radial if the method uses measured elevations, else the sweep's.
 [[nodiscard]] BeamMixture beam_over(const PolarSweep& sweep, const Method& method,
                                     float azimuth_deg, ArcPlace place);
 

@@ -14,9 +14,9 @@
 
 namespace stormcellar::grid {
 
-// Writes the status and the value of every cell of the tiles that a sweep sees; the other cells
-// stay as they are. Pass the tiles of the geometry, or parts of them. `grid` must have the spec of
-// the geometry, arrays of its size, and not_seen in every cell of the tiles.
+// Writes the status and the value of every cell that a sweep sees in the tiles; all other cells
+// keep their values. Pass tiles of the geometry, or parts of tiles. `grid` must have the spec of
+// the geometry, arrays of that size, and not_seen in every cell of the tiles.
 void fill_grid(const SweepStack& stack, const ColumnGeometry& geometry, std::span<const Tile> tiles,
                const Method& method, int threads, Grid& grid);
 

@@ -1,8 +1,8 @@
-// grid/fill/detail_filler.h -- fills in the details of the cells of a grid
+// grid/fill/detail_filler.h -- computes the details of the cells of a grid
 // (stormcellar/grid/cell_details.h).
 //
-// It is a separate pass over a grid whose cells are filled, so a grid without details costs nothing
-// extra.
+// This is a separate pass over a grid whose cells are filled, so that grids without details cost no
+// more.
 //
 // Threads   Pure; it uses `options.threads` threads of its own. The result has the same bits for
 //           any number of threads.
@@ -18,14 +18,14 @@ namespace stormcellar::grid {
 
 struct DetailWork {
     const level2::Volume& volume;
-    const std::vector<ChosenSweep>& chosen;  // the same as in the stack
+    const std::vector<ChosenSweep>& chosen;  // the sweeps of the stack
     const SweepStack& stack;
     BeamModel beam;
     const ColumnGeometry& geometry;
     const GridderOptions& options;
 };
 
-// Makes grid.details with the set options.details. The status of the grid must be filled.
+// Fills grid.details for the set options.details. The status of the grid must be filled.
 void fill_details(const DetailWork& work, Grid& grid);
 
 }  // namespace stormcellar::grid

@@ -1,13 +1,14 @@
 // grid/fill/mixed_column.h -- makes the cells of one column from a mixture of gates of each sweep.
 //
 // This is the general form of grid/fill/column.h, for interpolations that take several gates of a
-// sweep and for cells with an extent. The interpolation says how much each sweep counts at a
+// sweep and for cells with an extent. The interpolation decides how much each sweep counts at a
 // height:
 //   nearest, linear, eight_point  The two adjacent sweeps around the height, linear in height (or
-//                                 the nearer one alone).
-//   beam_weighted                 Every sweep on the same side of lost cuts, by the antenna's
-//                                 pattern (grid/beam/beam_pattern.h). The angle off the axis is the
-//                                 difference in height divided by the beam's rise for each degree.
+//                                 only the nearer sweep).
+//   beam_weighted                 All sweeps on the same side of lost cuts, by the antenna's
+//   pattern
+//                                 (grid/beam/beam_pattern.h). The angle off the axis is the
+//                                 difference in height divided by the beam's rise per degree.
 // Elsewhere (below the lowest beam, above the highest, beside a lost cut) the nearer sweep counts
 // within its edges; beyond them the height is not seen. A cell with an extent is the mean over four
 // heights, in the middles of the quarters of its level. A level reaches half way to its neighbors.
@@ -24,13 +25,13 @@
 
 namespace stormcellar::grid {
 
-// Returns the heights at which a column is evaluated, level by level, with one or four for each
-// level.
+// Returns the heights at which a column is evaluated, level by level: one height for each level, or
+// four for cells with an extent.
 [[nodiscard]] std::vector<float> heights_of_levels(std::span<const float> levels_m,
                                                    CellExtent cell);
 
-// Evaluates one column after another. Each search starts at the last height, so pass heights in
-// rising order.
+// Evaluates columns, one at a time. Pass heights in rising order, because each search starts at the
+// last height.
 class MixedColumn {
   public:
     MixedColumn(Interpolation interpolation, float beam_width_deg, Blending blending)
@@ -40,16 +41,16 @@ class MixedColumn {
     void start(std::span<const BeamMixture> beams);
     // Returns the mixture of the beams at a height.
     [[nodiscard]] Mixture at(float height_m);
-    // Returns the mixture of the beams at a height, as a cell.
+    // Returns the cell that the beams make at a height.
     [[nodiscard]] CellResult cell_at(float height_m);
-    // Returns the mean over several heights, which rise by even steps, as a cell.
+    // Returns the cell that is the mean over several heights, which rise by equal steps.
     [[nodiscard]] CellResult mean_at(std::span<const float> heights_m);
 
   private:
     [[nodiscard]] bool is_between_adjacent() const {
         return above_ > 0 && above_ < beams_.size() && beams_[above_ - 1].adjacent_to_next;
     }
-    // Returns a distance beyond which no beam counts, with a margin for rounding.
+    // Returns a height difference beyond which no beam counts, with a margin for rounding.
     [[nodiscard]] float reach_m_of(float width_deg) const {
         return 1.001F * width_deg * steepest_m_per_deg_;
     }
@@ -65,7 +66,7 @@ class MixedColumn {
     float beam_width_deg_;
     Blending blending_;
     std::span<const BeamMixture> beams_;
-    float steepest_m_per_deg_ = 0;  // over the rises of all beams
+    float steepest_m_per_deg_ = 0;  // the largest rise of any beam
     std::size_t above_ = 0;         // the first beam above the height; beams_.size() if none
     std::vector<float> weights_;
 };

@@ -19,7 +19,7 @@ class MixedColumns {
         : work_(work),
           mixed_(work.method.interpolation, work.stack.beam_width_deg, work.blending) {}
 
-    // Returns how far the samples of a tile's columns reach.
+    // Returns how far the samples for a tile's columns reach beyond the columns.
     [[nodiscard]] SampleReach reach_over(const Tile& tile) const;
     void fill(std::span<const PlannedSweep> plan, std::span<const TileColumn> columns);
 

@@ -1,8 +1,8 @@
 // grid/fill/sampled_columns.h -- fills the columns of a tile from one gate of each sweep.
 //
 // First it goes sweep by sweep over all columns, so that the tables and gates of a sweep stay in
-// the processor's cache. A column is finished when a beam passes above its top level. Then it goes
-// column by column (grid/fill/column.h).
+// the processor's cache. A column leaves this pass when a beam is above its top level. Then each
+// column is filled (grid/fill/column.h).
 //
 // Threads   One object for each thread.
 #pragma once
@@ -15,14 +15,14 @@
 
 namespace stormcellar::grid {
 
-// The template parameters hold what is the same for all columns: whether each radial's own
-// elevation counts, whether a cell takes the nearer beam, and whether the moment wraps.
+// The template parameters are equal for all columns: whether each radial's own elevation counts,
+// whether a cell takes the nearer beam, and whether the moment wraps.
 template <bool radial_elevations, bool nearest, bool circular>
 class SampledColumns {
   public:
     explicit SampledColumns(const FillWork& work) : work_(work) {}
 
-    // Returns how far the samples of a tile's columns reach.
+    // Returns how far the samples for a tile's columns reach beyond the columns.
     [[nodiscard]] SampleReach reach_over(const Tile&) const { return work_.reach; }
 
     void fill(std::span<const PlannedSweep> plan, std::span<const TileColumn> columns);
@@ -35,7 +35,7 @@ class SampledColumns {
     std::size_t most_beams_ = 0;
     std::vector<BeamSample> beams_;         // `most_beams_` places for each column
     std::vector<std::size_t> beam_counts_;  // of each column
-    std::vector<std::size_t> open_;         // columns that no beam has left through the top
+    std::vector<std::size_t> open_;         // columns in which no beam is above the top yet
 };
 
 }  // namespace stormcellar::grid

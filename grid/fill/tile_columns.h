@@ -1,5 +1,5 @@
-// grid/fill/tile_columns.h -- the columns of a tile and their beams, which the fillers of tiles
-// share.
+// grid/fill/tile_columns.h -- the columns of a tile and their beams, as all fillers of tiles use
+// them.
 //
 // Threads   Plain values. All threads read one `FillWork`; each tile writes its own cells of the
 //           grid.
@@ -15,7 +15,7 @@
 
 namespace stormcellar::grid {
 
-// The work for all tiles together.
+// The input and output that all tiles share.
 struct FillWork {
     const SweepStack& stack;
     const ColumnGeometry& geometry;
@@ -29,7 +29,7 @@ struct FillWork {
     Grid& grid;
 };
 
-// A column of a tile, with its place in the tables.
+// A column of a tile, and its place in the tables.
 struct TileColumn {
     int ix = 0;
     int iy = 0;
@@ -45,9 +45,9 @@ inline std::span<float> values_of(const FillWork& work, const TileColumn& column
     return std::span(work.grid.values).subspan(column.first_cell, work.levels.size());
 }
 
-// Sorts beams by height. Beams may change places if their radials were measured higher or lower
-// than their sweeps. A lost cut belongs to a place in the order and not to a beam, so it stays
-// where it is.
+// Sorts beams by height. Beams may be out of order if their radials were measured higher or lower
+// than their sweeps. A lost cut belongs to a position in the order and not to a beam, so it does
+// not move.
 template <class Beam>
 void put_in_order(std::span<Beam> beams) {
     const auto lower = [](const Beam& a, const Beam& b) { return a.height_m < b.height_m; };

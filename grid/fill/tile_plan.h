@@ -1,8 +1,8 @@
-// grid/fill/tile_plan.h -- which sweeps must be sampled over a tile, and which can be skipped.
+// grid/fill/tile_plan.h -- decides which sweeps must be sampled over a tile.
 //
-// A sweep that is no echo, or not seen, all over a tile needs no sampling. If the sweeps around it
-// have the same state, it changes no cell at all, because everything between two equal states has
-// that state.
+// A sweep with a single status (no echo or not seen) all over a tile needs no sampling. If the
+// sweeps around it have the same status, it can be dropped, because all cells between equal states
+// have that state anyway.
 //
 // Threads   One plan for each thread.
 // Accuracy  Exact: a grid has the same bits as if every sweep were sampled in every column.
@@ -17,26 +17,28 @@ namespace stormcellar::grid {
 
 struct PlannedSweep {
     std::size_t index = 0;                     // index of the sweep
-    bool sampled = true;                       // if false, the sweep has `status` all over the tile
-    CellStatus status = CellStatus::not_seen;  // if it is not sampled
-    bool adjacent_to_next = true;              // to the next sweep of the plan
+    bool sampled = true;                       // if false, `status` holds all over the tile
+    CellStatus status = CellStatus::not_seen;  // only if not sampled
+    bool adjacent_to_next = true;              // true if no cut is missing before the next sweep of
+                                               // the plan
 };
 
-// The reach of the samples of a column, and the number of sweeps up and down that make up a cell.
+// How far samples reach beyond a column, and from how many sweeps above and below a cell takes
+// values.
 struct SampleReach {
     float azimuth_deg = 0;
     float arc_m = 0;
     int sweeps = 1;
-    bool in_order = true;  // at every azimuth, sweeps are as high as their order says
+    bool in_order = true;  // true if sweeps are in the order of their elevations at every azimuth
 };
 
 class TilePlan {
   public:
-    // Plans the sweeps of a tile. `adjacent_to_next` has one entry for each sweep. There is at
-    // least one sweep.
+    // Plans the sweeps of a tile. There is at least one sweep, and `adjacent_to_next` has an entry
+    // for each.
     void make(std::span<const PolarSweep> sweeps, const std::vector<bool>& adjacent_to_next,
               const PolarBounds& bounds, const SampleReach& reach);
-    // Returns at least one sweep, in rising order.
+    // Returns the planned sweeps, at least one, in rising order.
     [[nodiscard]] std::span<const PlannedSweep> sweeps() const { return planned_; }
 
   private:

@@ -1,12 +1,13 @@
-// grid/frame/sphere_frame.h -- great circles from one point of a sphere of 6371 km, with latitudes
-// used unchanged: the cheap rung of the site frame.
+// grid/frame/sphere_frame.h -- great circles from one point of a sphere of 6371 km that keeps the
+// latitudes of WGS84: the cheap rung of the site frame.
 //
 // Units     Meters along the sphere; degrees; azimuths are clockwise from north, [0, 360).
-// Accuracy  Against the same sphere in 113-bit floats, up to the antipode: 1e-7 m on the sphere. In
-//           the plane of azimuth and arc, which stretches the surroundings of the antipode, this
-//           holds up to 19,000 km. Nothing cancels close to the site
-//           (tests/grid/frame_ladder_test.cpp). Against WGS84, see sphere_error_bound_m()
-//           (stormcellar/grid/frame_ladder.h).
+// Accuracy  Against the same sphere in 113-bit floats (tests/grid/frame_ladder_test.cpp): 1e-7 m on
+//           the sphere, also close to the site and up to the antipode; in the plane of azimuth and
+//           arc,
+//           which stretches the surroundings of the antipode, the same up to 19,000 km. Against
+//           WGS84:
+//           sphere_error_bound_m() (stormcellar/grid/frame_ladder.h).
 // Threads   A SphereFrame is immutable.
 #pragma once
 

@@ -1,10 +1,9 @@
-// grid/judge/held_out.h -- scores how close a grid for an instant comes to what the radar saw then,
-// on a volume that was held out.
+// grid/judge/held_out.h -- scores how well a grid made for an instant matches a volume that the
+// radar measured then.
 //
 // The middle one of three volumes is held out, and every rung of time
-// (grid/mosaic/time_interpolation.h) makes it again from the other two. So the errors are relative
-// to what the radar saw. They include the growth and decay of the echo and the noise of the gates,
-// in the same way for each rung.
+// (grid/mosaic/time_interpolation.h) reconstructs it from the other two. So the errors include the
+// growth and decay of the echo and the noise of the gates, in the same way for each rung.
 //
 // Units     Errors of REF in dB, over cells that both grids have seen (value or no echo) and that
 //           have 5 dBZ or more in at least one. No echo, and anything below 0 dBZ, counts as 0 dBZ.
@@ -23,19 +22,21 @@ namespace stormcellar::grid {
 struct HeldOutScore {
     TimeMethod method = TimeMethod::nearest;
     accuracy::ErrorSummary error;
-    double mean_db = 0;        // made minus seen
-    double echo_missed = 0;    // share of cells seen at 20 dBZ or more that were made below 10
-    double echo_invented = 0;  // share of cells made at 20 dBZ or more that were seen below 10
-    double seconds = 0;        // time to make it, including the motion
+    double mean_db = 0;        // reconstructed minus measured
+    double echo_missed = 0;    // share of cells measured at 20 dBZ or more and reconstructed below
+                               // 10
+    double echo_invented = 0;  // share of cells reconstructed at 20 dBZ or more and measured below
+                               // 10
+    double seconds = 0;        // time of the reconstruction, including the motion
 };
 
 struct HeldOut {
     std::vector<HeldOutScore> scores;  // nearest, blend, advected
-    // The motion of all echo together in m/s; none if it is not known.
+    // The motion of all echo together; none if it is unknown.
     std::optional<CellMotion> motion_mps;
 };
 
-// Scores the rungs. Errors: not_found if there are no cells to compare; those of grid_at().
+// Scores the rungs. Errors: not_found if there are no cells to compare; the errors of grid_at().
 [[nodiscard]] Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_out,
                                              const TimedView& after, const ColumnGeometry& geometry,
                                              int threads);

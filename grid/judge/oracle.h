@@ -1,13 +1,13 @@
-// grid/judge/oracle.h -- the gridder's oracle: one cell at a time, with nothing shared, nothing
-// tabulated, and long double where it matters.
+// grid/judge/oracle.h -- the gridder's oracle: computes one cell at a time, without shared work or
+// tables, with long double where it matters.
 //
-// It is slow and obvious, and follows docs/geometry.md and not the gridder. Tests and the accuracy
-// ladder compare the gridder with it. For each column it solves the geodesic and the beams anew and
-// searches every radial. A cell lists all gates that make it up, each with its weight.
+// The oracle is slow and obvious, and follows docs/geometry.md, not the gridder. Tests and the
+// accuracy ladder compare the gridder with it. For each column it solves the geodesic and the beams
+// anew and searches every radial. A cell lists all its gates, each with its weight.
 //
-// Within its stated accuracy the gridder may take another gate as the nearest. A column says so
-// when its result depends on less than doubt_range_m or doubt_azimuth_deg, or when two beams are
-// equally high within doubt_height_m.
+// Within its stated accuracy the gridder may take another gate as the nearest. is_doubtful() is
+// true for a column whose result depends on less than doubt_range_m or doubt_azimuth_deg, or on the
+// order of beams whose heights differ by less than doubt_height_m.
 //
 // Threads   One thread for each object.
 #pragma once
@@ -22,11 +22,11 @@ namespace stormcellar::grid {
 struct OracleCell {
     CellStatus status = CellStatus::not_seen;
     double value = 0;
-    double unseen = 1;  // share of the weight
-    // Distance of the status rule from another outcome, as a weight.
+    double unseen = 1;  // share of the weight that is not seen
+    // The least change of a weight that could change the status.
     double margin = 1;
     // True if the values cover more than a quarter of their circle, or if their circles differ.
-    // Then the mean depends on the value from which the differences are taken.
+    // Then the mean depends on the value from which differences are taken.
     bool wide_on_circle = false;
 };
 
@@ -36,13 +36,14 @@ class OracleColumn {
     static constexpr double doubt_azimuth_deg = 1e-4;
     static constexpr double doubt_height_m = 1;
 
-    // `volume` and `chosen` must outlive the object. Column and row must be in the spec.
+    // `volume`, `chosen` and `setting` must outlive the object. Column and row must be in the spec.
     OracleColumn(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                  const OracleSetting& setting, const SitePosition& site, const GridSpec& spec,
                  int ix, int iy);
 
     [[nodiscard]] bool is_doubtful() const { return doubtful_; }
-    // Computes a level of the spec, as a point or with its extent, raised by an offset.
+    // Computes the cell at a level of the spec, raised by `raised_m`, with the extent of the
+    // setting.
     [[nodiscard]] OracleCell cell(std::size_t level, double raised_m = 0) const;
 
   private:

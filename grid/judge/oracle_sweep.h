@@ -1,5 +1,5 @@
-// grid/judge/oracle_sweep.h -- finds the gates of one sweep that make up a point or a cell, the
-// slow way: it searches every radial for each question (grid/judge/oracle.h).
+// grid/judge/oracle_sweep.h -- finds the gates of one sweep that a point or a cell takes, the slow
+// way: each call searches every radial (grid/judge/oracle.h).
 //
 // Threads   One thread for each object.
 #pragma once
@@ -21,7 +21,7 @@ struct OracleSetting {
     double beam_width_deg = 0.95;
     bool is_tdwr = false;
     Method method;
-    // The profile for traced beams; if none, the exponential reference atmosphere is used.
+    // The profile for traced beams; none: the exponential reference atmosphere.
     std::optional<RefractivityProfile> profile;
 };
 
@@ -37,18 +37,18 @@ class OracleSweep {
                 const OracleSetting& setting);
 
     // Returns the measured elevation of the radial that sees the azimuth, or the elevation of the
-    // sweep if no radial does. Sets `doubtful` if another radial is as near within OracleColumn's
-    // margins.
+    // sweep if no radial does. Sets `doubtful` if, within OracleColumn's margins, another radial
+    // may be the nearest.
     [[nodiscard]] double elevation_deg(double azimuth_deg, bool& doubtful) const;
 
-    // Returns the gates that make up a point by the interpolation of the setting. Their weights add
-    // up to 1.
+    // Returns the gates at a point by the interpolation of the setting. Their weights add up to 1.
     [[nodiscard]] std::vector<WeightedGate> point(double azimuth_deg, double range_m,
                                                   bool& doubtful) const;
 
     // Returns all gates for which `is_inside(azimuth_deg, range_m)` is true, with equal weights.
-    // Places beyond the last gate of a radial count as not seen. The result is empty if there is no
-    // gate. The search is limited to `near_deg` about the azimuth.
+    // Places beyond the last gate of a radial count as not seen. The result is empty if no gate is
+    // inside. The search covers `near_deg` on each side of the azimuth, from `nearest_m` to
+    // `farthest_m`.
     using Inside = std::function<bool(double azimuth_deg, double range_m)>;
     [[nodiscard]] std::vector<WeightedGate> inside(const Inside& is_inside, double azimuth_deg,
                                                    double near_deg, double nearest_m,
@@ -76,7 +76,7 @@ class OracleSweep {
     double spacing_deg_ = 1;
 };
 
-// Returns the antenna's pattern (grid/beam/beam_pattern.h) in double.
+// Returns the antenna's pattern (grid/beam/beam_pattern.h), computed in double.
 [[nodiscard]] double oracle_pattern(double offset, double width);
 
 }  // namespace stormcellar::grid

@@ -1,12 +1,12 @@
-// grid/judge/robust_fit.h -- estimates a few numbers from many residuals, with honest errors
-// although neighboring residuals are correlated.
+// grid/judge/robust_fit.h -- estimates a few numbers from many residuals, with standard errors that
+// allow for correlated neighbors.
 //
 // Method    One step of Gauss and Newton with iterated weights (Huber 1964): squares within 1.345
-//           deviations, linear beyond. The deviation is 1.4826 times the median of the magnitudes
-//           of the residuals.
-// Errors    Neighboring cells have similar errors, so their number says little. Each row belongs to
-//           a block. The errors are the jackknife's over blocks (each left out in turn; Efron and
-//           Stein 1981). They hold whatever the rows of a block have in common.
+//           deviations, linear beyond. The deviation is 1.4826 times the median of the residuals'
+//           magnitudes.
+// Errors    Neighboring cells have similar errors, so many cells say little. Each row belongs to a
+//           block. The standard errors come from the jackknife over blocks (each left out in turn;
+//           Efron and Stein 1981), so rows of one block may have anything in common.
 // Threads   Pure functions, with the same bits every time.
 #pragma once
 
@@ -26,18 +26,19 @@ struct FitRow {
     std::uint32_t block = 0;                  // 0, 1, ...
 };
 
-// The numbers that are sought. The others stay as they are.
+// True for each number to estimate; the other numbers do not change.
 using FitChoice = std::array<bool, fit_size>;
 
 struct Fit {
-    std::array<double, fit_size> step{};  // to be added; 0 for a number that is not sought
-    std::array<double, fit_size> standard_error{};  // infinite for fewer than two blocks
+    std::array<double, fit_size> step{};  // add this to the numbers; 0 for a number that is not
+                                          // estimated
+    std::array<double, fit_size> standard_error{};  // infinite if a block alone determines a number
     std::size_t blocks = 0;                         // the number of blocks with rows
-    double deviation = 0;                           // deviation of the residuals, from their median
+    double deviation = 0;                           // 1.4826 * median magnitude of the residuals
 };
 
-// Fits the numbers. Returns none if the rows cannot tell the sought numbers apart. Then `unclear`,
-// if given, is the first number that the rows do not determine.
+// Fits the numbers. Returns none if the rows do not determine all of them; then `unclear`, unless
+// null, is the first such number.
 [[nodiscard]] std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought,
                                      std::size_t* unclear = nullptr);
 

@@ -1,7 +1,7 @@
-// grid/judge/site_pairs.h -- cells of one site's grid, and the places where the faults of another
-// site would show them.
+// grid/judge/site_pairs.h -- pairs cells of one site's grid with the places where another site
+// shows the same echo, depending on its faults.
 //
-// Only grid/judge/site_comparison.cpp uses this; its header says which cells are taken.
+// Only grid/judge/site_comparison.cpp uses this; its header says which cells count.
 //
 // Units     Columns of B's grid, meters up, degrees, seconds.
 // Threads   Pure functions.
@@ -15,20 +15,20 @@
 
 namespace stormcellar::grid {
 
-// A shift of a place in B's grid: columns, and meters up.
+// A shift of a place in B's grid.
 struct SiteShift {
     double x = 0;
     double y = 0;
     double up_m = 0;
 };
 
-// A cell of A, and how the faults of B move the place where B shows the same echo.
+// A cell of A, and how B's faults move the place where B shows the same echo.
 struct SitePair {
     double a_dbz = 0;
     ColumnPoint column;  // in B's grid, without any fault
     double height_m = 0;
-    SiteShift by_azimuth, by_elevation, by_time;  // for a degree, a degree, a second
-    double apart_s = 0;                           // how much later B looked
+    SiteShift by_azimuth, by_elevation, by_time;  // per degree, degree and second
+    double apart_s = 0;                           // how much later B looked than A
     std::uint32_t block = 0;
 };
 
@@ -36,8 +36,8 @@ struct SitePair {
     return {column.x + shift.x * times, column.y + shift.y * times};
 }
 
-// Returns cells of A that have a value, brick by brick, and each column from the bottom up. B need
-// not have a value there.
+// Returns cells of A that have a value, brick by brick, each column from the bottom up. Does not
+// check whether B has values there.
 [[nodiscard]] std::vector<SitePair> pairs_of(const SiteGrid& a, const SiteGrid& b,
                                              const ComparisonOptions& options);
 

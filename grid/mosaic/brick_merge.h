@@ -20,16 +20,16 @@
 
 namespace stormcellar::grid {
 
-// The weight and the distance of a site in each column of one brick.
+// The weight and the squared distance of a site in each column of one brick.
 struct LayerColumns {
     ColumnValues weights{};
     ColumnValues squared_arcs_m2{};
 };
 
-// The brick of one site at the place of the merged brick.
+// The brick of one site at the position of the merged brick.
 struct BrickLayer {
     const BrickView* view = nullptr;
-    std::size_t brick = 0;  // number of the brick in that view
+    std::size_t brick = 0;  // number of the brick in `view`
     const LayerColumns* columns = nullptr;
     DetectionLimit limit;
     double site_altitude_m = 0;
@@ -39,7 +39,7 @@ struct BrickLayer {
 template <class Code>
 struct LayerCodes {
     const Code* first = nullptr;
-    std::size_t stride = brick_edge;  // 0: all columns are alike
+    std::size_t stride = brick_edge;  // 0: all columns are equal
     [[nodiscard]] const Code* column(std::size_t at) const { return first + at * stride; }
 };
 
@@ -54,29 +54,29 @@ struct MergedBrick {
 inline constexpr Quantization count_quantization{1, 1, 1};
 inline constexpr Quantization weight_quantization{2, 0, 1.0F / 1024};
 
-// Code is std::uint8_t or std::uint16_t, like the codes of the views.
+// Code is std::uint8_t or std::uint16_t, as in the views.
 template <class Code>
 class BrickMerger {
   public:
     BrickMerger(const MosaicOptions& options, const Quantization& quantization);
 
-    // Merges the layers and sums them in the given order. No layer may be uniformly not seen.
+    // Merges the layers, which are summed in the given order. No layer may be uniformly not seen.
     // `levels_m` are the levels of the brick. The result is valid until the next call.
     const MergedBrick<Code>& merge(std::span<const BrickLayer> layers, const BrickExtent& extent,
                                    std::span<const double> levels_m);
-    // Computes the counts and the weights alone.
+    // Computes only the counts and the weights.
     const MergedBrick<Code>& count(std::span<const BrickLayer> layers, const BrickExtent& extent);
 
-    // Returns how many means have been below the least code so far.
+    // Returns how many means so far were below the least code.
     [[nodiscard]] std::uint64_t clamped_count() const { return clamped_; }
 
   private:
     // Sums are exact enough in floats for 1-byte codes, and in doubles for 2-byte codes.
     using Real = std::conditional_t<sizeof(Code) == 1, float, double>;
-    // an integer of the same size
+    // an integer of that size
     using Word = std::conditional_t<sizeof(Code) == 1, std::int32_t, std::int64_t>;
 
-    // The detection limit of a layer, which its "no echo" counts as. The limit's Z is scale *
+    // A layer's detection limit, which replaces its "no echo" in a mean. As Z, the limit is scale *
     // (arc^2 + (height - altitude)^2).
     struct Limit {
         Real scale = 0;

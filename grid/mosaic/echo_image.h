@@ -1,10 +1,10 @@
-// grid/mosaic/echo_image.h -- makes a coarse image of a grid seen from above, from which motion is
-// estimated.
+// grid/mosaic/echo_image.h -- makes a coarse image of a grid seen from above, for estimating
+// motion.
 //
-// A pixel is the mean of the maxima of its columns, in decibels above `floor_dbz` (0 if there is
-// less, or no echo). A pixel is seen if half of its columns are seen at any level that counts.
-// Levels below `lowest_m` do not count if there are higher ones, because ground clutter does not
-// move.
+// A pixel is the mean of the maxima of its seen columns, in decibels above `floor_dbz`; a column
+// below the floor, or without echo, counts as 0. A pixel is seen if at least half of its columns
+// are seen at any level that counts. Levels below `lowest_m` do not count if there are higher
+// levels, because ground clutter does not move.
 //
 // Threads   Plain values.
 #pragma once
@@ -35,7 +35,7 @@ struct EchoImageOptions {
 };
 [[nodiscard]] EchoImage echo_image(const BrickView& view, const EchoImageOptions& options);
 
-// Makes one pixel from the mean of four. It is seen if at least two of them are seen.
+// Makes each pixel from four: the mean of the seen pixels. It is seen if at least half are seen.
 [[nodiscard]] EchoImage halved(const EchoImage& image);
 
 }  // namespace stormcellar::grid

@@ -1,7 +1,7 @@
-// grid/mosaic/image_match.h -- finds by how many pixels a part of one image must move to look like
-// another image.
+// grid/mosaic/image_match.h -- finds how many pixels a part of one image must move to match another
+// image.
 //
-// This is used only inside the grid room.
+// Only code inside grid/ uses this.
 //
 // Threads   Plain values and pure functions.
 #pragma once
@@ -19,14 +19,15 @@ struct PixelBox {
 
 struct Shift {
     double x = 0, y = 0;     // in pixels, from `before` to `after`
-    double correlation = 0;  // of the best shift
-    std::size_t pixels = 0;  // pixels with echo in one of the two images
+    double correlation = 0;  // at the best shift
+    std::size_t pixels = 0;  // pixels with echo in at least one image
 };
 
-// Searches the shifts within +-reach_x and +-reach_y of (around_x, around_y). Each image is moved
-// by half of the shift, so that the motion belongs to the box at the middle time. The correlation
-// covers the pixels that both images have seen. A parabola through the best shift and its neighbors
-// gives the fraction of a pixel. The result is none if no shift leaves echo in both images.
+// Searches shifts within +-reach_x and +-reach_y of (around_x, around_y). Each image is moved by
+// half of the shift, in opposite directions, so that the motion belongs to the box at the middle
+// time. The correlation covers the pixels that both images have seen. A parabola through the best
+// shift and its neighbors yields the fraction of a pixel. Returns none if no shift leaves echo in
+// both images.
 struct ShiftSearch {
     int around_x = 0, around_y = 0;
     int reach_x = 0, reach_y = 0;

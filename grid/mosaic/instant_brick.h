@@ -1,6 +1,6 @@
 // grid/mosaic/instant_brick.h -- makes one brick of a grid for an instant between two volumes.
 //
-// Only the grid room uses this; grid/mosaic/time_interpolation.h says what it does.
+// Only code inside grid/ uses this; grid/mosaic/time_interpolation.h defines the result.
 //
 // Threads   An InstantMaker is immutable and shared; an InstantBrick may be used by one thread at a
 //           time.
@@ -19,7 +19,7 @@
 
 namespace stormcellar::grid {
 
-// The data that all bricks share.
+// The data that all bricks share; an End is one of the volumes.
 class InstantMaker {
   public:
     InstantMaker(const TimedView& before, const std::optional<TimedView>& after,
@@ -29,13 +29,13 @@ class InstantMaker {
     friend class InstantBrick;
     struct End {
         TimedView timed;
-        double middle_s = 0;  // relative to the instant: negative before it
+        double middle_s = 0;  // relative to the instant: negative before the instant
         std::optional<SweepClock> clock;
     };
     static End end_of(const TimedView& timed, const ColumnGeometry& geometry,
                       const InstantOptions& options);
 
-    std::vector<End> ends_;  // one or two, the earlier one first
+    std::vector<End> ends_;  // one or two, in order of time
     const ColumnGeometry* geometry_;
     InstantOptions options_;
     Blending blending_;
@@ -47,24 +47,24 @@ class InstantBrick {
   public:
     InstantBrick(const InstantMaker& maker, int bx, int by);
 
-    // Writes the brick at this height.
+    // Writes the brick at height `bz` (in bricks).
     void write(int bz, BricksWriter& writer);
 
   private:
     static constexpr std::size_t columns = static_cast<std::size_t>(brick_edge) * brick_edge;
-    // One end, for the bricks of one height.
+    // An end's data for the bricks at one height.
     struct Source {
         CodeBlock codes;
-        // The time of each cell relative to the instant, for the columns at all heights, if their
-        // volume has a clock.
+        // If the volume has a clock: the time of each cell relative to the instant, for all heights
+        // of the columns.
         std::vector<float> column_seconds;
         std::array<float, brick_cells> seconds;
         ColumnBox box;
         bool is_still = true;  // no column has moved
     };
 
-    // Returns the common state of all cells if it is known without reading any of them; otherwise
-    // codes_ holds the cells.
+    // Returns the common status of all cells if it is known without reading a cell; else fills
+    // codes_.
     std::optional<CellStatus> make(int bz);
     void read_times(std::size_t end);
     void take_times(std::size_t end, int bz);

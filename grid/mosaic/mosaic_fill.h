@@ -12,19 +12,19 @@
 
 namespace stormcellar::grid {
 
-// The sites to merge, and the mosaic that they go into.
+// The sites to merge, and the mosaic to fill.
 struct MosaicWork {
     const GridSpec& domain;
     const MosaicOptions& options;
     std::span<const PlacedSite> sites;
-    const MosaicView* previous = nullptr;  // bricks that did not change are copied from it
+    const MosaicView* previous = nullptr;  // source of bricks that did not change
     std::vector<bool> changed = {};        // for each column of bricks; empty: all changed
     Mosaic& made;
 };
 
-// Fills a mosaic in which nothing has been seen so far.
+// Fills a mosaic in which no cell is seen yet.
 void fill_mosaic(const MosaicWork& work);
-// Fills the changed columns of a mosaic anew and leaves the rest as it is. `previous` must be null.
+// Fills the changed columns of a mosaic anew, and no others. `previous` must be null.
 void refill_mosaic(const MosaicWork& work);
 
 }  // namespace stormcellar::grid

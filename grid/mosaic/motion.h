@@ -1,14 +1,16 @@
 // grid/mosaic/motion.h -- estimates how echo moved from one grid to a later one.
 //
-// Model     Echo moves in the plane of the grid, by the same motion at all heights; it may grow and
+// Model     Echo moves in the plane of the grid, with the same motion at all heights; it may grow
+// and
 //           decay. The estimate is the motion that makes parts of the two column-maximum images
-//           (grid/mosaic/echo_image.h) correlate best, first for the whole image, then for
+//           (grid/mosaic/echo_image.h) correlate best: first for the whole image, then for
 //           overlapping blocks, near the motion of the whole. Each block counts by its correlation.
-//           The result is smoothed. Where there is no echo, the motion of the whole applies.
-// Units     Columns of the grid for each second, east (x) and north (y), so that a grid in degrees
-//           needs no conversion. GridSpec::cell_width_m() and cell_height_m() give m/s.
+//           The field of motions is smoothed. Where there is no echo, the motion of the whole
+//           counts.
+// Units     Columns of the grid per second, east (x) and north (y), so that a grid in degrees needs
+//           no conversion. Multiply by GridSpec::cell_width_m() and cell_height_m() for m/s.
 // Accuracy  1.5 m/s for a pattern that moves rigidly, with pixels of 2 km and 300 s (enforced by
-//           tests/grid/motion_test.cpp). Storms that grow, merge or turn have no such bound;
+//           tests/grid/motion_test.cpp). There is no bound for storms that grow, merge or turn;
 //           docs/accuracy.md has the scores on real volumes.
 // Source    Correlation tracking: Rinehart and Garvey (1978), Nature 273, 287; Li, Schmid and Joss
 //           (1995), J. Appl. Meteor. 34, 1286.
@@ -24,27 +26,28 @@
 
 namespace stormcellar::grid {
 
-// In columns per second.
+// Columns per second.
 struct CellMotion {
     float x = 0;
     float y = 0;
     bool operator==(const CellMotion&) const = default;
 };
 
-// A field that is bilinear between the nodes of a lattice over the columns of a grid, and constant
-// beyond it.
+// A field of motions: bilinear between the nodes of a lattice over the columns of a grid, and
+// constant beyond the lattice.
 class MotionField {
   public:
     // Makes a field with the same motion everywhere.
     explicit MotionField(CellMotion motion);
-    // Makes a field with nodes every `step` columns, row by row, the first over column 0 of row 0.
-    // `whole` is the motion of all echo together.
+    // Makes a field with nodes every `step` columns, row by row; the first is over column 0 of row
+    // 0. `whole` is the motion of all echo together.
     MotionField(int width, int height, double step, std::vector<CellMotion> nodes,
                 CellMotion whole);
 
     [[nodiscard]] CellMotion at(double ix, double iy) const;
     [[nodiscard]] CellMotion whole() const { return whole_; }
-    // Returns the greatest components of the nodes. Nothing moves faster along either axis.
+    // Returns the greatest magnitude of x and of y over all nodes. No motion exceeds it on either
+    // axis.
     [[nodiscard]] CellMotion greatest() const { return greatest_; }
 
   private:
@@ -55,16 +58,16 @@ class MotionField {
 };
 
 struct MotionOptions {
-    double greatest_mps = 50;       // faster motions are not searched
-    double pixel_m = 2000;          // of the compared images, as near as columns allow
-    double block_m = 64'000;        // parts of the image with a motion of their own
+    double greatest_mps = 50;       // faster motions are not considered
+    double pixel_m = 2000;          // size of pixels, as nearly as columns allow
+    double block_m = 64'000;        // size of the parts of the image that have their own motion
     double block_differs_mps = 15;  // a block differs from the whole by at most this much
     int threads = 1;
 };
 
-// Estimates the motion. Returns none if both grids have too little echo (less than 200 pixels of 4
-// km) for a motion to be known. Errors: bad_argument for views with different specs, or seconds
-// that are not positive. The moment must be in dBZ; this is not checked.
+// Estimates the motion. Returns none if there is too little echo (less than 200 pixels of 4 km) to
+// know it. Errors: bad_argument for views with different specs, or `seconds` that are not positive.
+// The moment must be in dBZ; this is not checked.
 [[nodiscard]] Result<std::optional<MotionField>> estimate_motion(const BrickView& before,
                                                                  const BrickView& after,
                                                                  double seconds,

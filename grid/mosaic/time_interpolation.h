@@ -4,20 +4,22 @@
 // rungs, from cheap to exact:
 //   nearest   The volume whose middle is nearer to the instant, unchanged.
 //   blend     The two volumes, with weights linear in time.
-//   advected  The same, with each volume moved along with the echo to the instant: semi-Lagrangian,
+//   advected  The same, but each volume is first moved with the echo to the instant:
+//   semi-Lagrangian,
 //             from both ends, bilinear between columns.
 // With `sweep_times`, each cell has its own time (grid/sweep/sweep_clock.h) instead of the middle
-// of its volume, both for its weight and for how far it moves. So all heights of a frame show the
-// same instant.
+// of its volume. The time determines its weight and how far it moves, so all heights of a frame
+// show the same instant.
 //
-// States    Between columns the status rule (grid/sweep/mixture.h) holds with bilinear weights.
-//           Between the two ends it holds with the weights in time, but if one end has not seen a
-//           cell, the other end gives the cell. Values are in dB. Moments that wrap (VEL, PHI) and
-//           their states are not mixed: the column and the end that weigh most give the cell. No
-//           echo enters a value with the range curve of grid/beam/detection_limit.h.
+// States    Between columns, the status rule (grid/sweep/mixture.h) applies with bilinear weights.
+//           Between the two ends, it applies with the weights in time, but if one end has not seen
+//           a
+//           cell, the cell is the other end's. Values are in dB. Moments that wrap (VEL, PHI) and
+//           their states are not mixed: the column and the end with the largest weight determine
+//           the
+//           cell. No echo enters a value with the range curve of grid/beam/detection_limit.h.
 // Accuracy  No bound is known, because the errors come from how the echo changed between the
-//           volumes.
-//           docs/accuracy.md has the errors measured on held-out volumes.
+//           volumes. docs/accuracy.md has the errors measured on held-out volumes.
 // Threads   Pure; the same bits for any number of threads.
 #pragma once
 
@@ -50,7 +52,7 @@ inline constexpr auto time_method_facts = std::to_array<TimeMethodFacts>({
 struct TimedView {
     BrickView view;
     UtcTime middle;  // the middle time of the volume
-    // if empty, no times are known and the whole volume has its middle time
+    // if empty, no times are known, and `middle` counts for the whole volume
     std::span<const SweepTime> sweeps = {};
 };
 
@@ -64,9 +66,9 @@ struct InstantOptions {
 };
 
 // Makes a grid for an instant. Both views must have the spec of the geometry. If `after` is none,
-// only the volume before is used, moved to the instant if the method says so. Outside the two
-// middles the nearer end has all the weight, and only its echo is extrapolated. Errors:
-// bad_argument for views with other specs than the geometry's or with different quantizations.
+// only `before` is used, moved to the instant if the method is advected. Outside the two middles,
+// only the nearer end counts, and its echo is extrapolated. Errors: bad_argument for views with
+// another spec than the geometry's or with different quantizations.
 [[nodiscard]] Result<BrickGrid> grid_at(const TimedView& before,
                                         const std::optional<TimedView>& after,
                                         const ColumnGeometry& geometry,

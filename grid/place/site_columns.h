@@ -1,16 +1,17 @@
 // grid/place/site_columns.h -- finds the columns of a grid for places around a site, such as gates.
 //
 // This is the inverse of stormcellar/grid/column_geometry.h, for many places at once. Columns are
-// smooth in the plane about the site (arc times sine and cosine of the azimuth), so they are
-// tabulated there every 25 km, and linear in between. For a grid in the azimuthal equidistant
-// projection about the site itself, a formula gives them.
+// smooth in the plane about the site (arc times sine and cosine of the azimuth), so a table holds
+// them every 25 km, and is linear in between. For a grid in the azimuthal equidistant projection
+// about the site itself, a formula replaces the table.
 //
-// Units     Meters; azimuths are given by their sine and cosine; columns are those of
+// Units     Meters; azimuths are passed as sine and cosine; columns are counted as in
 //           GridProjection.
-// Accuracy  About the site itself: 1e-6 m. Otherwise, within `reach_m` and against exact geodesics:
-//           5 m for plane projections with a center up to 1500 km away, 30 m for latitude_longitude
-//           up to 60 degrees and 90 m up to 75 degrees. Beyond that, and around the whole earth,
-//           each place is solved exactly. Enforced by tests/grid/site_columns_test.cpp.
+// Accuracy  For a grid about the site itself: 1e-6 m. Otherwise, within `reach_m` and against exact
+//           geodesics: 5 m for plane projections with a center up to 1500 km away, 30 m for
+//           latitude_longitude up to 60 degrees and 90 m up to 75 degrees. Beyond these limits, and
+//           for grids around the whole earth, each place is solved exactly. Enforced by
+//           tests/grid/site_columns_test.cpp.
 // Threads   Immutable.
 #pragma once
 
@@ -37,9 +38,9 @@ class SiteColumns {
     Way way_;
     SiteFrame frame_;
     GridProjection projection_;
-    double middle_x_, middle_y_, columns_per_m_ = 0;  // used by the formula
+    double middle_x_, middle_y_, columns_per_m_ = 0;  // for the formula
     double step_m_ = 1;
-    int nodes_ = 0;  // nodes along each side of the table, from -reach
+    int nodes_ = 0;  // along each side of the table, from -reach
     double first_m_ = 0;
     std::vector<ColumnPoint> table_;
 };

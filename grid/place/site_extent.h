@@ -1,5 +1,5 @@
-// grid/place/site_extent.h -- checks where sites are, and finds the center and the extent of a grid
-// that holds them.
+// grid/place/site_extent.h -- checks the positions of sites, and finds the center and the extent of
+// a grid that holds them.
 //
 // Threads   Pure functions.
 #pragma once
@@ -13,15 +13,15 @@
 
 namespace stormcellar::grid {
 
-// Returns bad_argument unless the site has a possible latitude, longitude and altitude.
+// Returns bad_argument unless the site's latitude, longitude and altitude are possible.
 [[nodiscard]] Status check_on_earth(const SitePosition& site);
 
-// Returns the middle of the box of latitudes and longitudes that holds the sites, the shorter way
-// round the earth. There must be at least one site.
+// Returns the middle of the box of latitudes and longitudes that holds the sites, on the shorter
+// way around the earth. There must be at least one site.
 [[nodiscard]] GeoPoint middle_of(std::span<const SitePosition> sites);
 
-// The distance from the center to the outermost sites, east or west and north or south, in the
-// plane about the center. Both are 0 if there is no site.
+// The distances from the center to the outermost sites, along east-west and north-south, in the
+// plane about the center. Both are 0 without sites.
 struct HalfExtent {
     double x_m = 0, y_m = 0;
 };

@@ -1,7 +1,7 @@
-// grid/place/source_volume.h -- a decoded volume with the place of its radar and notes for readers
-// of a grid or a picture made from it.
+// grid/place/source_volume.h -- a decoded volume with the position of its radar, and with notes for
+// readers of a grid or a picture made from it.
 //
-// Threads   Plain data and functions without state; decoding uses `threads` threads of its own.
+// Threads   Plain data and pure functions; decoding uses `threads` threads of its own.
 // Errors    See each function.
 #pragma once
 
@@ -24,49 +24,51 @@ struct SourceVolume {
     level2::Volume volume;
     SitePosition site;
     bool partial = false;
-    std::vector<std::string> notes;  // what readers of the result should know
-    // The faults that the radar reported, as grids store them: "KTLX: standby, ...".
+    std::vector<std::string> notes;  // for readers of the result
+    // Faults that the radar reported, as in Provenance::radar_troubles: "KTLX: standby, ...".
     std::vector<std::string> radar_troubles = {};
     double read_s = 0, decode_s = 0;
 };
 
-// Chooses cuts of a volume by its pattern; an empty result means all cuts. The volume has no sweeps
+// Chooses cuts by the volume's pattern; an empty result means all cuts. The volume has no sweeps
 // yet.
 using ChooseCuts = std::function<std::vector<int>(const level2::Volume&)>;
 
-// The part of a file that the caller wants.
+// Says which part of a file the caller wants.
 struct SourceWish {
-    std::vector<level2::Moment> moments;  // any one of them will do
+    std::vector<level2::Moment> moments;  // the volume needs one of these
     ChooseCuts choose_cuts = {};
-    // Gives the volume a name or a position that the file does not have.
+    // Gives the volume a name or a position that the file lacks.
     std::function<Status(level2::Volume&)> place = {};
-    // Ends the error message for a radar whose position is not known.
+    // Added to the error message for a radar whose position is unknown.
     std::string_view how_to_place = {};
     int threads = 1;
-    int volume = 0;  // in the file, from 1; 0: the first with one of the moments
-    // The start of the wanted volume, if the file holds several.
+    int volume = 0;  // number in the file, from 1; 0: the first with one of the moments
+    // The start of the wanted volume; ignored if the file holds only one volume.
     std::optional<UtcTime> start = std::nullopt;
 };
 
-// Returns the decode options for the wish. If the file names no station, the station in the file
-// name counts.
+// Returns the decode options for the wish. The station in the file name counts if the file names
+// none.
 [[nodiscard]] level2::DecodeOptions decode_options_of(const SourceWish& wish,
                                                       const std::string& file_name);
 
-// Decodes the bytes of a file. With `choose_cuts`, decodes only the sweeps of these cuts, or all
-// sweeps if the cuts hold none of the moments. Errors are those of decoding, and name the file.
+// Decodes the bytes of a file. With `choose_cuts`, decodes only these cuts, but all sweeps if the
+// file has no pattern or several volumes, or if the cuts hold none of the moments. Errors: the
+// errors of decoding, with the name of the file.
 [[nodiscard]] Result<level2::Decoded> decode_wished(std::span<const std::byte> bytes,
                                                     const std::string& file,
                                                     const level2::DecodeOptions& options,
                                                     const ChooseCuts& choose_cuts);
 
-// Takes the volume with the wanted number or start, or else the first that holds one of the
-// moments. Errors name the file: bad_argument if it has fewer volumes; those of `place`; not_found
-// if none of several volumes starts then, or if the position of the radar is not known.
+// Returns the volume with the wanted number or start, else the first that holds one of the moments,
+// else the first. Errors, with the name of the file: bad_argument if it has fewer volumes;
+// not_found if none of several volumes has that start, or if the position of the radar is unknown;
+// the errors of `place`.
 [[nodiscard]] Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& file,
                                                const SourceWish& wish);
 
-// Decodes and takes the volume of a file whose path or name is `file`.
+// Calls decode_wished() and take_source(), where `file` is the path or the name of the file.
 [[nodiscard]] Result<SourceVolume> decode_source(std::span<const std::byte> bytes,
                                                  const std::string& file, const SourceWish& wish);
 

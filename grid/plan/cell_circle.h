@@ -1,11 +1,11 @@
 // grid/plan/cell_circle.h -- the difference between two values of a cell, for moments that may
 // wrap.
 //
-// VEL is on a circle of twice the Nyquist velocity and PHI on one of 360 degrees, so their values
-// differ by the shorter way round. Sweeps may have different Nyquist velocities. A cell uses the
-// circle of the two sweeps whose beams (4/3 earth) pass next above and below it. If these have
-// different circles, the longer of both ways is taken, so that no difference looks smaller than it
-// is. If a circle is not known, and for all other moments, values differ as plain numbers.
+// VEL is on a circle of twice the Nyquist velocity and PHI on a circle of 360 degrees, so their
+// values differ by the shorter way around. Sweeps may have different Nyquist velocities. A cell
+// uses the circles of the two sweeps whose beams (4/3 earth) pass next above and below it. If these
+// circles differ, the larger of the two differences counts, so that no difference looks smaller
+// than it is. If a circle is unknown, and for all other moments, values differ as plain numbers.
 //
 // Threads   One thread for each object.
 #pragma once
@@ -25,18 +25,18 @@ class CellCircles {
     CellCircles(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                 const SitePosition& site, const GridSpec& spec, level2::Moment moment);
 
-    // Makes differences refer to cells of the column at this distance, until the next call.
+    // Makes difference() refer to the column at this arc, until the next call.
     void move_to(double arc_m);
-    // Returns a - b.
+    // Returns a - b for values of the cell at this level.
     [[nodiscard]] double difference(float a, float b, std::size_t level) const;
 
   private:
     struct Sweep {
         BeamPath path;
-        double period = 0;  // 0: not known
+        double period = 0;  // 0: unknown
         double height_m = 0;
     };
-    std::vector<Sweep> sweeps_;  // empty: as plain numbers
+    std::vector<Sweep> sweeps_;  // empty: values differ as plain numbers
     std::vector<double> levels_m_;
 };
 

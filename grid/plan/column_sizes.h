@@ -1,12 +1,13 @@
-// grid/plan/column_sizes.h -- how many cells of each column may hold a value, by any method.
+// grid/plan/column_sizes.h -- estimates how many cells of each column may hold a value by any
+// method.
 //
 // Columns are sampled in proportion to these sizes, and a column of size 0 is never compared. So a
 // size must not be 0 where any method finds a value. The default method looks at one point of a
-// cell; a gate between two points is seen only by methods that take all gates of a cell.
+// cell; only methods that take all gates of a cell see a gate between two points.
 //
 // Threads   Pure.
 // Accuracy  tests/grid/column_sizes_test.cpp compares with the exact form on real volumes with
-//           little echo: no column that holds a value has the size 0.
+//           little echo: no column that holds a value has size 0.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +19,11 @@
 
 namespace stormcellar::grid {
 
-// `base` is the grid by the default method, `stack` has its sweeps, and `geometry` its columns. If
-// a column or one beside it holds values, its size is twice their number plus four, at most all
-// levels, because other methods bring in values from neighboring columns. If none holds values but
-// a gate with a value is near, the size is the number of levels from the sweep below that gate to
-// the one above it.
+// Returns the sizes. `base` is the grid by the default method, `stack` has its sweeps, and
+// `geometry` its columns. If a column or a neighbor of it holds values, its size is twice their
+// number plus four, at most all levels, because other methods bring in values from neighboring
+// columns. If neither holds values but a gate with a value is near, the size is the number of
+// levels from the sweep below that gate to the sweep above it.
 [[nodiscard]] std::vector<std::uint16_t> column_sizes(const Grid& base, const SweepStack& stack,
                                                       const ColumnGeometry& geometry);
 

@@ -3,16 +3,17 @@
 //
 // The time of a grid is the sum of four parts: its tiles, the tables of its sweeps, its geometry if
 // that uses exact geodesics, and a rest that is the same for all choices and known from the base of
-// the scene. Tiles differ. With echo they take longer than in clear air, and cells with an extent
-// take longest near the radar, where gates are dense. So tiles are drawn in two strata, each evenly
-// along the arc: tiles where a cell may hold a value, and tiles within reach that hold none. Each
-// stratum is timed by itself and scaled by its own number of tiles. The times of interpolation and
+// the scene. Tiles differ: those with echo take longer than clear air, and cells with an extent
+// take longest near the radar, where gates are dense. So tiles are drawn from two strata, each
+// evenly along the arc: tiles where a cell may hold a value, and other tiles within reach. Each
+// stratum is timed separately and scaled to its number of tiles. The times of interpolation and
 // extent do not add up, so every pair of them is timed (accuracy::JointCost).
 //
-// Accuracy  The aim is a factor of 1.5 of the time that gridding then takes. bench/bench_plan.cpp
-//           measures it over real volumes (docs/performance.md). No test enforces it, because it
-//           depends on a clock. For one thread the prediction is processor time, which equals the
-//           time by the clock if nobody else needs the processor.
+// Accuracy  The aim is a factor of 1.5 of the actual time. bench/bench_plan.cpp measures it over
+// real
+//           volumes (docs/performance.md). No test enforces it, because it depends on a clock. For
+//           one thread the prediction is processor time, which equals elapsed time if the processor
+//           is free.
 // Threads   As for the scene (grid/plan/grid_scene.h).
 #pragma once
 
@@ -21,7 +22,7 @@
 
 namespace stormcellar::grid {
 
-// The tiles to time, and how many tiles each stratum has in all.
+// The tiles to time, and the number of all tiles of each stratum.
 struct TileSample {
     struct Stratum {
         std::vector<Tile> tiles;
@@ -29,14 +30,14 @@ struct TileSample {
     };
     Stratum with_echo, without;
 };
-// Draws up to `of_each` tiles of each stratum, spread evenly over threads.
+// Draws up to `of_each` tiles of each stratum.
 [[nodiscard]] TileSample draw_tiles(GridScene& scene, std::size_t of_each);
 
-// Returns the predicted seconds for filling the whole grid by this method, from the sample.
+// Predicts from the sample how many seconds it takes to fill the whole grid by this method.
 [[nodiscard]] Result<double> predicted_fill_s(GridScene& scene, const Method& method,
                                               const TileSample& sample);
 
-// Sets all costs of a chain that effects_of() made for the moment of the scene: the costs of its
+// Sets all costs of a chain from effects_of() for the moment of the scene: the costs of its
 // effects, the joint costs, and the cost of the cheapest choice.
 [[nodiscard]] Status predict_costs(GridScene& scene, accuracy::Chain& chain);
 

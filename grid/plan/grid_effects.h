@@ -1,5 +1,4 @@
-// grid/plan/grid_effects.h -- the steps, rungs and effects of a grid, as the accuracy planner knows
-// them.
+// grid/plan/grid_effects.h -- the steps, rungs and effects of a grid, for the accuracy planner.
 //
 //   step           rungs, from cheap to exact                      effects that reach them
 //   frame          sphere, table, geodesic                         ellipsoid, exact_geodesic
@@ -8,11 +7,10 @@
 //   interpolation  nearest, linear, eight-point, beam-weighted     column_interpolation,
 //                                                       horizontal_interpolation, beam_width
 //   cell           point, area                                     cell_size
-//   averaging      in dB or, for REF, in Z                         none: the user defines it
+//   averaging      in dB or, for REF, in Z                         none: the user chooses
 //   circle         (VEL, PHI) as numbers, on the circle            velocity_folding, phase_folding
 // The exact form of the chain is the last rung of every step. A budget bounds the difference from
-// the exact form on the same gates. docs/accuracy.md discusses which of two forms is nearer to the
-// truth.
+// the exact form on the same gates. docs/accuracy.md discusses which forms are nearer to the truth.
 //
 // Threads   Pure functions, except those that take a scene (grid/plan/grid_scene.h).
 #pragma once
@@ -27,8 +25,7 @@
 
 namespace stormcellar::grid {
 
-// The steps by name. Code finds a step by these constants, so that a misspelled name does not
-// compile.
+// The names of the steps, as constants, so that a misspelled name does not compile.
 namespace step {
 inline constexpr std::string_view frame = "frame";
 inline constexpr std::string_view beam = "beam";
@@ -40,45 +37,44 @@ inline constexpr std::string_view circle = "circle";
 }  // namespace step
 
 // Returns the chain with names, rungs and sentences. All sizes and costs are 0 and all settings are
-// automatic. The exact form also averages by `averaging`, because neither dB nor Z approximates the
-// other.
+// automatic. All its forms, including the exact form, use `averaging`, because neither dB nor Z
+// approximates the other.
 [[nodiscard]] accuracy::Chain effects_of(level2::Moment moment,
                                          Averaging averaging = Averaging::in_db);
 
 [[nodiscard]] SceneChoice scene_choice(const accuracy::Chain& chain,
                                        const accuracy::Choice& choice);
 
-// Returns the usual choice: the table, the 4/3 earth, each radial's elevation, linear along the
-// column at a point, in the unit of the moment, on its circle. The settings of the effects change
-// it.
+// Returns the usual choice, changed by the settings of the effects: the table, the 4/3 earth, each
+// radial's elevation, linear along the column at a point, in the unit of the moment, on its circle.
 [[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
 
-// Returns the choice that others are measured against: the last rung of every step, except that the
-// frame uses the table. A geodesic for each column differs from the table by a millimeter and takes
-// half a second.
+// Returns the choice with which others are compared: the last rung of every step, but the table as
+// the frame. A geodesic for each column differs from the table by a millimeter and takes half a
+// second.
 [[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
 
-// Returns the choice as it is measured: with the table in place of geodesics.
+// Returns the choice with the table in place of geodesics, as it is measured.
 [[nodiscard]] SceneChoice as_measured(SceneChoice choice);
 
-// Returns the extra effort (stormcellar/accuracy/effect.h) that these two rungs take together,
-// beyond the sum of what each takes alone.
+// Returns the extra effort (stormcellar/accuracy/effect.h) of these two rungs together, beyond the
+// sum of both alone.
 [[nodiscard]] double joint_effort(Interpolation interpolation, CellExtent cell);
 
-// The default without a budget is the usual choice, with one exception. If cells are wider than the
-// beam is at 160 km (2.7 km for a WSR-88D), the default is area, because point samples would alias.
-// The extent of the grid does not matter, because a part of a grid must hold what the whole grid
-// holds.
+// Returns the choice that is used without a budget: usual_choice(), except that cells are areas if
+// they are wider than the beam is at 160 km (2.7 km for a WSR-88D), because point samples would
+// alias. The extent of the grid does not matter, because a part of a grid must equal that part of
+// the whole grid.
 inline constexpr double wide_cells_arc_m = 160e3;
 [[nodiscard]] accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
                                               double beam_width_deg);
 
-// Returns dB for REF, ZDR and CFP, m/s for VEL and SW, degrees for PHI and a ratio for RHO.
+// Returns the unit: dB for REF, ZDR and CFP, m/s for VEL and SW, degrees for PHI, a ratio for RHO.
 [[nodiscard]] accuracy::ValueUnit value_unit_of(level2::Moment moment);
 
 struct PlanOptions {
-    std::size_t predict_columns = 500;  // for estimates of the size and cost of each effect
-    // for bounds on the chosen form; more columns are drawn if a bound needs them
+    std::size_t predict_columns = 500;  // for predicting the size and cost of each effect
+    // for bounds on the chosen form; more are drawn if a bound needs them
     std::size_t measure_columns = 2500;
     std::uint64_t seed = 1;
 };
@@ -92,13 +88,13 @@ struct GridPlan {
     SceneChoice choice;
 };
 
-// Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan holds the
-// default, with the size of each effect. Errors: those of accuracy::govern() and of gridding.
+// Predicts, chooses and measures (accuracy/governor.h). Without a budget, returns the plan of the
+// default, with the size of each effect. Errors: the errors of accuracy::govern() and of gridding.
 [[nodiscard]] Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                                          const std::optional<accuracy::Budget>& budget,
                                          const PlanOptions& options = {});
 
-// Returns the error that the plan promises, for provenance: "position 70.3 m, value 0.42 dB (99th
+// Returns the error that the plan predicts, for provenance: "position 70.3 m, value 0.42 dB (99th
 // percentile)".
 [[nodiscard]] std::string predicted_error(const accuracy::Plan& plan);
 

@@ -1,5 +1,4 @@
-// grid/plan/position_error.h -- bounds how far each effect of geometry moves the samples of a grid,
-// for a volume over a grid.
+// grid/plan/position_error.h -- bounds how far each geometric effect moves the samples of a grid.
 //
 //   ellipsoid        the bound of the sphere in stormcellar/grid/frame_ladder.h within the reach
 //   exact_geodesic   1 mm, the bound of the table
@@ -7,8 +6,8 @@
 //                                 over the elevations of the sweeps, arcs within the reach and
 //                                 heights of the grid (stormcellar/grid/beam_model.h)
 //   antenna_jitter   the largest offset of a radial from its sweep's elevation, times the range at
-//                    which it leaves the grid
-// The other effects move nothing, so their size is 0.
+//                    which the radial leaves the grid
+// Other effects move nothing, so their size is 0.
 //
 // Units     Meters.
 // Threads   Pure functions.
@@ -27,7 +26,7 @@
 
 namespace stormcellar::grid {
 
-// A scene refers to the objects that it is made of; they must outlive it.
+// The input of a bound. All objects must outlive it.
 struct PositionScene {
     const level2::Volume& volume;
     const SitePosition& site;
@@ -37,7 +36,7 @@ struct PositionScene {
     level2::Moment moment = level2::Moment::ref;
 };
 
-// Returns the lesser of the arcs of the farthest column and the farthest gate.
+// Returns the arc of the farthest column or of the farthest gate, whichever is less.
 [[nodiscard]] double reach_m(const PositionScene& scene);
 
 [[nodiscard]] double effect_position_m(const PositionScene& scene, std::string_view effect);
@@ -46,7 +45,7 @@ struct PositionScene {
 [[nodiscard]] double position_error_bound_m(const PositionScene& scene, FrameKind frame,
                                             const Method& method);
 
-// Returns the error of a grid that was made without a plan, for provenance: "position 714 m, values
+// Returns the error of a grid made without a plan, as text for provenance: "position 714 m, values
 // not predicted, against the chain's exact form".
 [[nodiscard]] std::string unplanned_error(const level2::Volume& volume, const SitePosition& site,
                                           const GridSpec& spec, FrameKind frame,

@@ -1,13 +1,13 @@
 // grid/sweep/azimuth_table.h -- which radials of a sweep see an azimuth.
 //
 // The table finds the nearest radial, the two on either side of an azimuth, or all within a reach.
-// Where neighboring radials are more than one and a half spacings apart, there is a gap. Each of
-// the two then reaches half a spacing into the gap, and no radial sees the rest of it. No pair and
-// no neighborhood reaches across a gap. If radials have the same azimuth, the later one in the
-// given order counts. Radials may come in any order and any number, and wrap around north.
+// Where neighboring radials are more than one and a half spacings apart, there is a gap: each of
+// the two reaches half a spacing into it, and no radial sees the rest. Pairs and neighborhoods do
+// not extend across gaps. If radials have the same azimuth, the later one in the given order
+// counts. Radials may be in any order and number, and may wrap around north.
 //
-// A lookup is exact: a table of quarter degrees gives the sector, within a step or two along sorted
-// boundaries.
+// A lookup is exact: a table of quarter degrees gives a start, and a step or two along sorted
+// boundaries gives the sector.
 //
 // Units     Degrees, clockwise from north.
 // Threads   Immutable.
@@ -30,11 +30,12 @@ class AzimuthTable {
     // There must be one azimuth in [0, 360) for each radial. The spacing is above 0.
     AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg);
 
-    // Returns the position in the given list, or none. The azimuth must be in [0, 360).
+    // Returns the position in the constructor's list, or none. The azimuth must be in [0, 360).
     [[nodiscard]] int find(float azimuth_deg) const { return radials_[sector_at(azimuth_deg)]; }
 
-    // The nearest radial and the one on the other side of the azimuth. `other_weight`, in [0, 1/2],
-    // is the share of the other if values are linear in between. `other` is none across a gap.
+    // The nearest radial and its neighbor on the other side of the azimuth. `other_weight`, in [0,
+    // 1/2], is the share of the neighbor if values are linear in between. `other` is none across a
+    // gap.
     struct Bracket {
         int nearest = none;
         int other = none;
@@ -42,22 +43,23 @@ class AzimuthTable {
     };
     [[nodiscard]] Bracket bracket(float azimuth_deg) const;
 
-    // Calls visit(position, offset_deg) for each radial within `reach_deg` of an azimuth, without
-    // going across a gap. The offset is positive clockwise. If no radial sees the azimuth, none is
-    // visited.
+    // Calls visit(position, offset_deg) for the nearest radial and for each radial within
+    // `reach_deg` of an azimuth that no gap separates from it. The offset is positive clockwise.
+    // Visits none if no radial sees the azimuth.
     template <class Visit>
     void visit(float azimuth_deg, float reach_deg, Visit visit) const;
 
-    // Does the same, but across gaps too. With a reach of 180 it visits all radials.
+    // Calls visit() for each radial within `reach_deg`, also across gaps. A reach of 180 visits
+    // all.
     template <class Visit>
     void visit_all(float azimuth_deg, float reach_deg, Visit visit) const;
 
-    // Returns the share of the azimuths that some radial sees, from `from_deg` clockwise over
+    // Returns the share of azimuths that some radial sees, from `from_deg` clockwise over
     // `width_deg`, which is at most 360.
     [[nodiscard]] double seen_share(double from_deg, double width_deg) const;
 
     // Calls visit(position) for every radial that sees some azimuth from `from_deg` to `to_deg`
-    // (from <= to < from + 360, from in [0, 360)). The position may be none. Stops when visit
+    // (from <= to < from + 360, from in [0, 360)), and with `none` for gaps. Stops when visit
     // returns false.
     template <class Visit>
     void visit_between(float from_deg, float to_deg, Visit visit) const;
@@ -72,7 +74,7 @@ class AzimuthTable {
     struct Entry {
         float azimuth_deg;
         int radial;
-        bool gap_after;  // before the next one, clockwise
+        bool gap_after;  // a gap follows, clockwise
     };
 
     [[nodiscard]] std::size_t sector_at(float azimuth_deg) const {
@@ -81,7 +83,7 @@ class AzimuthTable {
             ++at;
         return at;
     }
-    // Returns the turn from one azimuth to another, within +-180 degrees.
+    // Returns the angle from one azimuth to another, within +-180 degrees.
     [[nodiscard]] static float turn_deg(float from_deg, float to_deg) {
         const float turn = to_deg - from_deg;
         return turn > 180 ? turn - 360 : turn < -180 ? turn + 360 : turn;
@@ -93,8 +95,8 @@ class AzimuthTable {
     float spacing_deg_;
     bool has_gaps_ = false;
     std::vector<Entry> entries_;  // by azimuth
-    // The sectors from 0 to 360 degrees: where each ends, which radial sees it, and the entry of
-    // that radial.
+    // The sectors from 0 to 360 degrees: the end of each, the radial that sees it, and that
+    // radial's entry.
     std::vector<float> ends_deg_;
     std::vector<int> radials_;
     std::vector<int> sector_entries_;
@@ -138,7 +140,7 @@ void AzimuthTable::visit_all(float azimuth_deg, float reach_deg, Visit visit) co
         if (at == count) at = 0;
         const float offset_deg = turn_deg(azimuth_deg, entries_[at].azimuth_deg);
         if (reach_deg < 180 && offset_deg > reach_deg) return;
-        if (reach_deg < 180 && offset_deg < -reach_deg) continue;  // by rounding alone
+        if (reach_deg < 180 && offset_deg < -reach_deg) continue;  // because of rounding
         visit(entries_[at].radial, offset_deg);
     }
 }
@@ -146,7 +148,7 @@ void AzimuthTable::visit_all(float azimuth_deg, float reach_deg, Visit visit) co
 template <class Visit>
 void AzimuthTable::visit_between(float from_deg, float to_deg, Visit visit) const {
     std::size_t at = sector_at(from_deg);
-    float turned_deg = 0;  // 360 after north was passed
+    float turned_deg = 0;  // 360 beyond north
     while (true) {
         if (!visit(radials_[at])) return;
         if (ends_deg_[at] + turned_deg > to_deg) return;

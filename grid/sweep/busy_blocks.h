@@ -1,7 +1,6 @@
-// grid/sweep/busy_blocks.h -- marks where along the radials of a sweep there is anything but no
-// echo.
+// grid/sweep/busy_blocks.h -- marks the parts of a sweep's radials that hold anything but no echo.
 //
-// There is a bit for each block of 32 gates of each radial. The marks are exact: a quiet stretch
+// There is a bit for each block of 32 gates of each radial. The marks are exact: an unmarked block
 // holds only code 0.
 //
 // Threads   Immutable after the last mark().
@@ -20,10 +19,10 @@ class BusyBlocks {
     // Makes room for `rows` radials of at most `gates` gates.
     BusyBlocks(std::size_t rows, std::size_t gates);
 
-    // Marks the blocks of a radial. Gates that it lacks, up to `gates`, count as quiet.
+    // Marks the blocks of a radial. Gates that the radial lacks, up to `gates`, count as quiet.
     void mark(std::size_t row, std::span<const std::uint8_t> codes);
 
-    // The blocks that hold the gates from one to another, both included and within `gates`.
+    // The blocks that hold two gates and all gates between them. Both gates must be within `gates`.
     struct Stretch {
         std::size_t first = 0, last = 0;
     };

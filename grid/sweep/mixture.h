@@ -1,16 +1,15 @@
-// grid/sweep/mixture.h -- the status rule: the content of a gate, and of a cell that mixes several
-// gates.
+// grid/sweep/mixture.h -- the status rule: decides the status and the value of a cell that mixes
+// several gates.
 //
-// The rule (docs/geometry.md): the gates give a cell the weights v (valued), n (no echo), f (range
-// folded) and u (not seen). If u is over one half, the cell is not seen; else if f is the largest,
-// it is range folded; else if v < n, it is no echo; else it has a value. Range folded and not seen
-// never enter a value; the other weights are scaled to 1. For reflectivity, no echo enters a value
-// with the detection limit of its gate; for other moments it does not.
+// The rule (docs/geometry.md): the gates of a cell have the total weights v (valued), n (no echo),
+// f (range folded) and u (not seen). If u is over one half, the cell is not seen; else if f is the
+// largest, it is range folded; else if v < n, it is no echo; else it has a value. Range folded and
+// not seen never enter a value; the other weights are scaled to 1. For reflectivity, no echo enters
+// a value with the detection limit of its gate; for other moments it does not enter.
 //
-// Moments that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle: every
-// value counts by its difference from the value that weighs most, the shorter way round. Values
-// whose circles differ, or whose circle is not known, cannot be averaged; then the value that
-// weighs most is the result.
+// Values that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle: as
+// differences from the value with the largest weight, the shorter way around. Values whose circles
+// differ or are unknown cannot be averaged; the result is then the value with the largest weight.
 //
 // Threads   Plain values.
 #pragma once
@@ -35,16 +34,17 @@ enum class Blending {
 }
 [[nodiscard]] Blending blending_of(level2::Moment moment);
 
-// Returns half of the circle of a moment's values; 0 if they do not wrap, or if a radial's Nyquist
-// velocity is not known (0 or not finite).
+// Returns half the circle of a moment's values; 0 if values do not wrap, or if the radial's Nyquist
+// velocity is unknown (0 or not finite).
 [[nodiscard]] float half_period_of(level2::Moment moment, float nyquist_mps);
 
 // One gate.
 struct Sample {
     CellStatus status = CellStatus::not_seen;
-    float value = 0;        // if the status is value
-    float limit = 0;        // if the status is no_echo: the detection limit, in the unit of `value`
-    float half_period = 0;  // for moments that wrap; 0: not known
+    float value = 0;        // if the status is `value`
+    float limit = 0;        // if the status is `no_echo`: the detection limit, in the unit of
+                            // `value`
+    float half_period = 0;  // for values that wrap; 0: unknown
 };
 
 struct CellResult {
@@ -58,16 +58,15 @@ struct CellResult {
     return value - period * std::floor((value + half_period) / period);
 }
 
-// Blends two samples; `weight_b`, in [0, 1], is the share of the second.
+// Blends two samples; `weight_b`, in [0, 1], is the share of `b`.
 [[nodiscard]] CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blending);
-// Does the same for callers that know is_circular(blending).
+// Does the same for callers that know is_circular(blending) at compile time.
 template <bool circular>
 [[nodiscard]] CellResult blend_as(const Sample& a, const Sample& b, float weight_b,
                                   Blending blending);
 
-// Adds up the weights of any number of samples. If the moment wraps, the sample that weighs most
-// must be added first, or refer_to() must name the circle and the value from which all differences
-// are taken.
+// Sums the weights of any number of samples. If values wrap, either add the sample with the largest
+// weight first, or call refer_to() with a sample: its value is the reference of all differences.
 class Mixture {
   public:
     [[nodiscard]] static Mixture of_unseen() {
@@ -83,11 +82,11 @@ class Mixture {
         is_circular(blending) ? add_as<true>(sample, weight, blending)
                               : add_as<false>(sample, weight, blending);
     }
-    // Does the same for callers that know is_circular(blending).
+    // Does the same for callers that know is_circular(blending) at compile time.
     template <bool circular>
     void add_as(const Sample& sample, float weight, Blending blending);
-    // Adds `count` samples of one status, each with weight 1, whose values (for no echo, their
-    // limits) add up to `sum`. Do not use it for moments that wrap.
+    // Adds `count` samples of one status, each with weight 1. `sum` is the sum of their values, or
+    // of their limits for no echo. Not for values that wrap.
     void add_counted(CellStatus status, int count, float sum, Blending blending);
     // Adds all samples of another mixture, each with `weight` times its own weight.
     void add(const Mixture& other, float weight, Blending blending);
@@ -100,7 +99,7 @@ class Mixture {
     [[nodiscard]] CellResult result_as(Blending blending) const;
     [[nodiscard]] float weight() const { return valued_ + quiet_ + folded_ + unseen_; }
     [[nodiscard]] float unseen() const { return unseen_; }
-    // These return true if the mixture holds only no echo, or only not seen.
+    // These return true if no sample has another status than no echo, or than not seen.
     [[nodiscard]] bool is_all_quiet() const { return valued_ + folded_ + unseen_ == 0; }
     [[nodiscard]] bool is_all_unseen() const { return valued_ + quiet_ + folded_ == 0; }
 
@@ -109,8 +108,8 @@ class Mixture {
 
     float valued_ = 0, quiet_ = 0, folded_ = 0, unseen_ = 0;
     float sum_ = 0;  // of weight times value, limits included; circular: of weight times difference
-    float sum_weight_ = 0;   // the weight of what is in sum_
-    float reference_ = 0;    // circular: differences are taken from this value
+    float sum_weight_ = 0;   // the weight of the samples in sum_
+    float reference_ = 0;    // circular: the value from which differences are taken
     float half_period_ = 0;  // circular
 };
 

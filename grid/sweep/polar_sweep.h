@@ -1,18 +1,18 @@
-// grid/sweep/polar_sweep.h -- one sweep of a moment, prepared for being sampled at many columns.
+// grid/sweep/polar_sweep.h -- one sweep of a moment, prepared for sampling at many columns.
 //
-// Numbers that depend on the arc alone (the number of the gate, the height of the beam) are in
+// Numbers that depend only on the arc (the number of the gate, the height of the beam) are in
 // tables with a step of 500 m along the arc, and linear in between. The gates of a radial are
-// placed by the sweep's elevation, whatever elevation the radial itself had.
+// placed by the sweep's elevation, not by the radial's own elevation.
 //
 // Units     Values are in the unit of the moment, or in mm^6/m^3 (Averaging::in_z, reflectivity
 //           only).
-// Threads   Immutable; many threads may use one object. It refers to the volume, which must outlive
-//           it.
-// Accuracy  Enforced by tests/grid/polar_sweep_test.cpp for elevations of -5 to 60 degrees. tables
-//           0.15 m in range and height within 500 km, for the 4/3 earth and for rays through
-//                    the reference atmosphere (kinked profiles: stormcellar/grid/beam_model.h)
-//           radials  up to half a beam off: the center within 0.25 m of the 4/3 earth, the edges
-//                    within 1 m, for beams of 0.95 degrees within 470 km and below 21 km
+// Threads   Immutable; many threads may use one object. The volume must outlive it.
+// Accuracy  Enforced by tests/grid/polar_sweep_test.cpp for elevations of -5 to 60 degrees.
+//             tables   0.15 m in range and height within 500 km, for the 4/3 earth and for rays
+//                      through the reference atmosphere (profiles with kinks:
+//                      stormcellar/grid/beam_model.h)
+//             radials  up to half a beam off: the center within 0.25 m of the 4/3 earth, the edges
+//                      within 1 m, for beams of 0.95 degrees within 470 km and below 21 km
 #pragma once
 
 #include <optional>
@@ -33,29 +33,28 @@ class PolarSweep {
     [[nodiscard]] const SweepBeam& beam() const { return beam_; }
     [[nodiscard]] const AzimuthTable& azimuths() const { return azimuths_; }
 
-    // Returns the position of the nearest radial among the radials used, or AzimuthTable::none.
+    // Returns the position of the nearest radial among those used, or AzimuthTable::none.
     [[nodiscard]] int radial_at(float azimuth_deg) const { return azimuths_.find(azimuth_deg); }
-    // Returns the heights of the beam of the radial at that position. For AzimuthTable::none,
-    // returns the heights at the sweep's elevation.
+    // Returns the heights of the beam of the radial at `position`, or for AzimuthTable::none the
+    // heights at the sweep's elevation.
     [[nodiscard]] BeamHeights heights_at(int position, ArcPlace place) const {
         const BeamHeights sweep = beam_.heights(place);
         if (position == AzimuthTable::none) return sweep;
         return beam_.offset(sweep, gates_.elevation_offset_deg(position));
     }
-    // Returns the nearest gate of the radial at that position.
+    // Returns the nearest gate of the radial at `position`.
     [[nodiscard]] Sample sample(int position, ArcPlace place) const {
         return sample(position, place, beam_.at(place));
     }
     [[nodiscard]] Sample sample(float azimuth_deg, ArcPlace place) const {
         return sample(radial_at(azimuth_deg), place);
     }
-    // Does the same for callers that already have beam().at(place).
+    // Does the same for callers that already have `beam`, which is beam().at(place).
     [[nodiscard]] Sample sample(int position, ArcPlace place, const BeamAtArc& beam) const {
         return gates_.sample(position, place, beam.gate_and_half);
     }
-    // Returns the common status of all samples within the bounds if they are all no echo or all not
-    // seen. This also holds for mixtures, which take in one more gate and one more radial. Returns
-    // none if the samples may differ.
+    // Returns the status of all samples within the bounds if all are no echo or all are not seen,
+    // else none. A status also holds for mixtures, which take one more gate and one more radial.
     [[nodiscard]] std::optional<CellStatus> uniform_status(const PolarBounds& bounds) const;
 
   private:

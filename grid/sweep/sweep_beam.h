@@ -1,14 +1,14 @@
-// grid/sweep/sweep_beam.h -- where the beam of one sweep passes over each arc, tabulated.
+// grid/sweep/sweep_beam.h -- a table of the heights of one sweep's beam over each arc.
 //
-// The heights of the beam's center and edges are in a table with a step of 500 m along the arc, and
-// linear in between.
+// The table has the heights of the beam's center and edges every 500 m along the arc, and is linear
+// in between.
 //
 // The beam of a radial that was measured higher or lower than its sweep is on the parabola through
-// the sweep beam's center and edges. An edge of the beam is lost if it never passes over an arc, or
-// if it passes on the other side of the beam's center; ducts and the ground do that. A missing edge
-// is mirrored from the other edge. If both are missing, half the beam width at the range of the
-// center replaces them. So the rise for each degree is that of the half that exists. Nothing is
-// seen between the center and a lost edge.
+// the sweep beam's center and edges. An edge is lost if it never passes over an arc, or if it
+// passes on the other side of the beam's center; ducts and the ground do that. A lost edge is
+// replaced by the mirror image of the other edge. If both are lost, they are half a beam width at
+// the range of the center away from it. So a beam rises per degree as its remaining half does.
+// Nothing is seen between the center and a lost edge.
 //
 // Threads   Immutable; many threads may use one object.
 // Accuracy  grid/sweep/polar_sweep.h.
@@ -23,10 +23,10 @@
 
 namespace stormcellar::grid {
 
-// If the center of a beam never passes over an arc, the beam counts as higher than this.
+// The height of a beam whose center never passes over an arc is above this.
 inline constexpr float highest_beam_m = 1e8F;
 
-// The heights of a beam's center and of its edges, half a beam width off, lost edges included.
+// The heights of a beam's center and of its edges, half a beam width away. Lost edges are replaced.
 struct BeamHeights {
     float center_m = 0, lower_m = 0, upper_m = 0;
 };
@@ -34,13 +34,13 @@ struct BeamHeights {
 // The entry of the table for an arc.
 struct BeamAtArc {
     BeamHeights heights;
-    float gate_and_half = 0;  // GatePlace::number_and_half for the first kind of radials
+    float gate_and_half = 0;  // GatePlace::number_and_half for radials of kind 0
 };
 
 class SweepBeam {
   public:
-    // The table covers arcs from 0 to (table_size - 1) * ArcTable::step_m. `gates` holds the gate's
-    // number plus one half for each arc of the table, or is null for a sweep without gates.
+    // The table covers arcs from 0 to (table_size - 1) * ArcTable::step_m. `gates` is
+    // SweepGates::first_table(), which is null for a sweep without gates.
     SweepBeam(const BeamModel& beam, double elevation_deg, double half_beam_deg,
               std::size_t table_size, const ArcTable* gates);
 
@@ -53,7 +53,7 @@ class SweepBeam {
         return {{both[0], both[1], both[2]}, both[3]};
     }
     [[nodiscard]] BeamHeights heights(ArcPlace place) const { return at(place).heights; }
-    // Does the same for a beam that is higher than the sweep's elevation by `offset_deg`.
+    // Returns the heights of a beam that is higher than the sweep's elevation by `offset_deg`.
     [[nodiscard]] BeamHeights heights(ArcPlace place, float offset_deg) const {
         return offset(heights(place), offset_deg);
     }
@@ -69,7 +69,7 @@ class SweepBeam {
     [[nodiscard]] float rise_m_per_deg(const BeamHeights& heights) const {
         return (heights.upper_m - heights.lower_m) / 2 * halves_per_deg_;
     }
-    // Returns the part of the beam that is seen, with lost edges moved to the center.
+    // Returns the seen part of the beam: lost edges are at the center.
     [[nodiscard]] BeamHeights without_lost_edges(ArcPlace place, BeamHeights heights) const {
         if (lost_edges_.empty()) return heights;
         const unsigned lost = lost_edges_[place.index] | lost_edges_[place.index + 1];
@@ -79,7 +79,7 @@ class SweepBeam {
     }
 
   private:
-    // A BeamAtArc in the order of its members. The compiler turns it into one vector.
+    // The members of a BeamAtArc, in order, so that the compiler can use one vector.
     using Lanes = std::array<float, 4>;
     static constexpr std::uint8_t lost_lower = 1, lost_upper = 2;
 

@@ -1,15 +1,16 @@
-// grid/sweep/sweep_clock.h -- when the radar looked at each place of a grid.
+// grid/sweep/sweep_clock.h -- computes when the radar measured each place of a grid.
 //
-// A volume takes minutes: its sweeps follow each other, and each turns once. A grid keeps a
-// SweepTime for each sweep, and from these the clock computes the time of any cell.
+// A volume takes minutes: its sweeps follow each other, and the antenna turns once in each. A grid
+// keeps a SweepTime for each sweep, from which the clock computes the time of any cell.
 //
-// Model     The antenna turns clockwise at constant speed. The two sweeps whose beams (4/3 earth)
-//           pass next below and above a cell make its time, with weights linear in height. Above
-//           and below all beams, the nearest sweep makes it.
-// Accuracy  For real volumes, at the 95th percentile of cells: the larger of 2 s and 6 % of the
-//           longest time from one sweep to the next, compared with the mean time of the cell's
-//           gates (Detail::age). Radials lie higher or lower than the median of their sweep, and a
-//           sweep of more than a turn sees some azimuths twice. Enforced by
+// Model     The antenna turns clockwise at constant speed. The time of a cell is the mean of the
+// two
+//           sweeps whose beams (4/3 earth) pass next below and above it, with weights linear in
+//           height. Above and below all beams, only the nearest sweep counts.
+// Accuracy  For real volumes, the 95th percentile over cells: the larger of 2 s and 6 % of the
+//           longest time from one sweep to the next, against the mean time of the cell's gates
+//           (Detail::age). The causes are radials above or below the median of their sweep, and
+//           sweeps of more than a turn, which see some azimuths twice. Enforced by
 //           tests/grid/sweep_clock_test.cpp.
 // Threads   Immutable.
 #pragma once
@@ -26,7 +27,7 @@
 
 namespace stormcellar::grid {
 
-// No antenna turns faster. A higher speed counts as not known.
+// No antenna turns faster. A higher speed counts as unknown.
 inline constexpr double fastest_turn_deg_per_s = 360;
 
 // Returns one SweepTime for each sweep that has times, in order.
@@ -35,9 +36,9 @@ inline constexpr double fastest_turn_deg_per_s = 360;
 
 class SweepClock {
   public:
-    // Returns none if there are no sweeps, or if a sweep is more than 10 minutes from the middle of
-    // its volume. Such times are wrong, and echo that moves with them would go too far. The volume
-    // is then taken as if it had one time.
+    // Returns none if there are no sweeps, or if a sweep is more than 10 minutes from `middle`, the
+    // middle of its volume. Such times are wrong, and would move echo too far. The caller then uses
+    // one time for the whole volume.
     [[nodiscard]] static std::optional<SweepClock> of_volume(std::span<const SweepTime> sweeps,
                                                              BeamGeometry beam, UtcTime origin,
                                                              UtcTime middle);
@@ -45,10 +46,10 @@ class SweepClock {
     // elevation.
     SweepClock(std::span<const SweepTime> sweeps, BeamGeometry beam, UtcTime origin);
 
-    // Computes the time for each level of a column.
+    // Computes the time of each level of a column.
     void read(double azimuth_deg, double arc_m, std::span<const double> levels_m,
               std::span<float> seconds) const;
-    // No cell is earlier or later than these.
+    // No cell is earlier than earliest_s() or later than latest_s().
     [[nodiscard]] double earliest_s() const { return earliest_s_; }
     [[nodiscard]] double latest_s() const { return latest_s_; }
 

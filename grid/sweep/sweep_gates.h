@@ -1,11 +1,10 @@
-// grid/sweep/sweep_gates.h -- the gates of one sweep of a moment, prepared for being read at arcs.
+// grid/sweep/sweep_gates.h -- the gates of one sweep of a moment, prepared for reading at arcs.
 //
-// Positions count the radials that are used, in the order of ChosenSweep::radials.
+// A position is the number of a used radial, in the order of ChosenSweep::radials.
 //
 // Units     Values are in the unit of the moment, or in mm^6/m^3 (Averaging::in_z, reflectivity
 //           only).
-// Threads   Immutable; many threads may use one object. It refers to the volume, which must outlive
-//           it.
+// Threads   Immutable; many threads may use one object. The volume must outlive it.
 // Accuracy  grid/sweep/polar_sweep.h.
 #pragma once
 
@@ -39,34 +38,34 @@ class SweepGates {
     SweepGates(const level2::Sweep& sweep, const ChosenSweep& chosen, const BeamModel& beam,
                const PolarSweepOptions& options);
 
-    // Returns the table of gate numbers plus one half by arc, for the first kind of radials; null
-    // if the sweep has no gates of the moment.
+    // Returns the table of gate numbers plus one half by arc, for radials of kind 0; null if the
+    // sweep has no gates of the moment.
     [[nodiscard]] const ArcTable* first_table() const {
         return kinds_.empty() ? nullptr : &kinds_[0].gate;
     }
-    // Returns the nearest gate of the radial at that position. `gate_and_half` is the entry of
-    // first_table() at the place.
+    // Returns the nearest gate of the radial at `position`. `gate_and_half` is first_table() at
+    // `place`.
     [[nodiscard]] Sample sample(int position, ArcPlace place, float gate_and_half) const;
-    // Adds two gates of that radial, linear in range. Within half a gate beyond the first or the
+    // Adds two gates of the radial, linear in range. Within half a gate beyond the first or the
     // last gate, only that gate counts.
     void add_along_radial(int position, ArcPlace place, float weight, Mixture& mixture) const;
-    // The gate of a radial as a number, which is n + 1/2 at the center of gate n.
+    // A place along a radial as a gate number, which is n + 1/2 at the center of gate n.
     struct GatePlace {
         float number_and_half = 0;  // its floor is the nearest gate
-        std::int32_t first = 0;     // the first gate that is not at negative range
+        std::int32_t first = 0;     // the first gate at a range of 0 or more
         std::int32_t end = 0;
     };
     [[nodiscard]] GatePlace gate_place(int position, ArcPlace place) const;
-    // Returns how many gates the beam passes for each meter of arc; 0 beyond the end of the beam.
-    // All radials of one kind share it. If there are several kinds, the first one gives the result.
+    // Returns how many gates the beam passes per meter of arc; 0 beyond the end of the beam. If
+    // radials differ in gate spacing, the result is for kind 0.
     [[nodiscard]] float gates_per_m_of_arc(ArcPlace place) const;
-    // Returns a gate within the range of GatePlace.
+    // Returns a gate from GatePlace::first to before GatePlace::end.
     [[nodiscard]] Sample gate(int position, std::int32_t gate) const;
-    // Adds all gates from `first` to before `end`, each with weight 1. The gates must be within
-    // that range. Adds none if `end` is not above `first`.
+    // Adds the gates from `first` to before `end`, each with weight 1; none if `end` is not above
+    // `first`. The gates must exist, as for gate().
     void add_gates(int position, std::int32_t first, std::int32_t end, Mixture& mixture) const;
 
-    // Returns how much higher the radial was measured than the sweep's elevation.
+    // Returns the measured elevation of the radial minus the elevation of the sweep.
     [[nodiscard]] float elevation_offset_deg(int position) const {
         return rows_[static_cast<std::size_t>(position)].elevation_offset_deg;
     }
@@ -83,30 +82,30 @@ class SweepGates {
         return row.gate_count > 0 ? kinds_[row.kind].moment : nullptr;
     }
 
-    // Returns the common status of all gates of these radials between two arcs, with one more gate
-    // to each side, if they are all no echo or all not seen. Returns none if they may differ.
-    // `visit_radials(visit)` calls visit(position) for each radial until that returns false;
-    // AzimuthTable::none stands for a gap.
+    // Returns the status of all gates of these radials between two arcs, and of one more gate on
+    // each side, if all are no echo or all are not seen; else none. `visit_radials(visit)` must
+    // call visit(position) for each radial, with AzimuthTable::none for a gap, until visit returns
+    // false.
     template <class VisitRadials>
     [[nodiscard]] std::optional<CellStatus> uniform_status(float least_arc_m, float greatest_arc_m,
                                                            const VisitRadials& visit_radials) const;
 
   private:
-    // The radials of a sweep that share gate geometry and coding.
+    // The radials of a sweep with the same gate geometry and coding.
     struct Kind {
         const level2::SweepMoment* moment = nullptr;
         ArcTable gate;  // gate number plus one half, so that its floor is the nearest gate
-        std::int32_t first_gate = 0;  // the first that is not at negative range
+        std::int32_t first_gate = 0;  // the first gate at a range of 0 or more
         std::uint16_t first_valid_code = 2;
-        std::vector<float> values;  // by code, for 8-bit codes
-        // By gate, for moments with a detection limit: the number that the range adds to the limit
-        // in dB, or the factor by which it multiplies the limit in Z.
+        std::vector<float> values;  // by code; only for 8-bit codes
+        // By gate, for moments with a detection limit: what the range adds to the limit in dB, or
+        // the factor by which it multiplies the limit in Z.
         struct Loss {
-            float spreading;    // 20 log10 of the range in km, or its power
-            float attenuation;  // if the radial's attenuation_db_per_m is that of the kind
+            float spreading;    // 20 log10 of the range in km, or that as a power
+            float attenuation;  // for radials with the kind's attenuation_db_per_m
         };
         std::vector<Loss> losses;
-        // sums of both over all earlier gates; only for cells with an extent
+        // sums of spreading + attenuation over all earlier gates; only for cells with an extent
         std::vector<double> loss_sums;
         float attenuation_db_per_m = 0;
     };
@@ -116,15 +115,15 @@ class SweepGates {
         std::uint32_t kind = 0;
         std::uint32_t radial = 0;
         std::int32_t gate_count = 0;
-        float limit_at_1km = 0;  // dBZ, or a factor
+        float limit_at_1km = 0;  // dBZ, or Z
         float attenuation_db_per_m = 0;
         float half_period = 0;
         float elevation_offset_deg = 0;
-        // detection limits are in dB, and the losses of the kind apply
+        // the limit is in dB and the radial's attenuation is the kind's, so Kind::losses apply
         bool has_simple_limit = false;
     };
 
-    // The blocks of gates between two arcs, or the common status of every radial there.
+    // The blocks of gates between two arcs, or the status of all radials there.
     struct Between {
         std::optional<CellStatus> status;  // set if no radial has a gate there
         std::optional<BusyBlocks::Stretch> blocks;
@@ -140,7 +139,8 @@ class SweepGates {
     [[nodiscard]] Sample wide_gate_of(const Row& row, const Kind& kind, std::int32_t gate) const;
     [[nodiscard]] Sample without_value(const Row& row, const Kind& kind, std::int32_t gate,
                                        std::uint16_t code) const;
-    // Adds gates that are values, no echo or range folded, with simple limits if they have limits.
+    // Adds gates that are values, no echo or range folded. Detection limits, if any, must be
+    // simple.
     template <class CodeAt, class ValueOf>
     void add_plain_gates(const Row& row, const Kind& kind, std::int32_t first, std::int32_t end,
                          const CodeAt& code_at, const ValueOf& value_of, Mixture& mixture) const;

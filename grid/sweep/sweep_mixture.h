@@ -1,6 +1,7 @@
-// grid/sweep/sweep_mixture.h -- mixtures of several gates of one sweep, as a column sees them.
+// grid/sweep/sweep_mixture.h -- mixes several gates of one sweep at a place of a column.
 //
-// Every mixture has weight 1. A place in a gap, or beyond the gates, is not seen.
+// Every mixture has weight 1, except gates_inside(). A place in a gap, or beyond the gates, is not
+// seen.
 //
 // Threads   Pure functions.
 #pragma once
@@ -10,24 +11,24 @@
 
 namespace stormcellar::grid {
 
-// Returns the nearest gate alone.
+// Returns only the nearest gate.
 [[nodiscard]] Mixture nearest_gate(const PolarSweep& sweep, float azimuth_deg, ArcPlace place);
 
 // Returns two gates of each of the two radials around the azimuth, linear in azimuth and range.
 [[nodiscard]] Mixture four_gates(const PolarSweep& sweep, float azimuth_deg, ArcPlace place);
 
-// Returns every radial within reach, weighted by the antenna's pattern in azimuth
+// Returns all radials within reach, weighted by the antenna's pattern in azimuth
 // (grid/beam/beam_pattern.h), with two gates of each, linear in range.
 [[nodiscard]] Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace place,
                                        float beam_width_deg);
 
-// Returns all gates whose centers lie in the outline, each with the same weight. Gates beyond the
-// last one, and the share of the outline in azimuth gaps, are not seen. The weight is 0 if no gate
-// has its center inside.
+// Returns all gates whose centers are in the outline, each with the same weight. The parts of the
+// outline beyond the last gate and in azimuth gaps count as not seen. The weight is 0 if no gate's
+// center is inside.
 //
-// Accuracy: the gates are placed over a plane through the center of the cell. For outlines up to 20
-// km, within 470 km and below 21 km, this is off by 2.5 m at elevations of -5 to 0.5 degrees, 3 m
-// up to 1.5, 4 m up to 5, 10 m up to 19.5 and 90 m up to 60 (tests/grid/sweep_mixture_test.cpp).
+// Accuracy: gates are placed over a plane through the center of the cell. For outlines up to 20 km,
+// within 470 km and below 21 km, this is off by 2.5 m at elevations of -5 to 0.5 degrees, 3 m up to
+// 1.5, 4 m up to 5, 10 m up to 19.5 and 90 m up to 60 (tests/grid/sweep_mixture_test.cpp).
 [[nodiscard]] Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint,
                                    ArcPlace place);
 

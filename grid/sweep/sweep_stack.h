@@ -1,8 +1,7 @@
-// grid/sweep/sweep_stack.h -- the sweeps of a volume, prepared for one moment and one method of
+// grid/sweep/sweep_stack.h -- the sweeps of a volume, prepared for one moment and method of
 // gridding.
 //
-// Threads   Immutable; many threads may use one object. It refers to the volume, which must outlive
-//           it.
+// Threads   Immutable; many threads may use one object. The volume must outlive it.
 #pragma once
 
 #include <optional>
@@ -22,29 +21,29 @@ struct SweepStack {
     std::vector<PolarSweep> sweeps;  // rising elevation, at least one
     std::vector<bool> adjacent_to_next;
     std::vector<float> elevations_deg;
-    // True if no radial of a sweep was measured as high as a radial of a sweep above it, and no
-    // traced beams cross or are much wider or narrower than their elevations say.
+    // True if every radial was measured higher than all radials of lower sweeps, and no beams cross
+    // or are much wider or narrower than their elevations imply (as in ducts).
     bool in_order = true;
     float beam_width_deg = 0.95F;
-    std::size_t table_size = 2;  // size of each sweep's tables of arc
-    float gate_spacing_m = 250;  // the largest
+    std::size_t table_size = 2;  // length of each sweep's tables by arc
+    float gate_spacing_m = 250;  // the largest of any sweep, at least 250
 };
 
 struct StackOptions {
     level2::Moment moment = level2::Moment::ref;
     double beam_width_deg = 0.95;
-    Method method;  // beam, averaging and circle count
-    // For traced beams; none: the exponential reference atmosphere.
+    Method method;  // only beam, averaging, on_circle and cell count
+    // The profile for traced beams; none: the exponential reference atmosphere.
     std::optional<RefractivityProfile> profile = std::nullopt;
 };
 
-// Prepares the sweeps in `chosen`, of which there is at least one.
+// Prepares the sweeps in `chosen`, which must not be empty.
 [[nodiscard]] SweepStack make_stack(const level2::Volume& volume, const SitePosition& site,
                                     const std::vector<ChosenSweep>& chosen,
                                     const StackOptions& options);
 
-// Makes the model of the beam. Traced beams use the profile, or without one the exponential
-// reference atmosphere.
+// Returns the model of the beam. Traced beams use the profile, or the exponential reference
+// atmosphere if there is none.
 [[nodiscard]] BeamModel beam_model_of(const SitePosition& site, ChosenBeam kind,
                                       const std::optional<RefractivityProfile>& profile);
 
