@@ -47,7 +47,8 @@ Status validate_joint_costs(const Chain& chain) {
                           is_there(joint.other_step, joint.other_rung) &&
                           joint.step != joint.other_step;
         if (!good) {
-            return fail(ErrorCode::bad_argument, "a joint cost is of no two rungs, or no time");
+            return fail(ErrorCode::bad_argument,
+                        "a joint cost does not belong to two rungs, or is no time");
         }
     }
     return {};

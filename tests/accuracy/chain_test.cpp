@@ -126,7 +126,7 @@ TEST(Chain, JointCostsOfNoTwoRungsAreRefused) {
           JointCost{1, 1, 1, 2, 1}, JointCost{0, 1, 1, 1, nan}}) {
         Chain chain = small_chain();
         chain.joint_costs = {joint};
-        EXPECT_THAT(error_of(chain), HasSubstr("a joint cost is of no two rungs"));
+        EXPECT_THAT(error_of(chain), HasSubstr("a joint cost does not belong to two rungs"));
     }
 }
 
