@@ -24,8 +24,8 @@ BeamGeometry::BeamGeometry(double site_latitude_deg, double antenna_altitude_m) 
       altitude_m_(antenna_altitude_m),
       antenna_m_(radius_m_ + antenna_altitude_m) {}
 
-// The textbook height sqrt(r^2 + a^2 + 2 r a sin e) - a subtracts two numbers of 8,500 km. With q =
-// r^2 + 2 r a sin e, the same height is q / (sqrt(a^2 + q) + a), where nothing cancels.
+// The textbook height sqrt(r^2 + a^2 + 2 r a sin e) - a subtracts two lengths of 8,500 km. With q =
+// r^2 + 2 r a sin e, the height also equals q / (sqrt(a^2 + q) + a), where nothing cancels.
 EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
     const double elevation = gate.elevation_deg * degree;
     const double up_m = gate.range_m * std::sin(elevation);
@@ -35,8 +35,8 @@ EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
     return {radius_m_ * std::atan2(along_m, antenna_m_ + up_m), altitude_m_ + above_antenna_m};
 }
 
-// Seen from the antenna, the point is (a + h) sin t along and (a + h) cos t - a up, where t is the
-// angle at the center. The latter equals h - 2 (a + h) sin^2(t / 2).
+// As the antenna sees it, the point is (a + h) sin t away and (a + h) cos t - a up, where t is the
+// angle at the center. The height up also equals h - 2 (a + h) sin^2(t / 2).
 AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     const double angle = point.arc_m / radius_m_;
     const double above_antenna_m = point.height_m - altitude_m_;

@@ -30,7 +30,7 @@ EarthPoint BeamPath::at(double range_m) const noexcept {
 }
 
 BeamGeometry::BeamPoint BeamPath::over(double arc_m) const noexcept {
-    // The tables of arc call this often, so the usual beam is tested first.
+    // Filling an ArcTable calls this often, so test the usual beam first.
     if (kind_ == BeamKind::four_thirds) return four_thirds_.over(arc_m, elevation_deg_);
     if (kind_ == BeamKind::traced) return ray_->over(arc_m);
     if (!(cosine_ > 0)) return {nan, nan};
@@ -107,8 +107,8 @@ AntennaPoint BeamModel::inverse(EarthPoint point) const {
     return traced_inverse(point);
 }
 
-// Iterates to the gate whose traced beam meets the point. The inverse of the 4/3 earth gives the
-// next step from the remaining error. If a step did not help, it is made shorter, because the two
+// Iterates to the gate whose traced beam meets the point. The inverse of the 4/3 earth turns the
+// remaining error into the next step. A step that does not help is shortened, because the two
 // models respond differently near ducts.
 AntennaPoint BeamModel::traced_inverse(EarthPoint point) const {
     if (!std::isfinite(point.arc_m) || !std::isfinite(point.height_m)) return {nan, nan};
@@ -146,8 +146,8 @@ namespace {
 
 constexpr double step_m = 500;
 
-// Returns true for a place within the limits. The order matters: a comparison with NaN would trap
-// where traps are enabled.
+// Returns true if the place is within the limits. The order of the tests matters: NaN must be
+// refused before it is compared, because the comparison may trap.
 bool within(const BeamLimits& limits, double arc_m, double range_m, double height_m) {
     return !std::isnan(height_m) && arc_m <= limits.arc_m && range_m <= limits.range_m &&
            height_m >= limits.floor_m && height_m <= limits.ceiling_m;
@@ -155,7 +155,7 @@ bool within(const BeamLimits& limits, double arc_m, double range_m, double heigh
 
 // The difference of two models at one arc or one range.
 struct Sample {
-    bool counts = false;  // one of the places is within the limits
+    bool counts = false;  // true if either place is within the limits
     BeamDifference difference;
 };
 
@@ -168,8 +168,9 @@ void raise(BeamDifference& greatest, const BeamDifference& by, double if_missing
     greatest.gate_m = greater(greatest.gate_m, by.gate_m);
 }
 
-// Raises `greatest` by samples at every step up to the limit and one step beyond. A sample is taken
-// if it counts or a neighbor counts, so that both ends of the counted part lie between samples.
+// Raises `greatest` to the differences at every step up to the limit, and at one step beyond. A
+// sample counts if it or a neighbor is within the limits, so that the ends of the reached part are
+// between samples.
 template <class SampleAt>
 void raise_along(BeamDifference& greatest, double limit_m, SampleAt sample_at) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -10,7 +10,7 @@ bool is_somewhere(const EarthPoint& point) {
     return std::isfinite(point.arc_m) && std::isfinite(point.height_m);
 }
 
-// Returns the mirror image of `other` on the far side of `middle`.
+// Returns the mirror image of `other` about `middle`.
 EarthPoint mirrored(const EarthPoint& other, const EarthPoint& middle) {
     return {2 * middle.arc_m - other.arc_m, 2 * middle.height_m - other.height_m};
 }

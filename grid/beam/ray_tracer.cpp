@@ -15,7 +15,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longest_step_m = 2000;
-// the share of a layer's scale height that a step may climb
+// a step climbs at most this share of a layer's scale height
 constexpr double share_of_scale = 0.25;
 constexpr double shortest_step_m = 0.01;
 constexpr std::size_t many_steps = 20'000;
@@ -34,18 +34,18 @@ State operator*(double factor, State a) {
     return {factor * a.height_m, factor * a.sine, factor * a.arc_m};
 }
 
-// Traces one ray from the antenna to the farthest range or the floor.
+// Traces one ray from the antenna until the farthest range or the floor.
 class Tracer {
   public:
     Tracer(const RefractivityProfile& profile, double radius_m, RangeKind kind, double floor_m)
         : profile_(profile), radius_m_(radius_m), kind_(kind), floor_m_(floor_m) {}
 
-    // Appends a node for each step, the first one at the start. Returns true if the ray ended at
-    // the floor.
+    // Appends a node for the start and one for each step. Returns true if the ray ended at the
+    // floor.
     bool run(State start, double farthest_m, std::vector<RayNode>& nodes);
 
   private:
-    // Reason for the end of a step.
+    // The reason for the end of a step.
     enum class Event { none, border, floor };
     struct Step {
         State state;
@@ -67,12 +67,12 @@ class Tracer {
     double radius_m_;
     RangeKind kind_;
     double floor_m_;
-    RefractivityLayer layer_;  // the layer of the ray
+    RefractivityLayer layer_;  // the layer that the ray is in
     double layer_bottom_m_ = 0;
 };
 
-// The ray by Bouguer's law: d(sine) = cos^2 (1 / r + n' / n) ds. Since the state is the sine and
-// not the angle, no sines need to be computed.
+// The ray by Bouguer's law: d(sine) = cos^2 (1 / r + n' / n) ds. The state holds the sine and not
+// the angle, so no sine needs to be computed.
 State Tracer::rate(const State& state) const {
     const auto air = layer_.at(state.height_m);
     const double n = 1 + 1e-6 * air.n_units;
@@ -96,9 +96,9 @@ double Tracer::suitable_length_m(const State& state) const {
     return std::min(longest_step_m, share_of_scale / std::max(rate_per_m, 1e-9));
 }
 
-// Returns the length of a step from the state that makes value(state, rate) zero. The value must be
-// monotonic and have one zero up to length_m. Newton's steps start from a guess. If a step leaves
-// the bracket, the bracket is halved instead.
+// Returns the length of a step from `state` that makes value(state, rate) zero. The value must be
+// monotonic and have one zero up to length_m. Newton's method starts from guess_m; a step that
+// leaves the bracket is replaced by halving it.
 template <class Value>
 double Tracer::where_zero(const State& state, double length_m, double guess_m, bool rising,
                           Value value) const {
@@ -111,15 +111,15 @@ double Tracer::where_zero(const State& state, double length_m, double guess_m, b
         if (distance == 0) return length;
         ((distance > 0) == rising ? high : low) = length;
         const double next = slope == 0 ? low : length - distance / slope;
-        // the error squares with each step
+        // Newton's method squares the error
         if (std::abs(next - length) < 1e-6) return std::clamp(next, 0.0, length_m);
         length = next > low && next < high ? next : (low + high) / 2;
     }
     return length;
 }
 
-// Returns where a ray of constant curvature would have risen by `rise_m`; the nearer place if there
-// are two.
+// Returns the length after which a ray of constant curvature has risen by `rise_m`; the shorter of
+// two.
 double Tracer::parabola_m(const State& state, double rise_m) const {
     const State rates = rate(state);
     const double root = rates.height_m * rates.height_m + 2 * rates.sine * rise_m;
@@ -132,7 +132,7 @@ Tracer::Step Tracer::step(const State& state, double rest_m, double shortest_m) 
     double length_m = std::min(suitable_length_m(state), rest_m);
     State next = advanced(state, length_m);
 
-    // A turning point ends the step, so that the ray only rises or only falls within a step.
+    // End the step at a turning point, so that within a step the ray only rises or only falls.
     if ((state.sine < 0 && next.sine > 0) || (state.sine > 0 && next.sine < 0)) {
         const double guess_m = length_m * state.sine / (state.sine - next.sine);
         const double turn_m = where_zero(
@@ -145,7 +145,7 @@ Tracer::Step Tracer::step(const State& state, double rest_m, double shortest_m) 
         }
     }
 
-    // The border of the layer, where dN/dh jumps, and the floor also end the step.
+    // Also end the step at the border of the layer, where dN/dh jumps, and at the floor.
     const double bottom_m = std::max(layer_bottom_m_, floor_m_);
     if (next.height_m <= layer_.top_m && next.height_m >= bottom_m) {
         return {next, length_m, Event::none};
@@ -186,8 +186,8 @@ bool Tracer::run(State state, double farthest_m, std::vector<RayNode>& nodes) {
         if (range_m > nodes.back().range_m) nodes.push_back(node(range_m, state));
         if (next.event == Event::floor) return true;
         if (next.event == Event::border) {
-            // On a border the direction of the ray says which layer comes next; elsewhere the
-            // height does.
+            // On a border the direction of the ray determines the next layer, elsewhere the height
+            // does.
             std::size_t index = profile_.layer_index(state.height_m);
             const bool at_bottom = index > 0 && state.height_m == profile_.layer(index - 1).top_m;
             if (at_bottom && state.sine < 0) --index;
@@ -197,7 +197,7 @@ bool Tracer::run(State state, double farthest_m, std::vector<RayNode>& nodes) {
     return false;
 }
 
-// Returns the cubic through two values with given slopes, at the share t of the way between them.
+// Returns the cubic through two values with given slopes, at a share t of the way between them.
 double hermite(double t, double length, double from, double from_slope, double to,
                double to_slope) {
     const double rise = to - from;
@@ -206,8 +206,7 @@ double hermite(double t, double length, double from, double from_slope, double t
     return from + t * (rise + (1 - t) * (a * (1 - t) + b * t));
 }
 
-// Returns the index of the node at the start of the stretch that holds x. x must be between the
-// first and the last node.
+// Returns the index of the node at or before x, which must be between the first and the last node.
 template <class Key>
 std::size_t stretch(const std::vector<RayNode>& nodes, double x, Key key) {
     const auto after =

@@ -10,7 +10,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Returns what is wrong with a level, given the level below it; empty if nothing is wrong.
+// Returns what is wrong with a level above the level `below`; empty if nothing is wrong.
 std::string complaint(const RefractivityLevel& level, const RefractivityLevel* below) {
     using Profile = RefractivityProfile;
     if (!is_within(level.height_m, Profile::least_height_m, Profile::greatest_height_m)) {

@@ -40,7 +40,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-// Returns the text before the next separator, and removes both from `rest`.
+// Returns the text before the next separator, and removes both from the front of `rest`.
 std::string_view take(std::string_view& rest, char separator) {
     const auto end = rest.find(separator);
     const std::string_view piece = rest.substr(0, end);
@@ -84,7 +84,7 @@ class Reader {
     const std::string& name_;
     std::size_t line_number_ = 0;
     std::size_t column_count_ = 0;
-    // the place of each column in a line
+    // the position of each column in a line
     std::array<std::optional<std::size_t>, Column::count> place_;
     std::optional<Row> below_;
 };
@@ -153,7 +153,7 @@ Result<Reader::Row> Reader::read_row(std::string_view line) const {
     return row;
 }
 
-// Checks the conditions that relate two numbers.
+// Checks conditions between two numbers of a row.
 Status Reader::check(const Row& row) const {
     if (below_ && !(row[height] > (*below_)[height])) {
         return wrong("column height_m: {} is not above the one before, {}", row[height],

@@ -9,7 +9,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Pools rows. The number of gates weights their means and mean squares.
+// Pools rows: means and mean squares are weighted by the number of gates.
 class Pool {
   public:
     void add(const AuditRow& row) {

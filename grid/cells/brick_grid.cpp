@@ -14,11 +14,10 @@
 namespace stormcellar::grid {
 namespace {
 
-// There are several pieces for each thread, because storms make some bricks costlier than others.
+// Make several pieces for each thread, because storms make some bricks costlier than others.
 constexpr int pieces_a_thread = 4;
 
-// Returns the nearest code. A value beyond the range of codes gets the code at that end and is
-// counted.
+// Returns the nearest code. A value beyond the range of codes is clamped to its end, and counted.
 std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
     const double code = nearest_code(value, quantization);
     if (is_within<double>(code, first_value_code, quantization.largest_code())) {
@@ -29,7 +28,7 @@ std::uint16_t code_of(float value, const Quantization& quantization, std::uint64
                                                           : first_value_code;
 }
 
-// One brick of cells as codes. Places beyond the edge of the grid stay 0.
+// Reads one brick of cells as codes. Places beyond the edge of the grid remain 0.
 template <class Code>
 class BrickReader {
   public:
@@ -69,7 +68,7 @@ class BrickReader {
         }
     }
 
-    // Copies the states and returns true if one of them is a value.
+    // Copies the states. Returns true if one of them is a value.
     template <int count>
     static bool copy_states(const CellStatus* status, Code* to) {
         std::uint8_t largest = 0;
@@ -87,8 +86,8 @@ class BrickReader {
     std::uint64_t clamped_ = 0;
 };
 
-// Counts the cells of a brick by state. Places beyond the extent have code 0, so they count as not
-// seen.
+// Counts the cells of a brick by state. Places beyond the extent count as not seen, because their
+// code is 0.
 struct CodeCounts {
     std::size_t not_seen = 0;
     std::size_t no_echo = 0;
@@ -100,7 +99,7 @@ struct CodeCounts {
     }
 };
 
-// Returns how many codes equal `wanted`. A row of 128 codes fits into a counter of one byte.
+// Returns how many codes equal `wanted`, in rows of 128 codes, so that a counter needs one byte.
 template <class Code>
 std::size_t count_of(const Code* codes, Code wanted) {
     constexpr std::size_t row = 128;
@@ -122,8 +121,7 @@ CodeCounts count_codes(const Code* codes) {
     counts.not_seen = count_of(codes, Code{0});
     counts.no_echo = count_of(codes, Code{1});
     counts.range_folded = count_of(codes, Code{2});
-    // Subtracting makes the codes of values start at 0. The codes of states wrap around and become
-    // larger than any value.
+    // Subtract, so that codes of values start at 0; codes of states wrap around and are larger.
     const auto wrapped = [](Code code) { return static_cast<Code>(code - first_value_code); };
     Code smallest = wrapped(0);
     for (std::size_t i = 0; i < brick_cells; ++i)
@@ -164,8 +162,8 @@ void read_columns(const Grid& grid, const BrickView& shape, int begin_x, int end
     writer.count_clamped(reader.clamped_count());
 }
 
-// Fills the grid in pieces along x. Each writer gets one piece, in order, so that the states of the
-// writers follow each other.
+// Fills the grid in pieces along x. Each writer gets one piece, in order, so that the states of all
+// writers are in order.
 template <class Code>
 void read_all(const Grid& grid, int threads, BrickGrid& made) {
     const BrickView shape = made.view();
@@ -250,8 +248,8 @@ void BrickGrid::finish_again(std::span<BricksWriter> writers) {
     std::size_t count = 0;
     for (const BricksWriter& writer : writers)
         count += writer.bricks_with_states_.size();
-    // Until all blocks are in order, the status_index of a brick that was just written counts the
-    // new blocks, and the status_index of any other brick counts the old blocks.
+    // Until all blocks are in order, the status_index of a brick that was just written is an index
+    // in the new blocks, and the status_index of any other brick is an index in the old blocks.
     std::vector<const std::byte*> new_blocks;
     new_blocks.reserve(count);
     std::vector<bool> is_new(bricks_.size());
@@ -340,7 +338,7 @@ void BricksWriter::copy(std::size_t brick, const BrickView& from, std::size_t fr
         return add_states(brick, states, source.checksum);
     }
     grid_->bricks_[brick] = source;
-    // packed_bytes describes the file that the brick came from, so it does not apply here
+    // packed_bytes describes the source's file
     grid_->bricks_[brick].packed_bytes = 0;
     if (source.kind == BrickKind::uniform) return;
     const std::size_t size = brick_cells * static_cast<std::size_t>(from.quantization.code_bytes);

@@ -6,8 +6,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Returns the part of a box that lies in the grid; it is empty (x1 < x0 or y1 < y0) if there is
-// none.
+// Returns the part of a box that is in the grid; if there is none, a box with x1 < x0 or y1 < y0.
 ColumnBox inside(const BrickView& view, const ColumnBox& box) {
     return {std::max(box.x0, 0), std::max(box.y0, 0), std::min(box.x1, view.spec->nx - 1),
             std::min(box.y1, view.spec->ny - 1)};

@@ -6,7 +6,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Compares one row of bricks along y and z.
+// Compares the bricks with one bx.
 class RowComparer {
   public:
     RowComparer(const BrickView& a, const BrickView& b, BrickDifferences& found)

@@ -7,7 +7,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The cell before a place, the cell after it, and how far the place lies between them.
+// The cells before and after a place along one axis, and the fraction of the way between them.
 struct Between {
     int first = 0;
     int second = 0;
@@ -15,7 +15,7 @@ struct Between {
 };
 
 std::optional<Between> between(double place, int cells) {
-    // A place that is NaN also fails this test.
+    // This test also refuses NaN.
     if (!std::isgreaterequal(place, 0.0) || !std::islessequal(place, cells - 1.0)) {
         return std::nullopt;
     }
@@ -79,7 +79,7 @@ bool GridSampler::find(ColumnPoint column, double level, Corners& corners) const
     const auto y = between(column.y, view_.spec->ny);
     const auto z = between(level, view_.spec->nz());
     if (!x || !y || !z) return false;
-    // Most places lie within one brick that has one state. Then no cell needs to be read.
+    // Most places are within one brick with a single state, so no cell needs to be read.
     const std::size_t brick = brick_of(x->first, y->first, z->first);
     if (view_.bricks[brick].kind == BrickKind::uniform &&
         brick == brick_of(x->second, y->second, z->second)) {

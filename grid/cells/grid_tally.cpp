@@ -40,8 +40,8 @@ Status GridTally::add(const BrickView& grid) {
     return {};
 }
 
-// A column without a stored brick has no value, so its states are read only until a seen cell is
-// found.
+// Counts a column. If it has no stored brick, it has no value, so a single seen cell ends the
+// search.
 void GridTally::count_column(const BrickView& grid, int ix, int iy) {
     const std::size_t base = grid.offset_x(ix) + grid.offset_y(iy);
     std::uint16_t greatest = 0;

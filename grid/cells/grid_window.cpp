@@ -14,11 +14,11 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int circle_points = 720;
-// Between two sampled points the circle bulges by 1e-5 of its radius. The rest is a margin for
-// projections.
+// Between two sampled points, the circle bulges by 1e-5 of its radius. The rest of this factor is a
+// margin for projections.
 constexpr double bulge = 1.001;
-// If two neighboring points on the circle are farther apart in the plane than this many times their
-// distance on the earth, the plane is torn between them.
+// If the distance of two neighboring points on the circle is more than this many times larger in
+// the plane than on the earth, the plane is torn between them.
 constexpr double largest_stretch = 8;
 
 // A range of columns or rows, both ends included.
@@ -50,8 +50,8 @@ bool holds_pole(const SitePosition& site, double radius_m, double pole_deg) {
     return frame.to_polar({pole_deg, site.longitude_deg}).arc_m < radius_m;
 }
 
-// Returns the range for a grid in degrees, where rows are latitudes and columns are longitudes.
-// Columns go on beyond both ends of the domain.
+// Returns the range for a grid in degrees, where rows are latitudes and columns are longitudes. The
+// columns may be beyond both ends of the domain.
 Box box_in_degrees(const GridSpec& domain, const SitePosition& site, double radius_m) {
     const GridProjection projection(domain);
     const double site_x = projection.to_column({site.latitude_deg, site.longitude_deg}).x;
@@ -71,9 +71,9 @@ Box box_in_degrees(const GridSpec& domain, const SitePosition& site, double radi
     return box;
 }
 
-// Returns the range for a grid in a plane, or none if the plane is torn inside the circle.
+// Returns the range for a grid in a plane, or none if the plane is torn within the circle.
 std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site, double radius_m) {
-    const MaskedTraps masked;  // places that a projection cannot show may be infinite
+    const MaskedTraps masked;  // a projection may give infinity where it shows nothing
     const GridProjection projection(domain);
     const double step_m = 2 * 3.15 * radius_m / circle_points;
     const double longest = largest_stretch * step_m / domain.spacing_m;
@@ -87,7 +87,7 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
         box.y.add(at.y);
         last = at;
     }
-    // The inside of the circle is the inside of its image, unless the image surrounds the outside.
+    // The box around the circle's image holds its inside, unless the image is inside out.
     const ColumnPoint middle = projection.to_column({site.latitude_deg, site.longitude_deg});
     const bool inside = is_within(middle.x, box.x.least, box.x.greatest) &&
                         is_within(middle.y, box.y.least, box.y.greatest);
@@ -95,7 +95,7 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
     return box;
 }
 
-// The columns of a range from the first to before the last, extended to whole bricks.
+// Columns from `first` to before `end`, extended to whole bricks.
 struct Span {
     int first = 0;
     int end = 0;
@@ -109,8 +109,8 @@ Span whole_bricks(const Range& range, int count) {
             std::min(count, bricks_along(static_cast<int>(end)) * brick_edge)};
 }
 
-// Makes whole bricks around a range. In a grid in degrees, a column has copies one whole turn to
-// the west and to the east.
+// Returns whole bricks around a range. In a grid in degrees, columns one whole turn to the west and
+// to the east are the same places.
 Span whole_bricks_around(const Range& range, const GridSpec& domain) {
     const double turn = 360 / domain.spacing_deg;
     Span all;
@@ -132,8 +132,8 @@ GridSpec window_spec(const GridSpec& domain, const GridWindow& window) {
     GridSpec spec = domain;
     spec.nx = window.nx;
     spec.ny = window.ny;
-    // Column 0 of the window is column first_x of the domain, so the center moves by that many
-    // columns. Halves of this size are exact.
+    // Column 0 of the window is column first_x of the domain, so the center moves by first_x
+    // columns. Numbers of this size are exact, including halves.
     spec.offset_x_cells = 0.5 * (window.nx - 1) - (domain.center_x() - window.first_x);
     spec.offset_y_cells = 0.5 * (window.ny - 1) - (domain.center_y() - window.first_y);
     return spec;

@@ -15,7 +15,8 @@ namespace {
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 constexpr double rounding_deg = 1e-9;        // 0.1 mm: the error that sums of spacings may have
 constexpr double largest_parallel_deg = 89;  // for parallels and the center of a cone
-constexpr double flattest_cone_deg = 0.01;   // a cone with a smaller mean parallel is a cylinder
+constexpr double flattest_cone_deg = 0.01;   // cones with a smaller mean parallel are treated as
+                                             // cylinders
 
 using Cone = GeographicLib::LambertConformalConic;
 
@@ -75,16 +76,16 @@ Status validate_parallels(const GridSpec& spec) {
     return {};
 }
 
-// Checks a cone. It is cut open along the meridian opposite its center. The wedge of the plane
-// behind the cut holds no places on the earth, or places that the map has already. The same is true
-// of the pole at the tip of the cone. So the grid must not reach them.
+// Checks a cone, which is cut open along the meridian opposite its center. The wedge of the plane
+// behind the cut shows nothing, or places that are already elsewhere on the map. The same applies
+// beyond the pole at the tip of the cone. So the grid must reach neither.
 Status validate_cone(const GridSpec& spec) {
     const Cone cone = cone_of(spec);
     const double side = cone.OriginLatitude() < 0 ? -1 : 1;  // the pole at the tip
     const double tip_m =
         side * (cone_northing_m(cone, side * 90) - cone_northing_m(cone, spec.center_latitude_deg));
     const double half_width_m = (std::abs(spec.offset_x_cells) + 0.5 * spec.nx) * spec.spacing_m;
-    // Distance that the grid reaches toward the tip.
+    // The distance that the grid reaches toward the tip.
     const double height_m = (side * spec.offset_y_cells + 0.5 * spec.ny) * spec.spacing_m;
     const double turn_deg = std::atan2(half_width_m, tip_m - height_m) * degrees_per_radian;
     const double cut_deg = 180 * std::sin(std::abs(cone.OriginLatitude()) / degrees_per_radian);

@@ -8,8 +8,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// Fills the levels of a column from the lowest up, in one call for each pair of beams. A level that
-// is not seen stays as it is.
+// Fills the levels of a column from the lowest up, with one call for each pair of beams. Does not
+// write levels that are not seen.
 template <bool nearest, bool circular>
 class Filler {
   public:
@@ -17,17 +17,16 @@ class Filler {
            std::span<float> values)
         : levels_(levels), blending_(blending), status_(status), values_(values) {}
 
-    // Below the lowest beam, cells are seen down to its lower edge.
+    // Fills the levels below the lowest beam, which are seen down to the beam's lower edge.
     void below(const BeamSample& lowest) {
         // Close to the antenna, rounding may put the edge above the beam.
         level_ = levels_.first_from(std::min(lowest.lower_edge_m, lowest.height_m));
         fill_to(levels_.first_from(lowest.height_m), lowest.sample);
     }
 
-    // Fills the levels below `high`. The levels below `low` are done, or belong to the run of equal
-    // states that `low` continues. Such a run is only remembered here. Between beams that all see
-    // no echo, or all see nothing, every level has that state, so the whole run is filled at once
-    // when it ends.
+    // Fills the levels from `low` to below `high`. If both beams see no echo, or both are not seen,
+    // all levels between them have that state. Such levels form a run, which is only remembered
+    // here and filled when it ends.
     void between(const BeamSample& low, const BeamSample& high) {
         const bool same_state = low.sample.status == high.sample.status;
         if (same_state && low.adjacent_to_next && low.sample.status != CellStatus::value) {
@@ -49,7 +48,7 @@ class Filler {
         }
     }
 
-    // Above the highest beam, cells are seen up to its upper edge.
+    // Fills the levels above the highest beam, which are seen up to the beam's upper edge.
     void above(const BeamSample& highest) {
         end_run(highest);
         std::size_t end = level_;
@@ -71,26 +70,26 @@ class Filler {
             std::fill(values_.data() + level_, values_.data() + end, sample.value);
         level_ = end;
     }
-    // Fills a run of equal states up to the beam `last`, where it ends.
+    // Fills a run of equal states, which ends at the beam `last`.
     void end_run(const BeamSample& last) {
         if (in_run_) fill_to(levels_.first_from(last.height_m), last.sample);
         in_run_ = false;
     }
 
-    // Returns the share of `high`, for low.height_m <= level < high.height_m.
+    // Returns the share of `high` at the current level, which is at or above low and below high.
     [[nodiscard]] float share(const BeamSample& low, float inverse_m) const {
         return upper_share((levels_[level_] - low.height_m) * inverse_m, nearest);
     }
 
-    // The general case: the two states differ, or the moment wraps, so the status rule decides each
-    // cell.
+    // Handles the general case: the two states differ, or values wrap, so the status rule decides
+    // each cell.
     void blend_between(const BeamSample& low, const BeamSample& high, std::size_t end) {
         const float inverse_m = 1 / (high.height_m - low.height_m);
         for (; level_ < end; ++level_)
             put(blend_as<circular>(low.sample, high.sample, share(low, inverse_m), blending_));
     }
 
-    // The usual case inside echo: both beams have values, which are interpolated in a plain loop.
+    // Handles the usual case inside echo: both beams have values, which a plain loop interpolates.
     void values_between(const BeamSample& low, const BeamSample& high, std::size_t end) {
         const float inverse_m = 1 / (high.height_m - low.height_m);
         const float first = low.sample.value;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t tiles_a_piece = 16;
 
-// The function is never inlined, so that a step that is off by default does not enlarge the usual
-// loop.
+// Converts the values of the columns from Z to dB. Never inlined, so that this step, which is off
+// by default, does not enlarge the usual loop.
 [[gnu::noinline]] void to_db(const FillWork& work, std::span<const TileColumn> columns) {
     for (const TileColumn& column : columns) {
         const std::span status = status_of(work, column);
@@ -25,9 +25,8 @@ constexpr std::size_t tiles_a_piece = 16;
     }
 }
 
-// Fills one tile after another, in arrays that are allocated once. Each tile takes three steps:
-// find its columns within the range of the radar, plan which sweeps must be sampled, and fill the
-// columns.
+// Fills tiles, one at a time, in arrays that are allocated once: finds the columns of the tile
+// within the range of the radar, plans which sweeps to sample, and fills the columns.
 template <class Columns>
 class TileFiller {
   public:
@@ -78,8 +77,8 @@ Fill sampled_fill(bool circular) {
                     : fill_tiles<SampledColumns<radial_elevations, nearest, false>>;
 }
 
-// Chooses the code for the method. Conditions that are the same for all tiles are tested here once,
-// and not in the loops.
+// Chooses the code for the method. Tests conditions that are equal for all tiles once, outside the
+// loops.
 Fill fill_by(const Method& method, Blending blending) {
     const bool nearest = method.interpolation == Interpolation::nearest;
     const bool sampled = facts_of(method.interpolation).takes_one_gate;
@@ -91,14 +90,14 @@ Fill fill_by(const Method& method, Blending blending) {
     return nearest ? sampled_fill<false, true>(circular) : sampled_fill<false, false>(circular);
 }
 
-// Returns the largest number of sweeps above a sweep that count for a cell beside it.
+// Returns the largest number of sweeps on one side of a sweep that may count with it.
 int sweeps_by_pattern(const SweepStack& stack) {
     const std::vector<float>& elevations_deg = stack.elevations_deg;
     int most = 1;
     for (std::size_t low = 0; low < elevations_deg.size(); ++low) {
         int within = 1;
         for (std::size_t high = low + 1; high < elevations_deg.size(); ++high) {
-            // Radials may be measured up to half a beam too high or too low.
+            // Radials may be measured up to half a beam above or below their sweep.
             if (elevations_deg[high] - elevations_deg[low] < 2 * stack.beam_width_deg) ++within;
         }
         most = std::max(most, within);
@@ -106,8 +105,8 @@ int sweeps_by_pattern(const SweepStack& stack) {
     return most;
 }
 
-// Returns how far the samples of a column reach, which tells the plan how far around a tile it must
-// look. With one gate for each sweep they do not reach beyond the column.
+// Returns how far samples reach beyond a column, so that the plan looks as far around a tile. With
+// one gate of each sweep they do not reach beyond the column.
 SampleReach reach_of(const SweepStack& stack, const Method& method) {
     const bool one_gate = facts_of(method.interpolation).takes_one_gate;
     if (one_gate && method.cell == CellExtent::point) return {0, 0, 1, stack.in_order};

@@ -14,17 +14,17 @@
 namespace stormcellar::grid {
 namespace {
 
-// Facts about one sweep that its gates do not hold.
+// What the details need to know about a sweep besides its gates.
 struct SweepFacts {
     std::vector<std::optional<double>> ages_s;  // by position of the radial
-    // Places of the gates of each kind; empty unless distances are asked for.
+    // Places of the gates of each kind; empty unless the caller asks for distances.
     std::vector<std::pair<const level2::SweepMoment*, GatePlaces>> places;
 };
 
-// The center of the nearest gate of a sweep, relative to a column.
+// The center of a sweep's nearest gate, relative to a column.
 struct NearGate {
     double height_m = 0;
-    double across_map_m = 0;  // distance in the plane about the site
+    double across_map_m = 0;  // distance from the column in the plane about the site
 };
 
 // One sweep over one column.
@@ -36,7 +36,7 @@ struct SeenBeam {
     std::optional<NearGate> gate;
 };
 
-// The sweeps that make up a height, and their weights. If there is none, the height is not seen.
+// The sweeps that make up a height, and their weights; none if the height is not seen.
 struct Share {
     const SeenBeam* beam = nullptr;
     float weight = 0;
@@ -51,8 +51,8 @@ struct Shares {
     }
 };
 
-// Returns the same sweeps and weights as grid/fill/column.h uses. Heights rise; `above` is the
-// first beam above the level, or the end.
+// Returns the sweeps and weights that grid/fill/column.h uses. Heights of beams rise; `above` is
+// the number of the first beam above the level, or the number of beams.
 Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level_m, bool nearest) {
     const SeenBeam* const low = above > 0 ? &beams[above - 1] : nullptr;
     const SeenBeam* const high = above < beams.size() ? &beams[above] : nullptr;
@@ -69,8 +69,8 @@ Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level
     return shares;
 }
 
-// Collects the facts that do not depend on the column: the ages of the radials and, if distances
-// are asked for, the places of the gates.
+// Collects facts that do not depend on the column: the ages of the radials and, if the caller asks
+// for distances, the places of the gates.
 std::vector<SweepFacts> facts_of(const DetailWork& work, std::optional<UtcTime> frame_time) {
     std::vector<SweepFacts> facts(work.chosen.size());
     const DetailSet asked = work.options.details;
@@ -121,7 +121,7 @@ class DetailColumns {
         const bool all_unseen = std::all_of(status.begin(), status.end(), [](CellStatus cell) {
             return cell == CellStatus::not_seen;
         });
-        if (all_unseen) return;  // the column may lie beyond the tables
+        if (all_unseen) return;  // the column may be beyond the tables
         const ColumnPlace& column = work_.geometry.row(iy)[static_cast<std::size_t>(ix)];
         look(column);
         const bool mixed = asked_.has(Detail::weight) && !takes_one_gate(method_);
@@ -189,8 +189,7 @@ class DetailColumns {
                 radials.radials[sweep.gates().radial_index(position)].azimuth_deg;
             const double turn = static_cast<double>(azimuth_deg - column.azimuth_deg) * degree;
             const auto arc_m = static_cast<double>(column.arc_m);
-            // The across distance follows from the law of cosines, in a form in which nothing
-            // cancels.
+            // The law of cosines, in a form in which nothing cancels.
             const double across_m =
                 2 * std::sqrt(arc_m * std::max(0.0, center->arc_m)) * std::sin(turn / 2);
             return NearGate{center->height_m, std::hypot(arc_m - center->arc_m, across_m)};
@@ -198,8 +197,8 @@ class DetailColumns {
         return std::nullopt;
     }
 
-    // Writes the age, the height offset and the distance of a cell. The age is the weighted mean;
-    // the other two are those of the nearest beam and the nearest gate.
+    // Writes the age, the height offset and the distance of a cell. The age is the weighted mean,
+    // the height offset belongs to the nearest beam, and the distance to the nearest gate.
     void describe(std::size_t cell, float level_m, const Shares& shares) {
         double age_s = 0;
         bool dated = true;
@@ -224,7 +223,7 @@ class DetailColumns {
         if (asked_.has(Detail::distance) && distance_m) put(Detail::distance, cell, *distance_m);
     }
 
-    // Makes the mixtures of gates from which a method with several gates fills the column.
+    // Makes the mixtures of gates with which a method of several gates fills the column.
     void mix(const ColumnPlace& column, int ix, int iy) {
         mixtures_.clear();
         const bool area = method_.cell == CellExtent::area;
@@ -243,7 +242,7 @@ class DetailColumns {
         if (!mixtures_.empty()) mixed_.start(mixtures_);
     }
 
-    // Returns the share of a level that is seen. Call this in rising order of levels.
+    // Returns the share of a level that is seen. Call it in rising order of levels.
     [[nodiscard]] double seen_share(std::size_t level) {
         const std::size_t count = heights_m_.size() / levels_m_.size();
         float unseen = 0;

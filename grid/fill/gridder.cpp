@@ -41,8 +41,7 @@ void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>
     grid.end_time = last.value_or(grid.time);
 }
 
-// Returns a note that says how many sweeps of an elevation were equally good, and which one was
-// used.
+// Returns a note with the number of equally good sweeps of an elevation, and which one is used.
 std::string note_of_repeats(const ChosenSweep& sweep, std::optional<UtcTime> nearest_to) {
     const std::string rule =
         nearest_to ? fmt::format("the nearest to {}", format_utc(*nearest_to)) : "the newest";
@@ -116,7 +115,7 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
     return {};
 }
 
-// Returns the time to which the sweeps should be near, or none if the newest sweeps are used.
+// Returns the time to which repeated sweeps should be nearest; none for the newest.
 std::optional<UtcTime> time_to_be_near(const level2::Volume& volume,
                                        const GridderOptions& options) {
     if (options.repeats == GridderOptions::Repeats::newest) return std::nullopt;

@@ -17,7 +17,7 @@ Mixture of_one(const BeamMixture& beam, Blending blending) {
     return mixture;
 }
 
-// The beams [first, end), which have no lost cut between them.
+// The beams [first, end), without a lost cut between them.
 struct Run {
     std::size_t first, end;
 };
@@ -63,7 +63,7 @@ void MixedColumn::start(std::span<const BeamMixture> beams) {
         steepest_m_per_deg_ = std::max(steepest_m_per_deg_, rise_of(beam));
 }
 
-// Callers pass rising heights, so the beam above the next height is found in a step or two.
+// Finds the beam above a height. Callers pass rising heights, so it is a step or two away.
 void MixedColumn::find(float height_m) {
     while (above_ > 0 && beams_[above_ - 1].height_m > height_m)
         --above_;
@@ -72,7 +72,7 @@ void MixedColumn::find(float height_m) {
 }
 
 // Mixes all beams in reach of a height by the antenna's pattern. `nearest` is the beam that would
-// count alone.
+// count if only one did.
 Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width_deg) {
     const auto weight_of = [&](const BeamMixture& beam) {
         return beam_pattern((height_m - beam.height_m) / rise_of(beam), width_deg);
@@ -91,9 +91,9 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
         total += weights_.back();
     }
     if (!(total > 0)) return of_one(beams_[nearest], blending_);
-    // The first beam added fixes the circle of a moment that wraps, so it must weigh most. Usually
-    // that is the nearest beam. If neighbors are far apart and rise differently, the nearest may be
-    // out of reach; then the first beam with a weight takes its place.
+    // If values wrap, the first beam added is the reference, so it must have the largest weight.
+    // Usually that is the nearest beam. If neighbors are far apart and rise differently, the
+    // nearest beam may be out of reach; then the first beam with a weight replaces it.
     std::size_t first = nearest;
     if (!(weights_[nearest - run.first] > 0)) {
         const auto heavy =
@@ -109,7 +109,7 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
     return mixture;
 }
 
-// Returns a width of the pattern with which the two beams around the height always count.
+// Returns a width of the pattern at which the two beams around the height always count.
 float MixedColumn::width_between_deg() const {
     const BeamMixture& low = beams_[above_ - 1];
     const BeamMixture& high = beams_[above_];
@@ -117,8 +117,8 @@ float MixedColumn::width_between_deg() const {
     return std::max(beam_width_deg_, (high.height_m - low.height_m) / mean_rise);
 }
 
-// Returns true if every beam that may count around a height sees only no echo. Then the cell is no
-// echo too, and need not be mixed.
+// Returns true if all beams that may count at a height see only no echo. Then the cell is no echo,
+// and nothing needs to be mixed.
 bool MixedColumn::is_quiet_around(float height_m) const {
     const bool by_pattern = interpolation_ == Interpolation::beam_weighted;
     const float reach_m = by_pattern ? reach_m_of(width_between_deg()) : 0;
@@ -133,8 +133,8 @@ bool MixedColumn::is_quiet_around(float height_m) const {
     return true;
 }
 
-// Makes the mixture between two adjacent beams. The beam with the larger weight is added first,
-// because the first beam fixes the circle of a moment that wraps.
+// Mixes two adjacent beams. Adds the beam with the larger weight first, because it is the reference
+// of values that wrap.
 Mixture MixedColumn::between(float height_m) {
     const BeamMixture& low = beams_[above_ - 1];
     const BeamMixture& high = beams_[above_];
@@ -154,8 +154,8 @@ Mixture MixedColumn::between(float height_m) {
     return mixture;
 }
 
-// Makes the mixture of a height that is not between adjacent beams, from the nearer beam that
-// covers it.
+// Returns the mixture at a height that is not between adjacent beams: the nearer beam whose edges
+// enclose the height.
 Mixture MixedColumn::outside(float height_m) {
     const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
     const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;
@@ -172,7 +172,7 @@ Mixture MixedColumn::at(float height_m) {
     return is_between_adjacent() ? between(height_m) : outside(height_m);
 }
 
-// Returns true if no beam and no edge of a beam lies between the two heights; call find(lowest_m)
+// Returns true if no beam and no edge of a beam is between the two heights. Call find(lowest_m)
 // first.
 bool MixedColumn::are_outside(float lowest_m, float highest_m) const {
     if (is_between_adjacent()) return false;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// Returns the largest distance of a corner from the center of its cell, over all cells of the tile.
+// Returns the largest distance from the center of a cell to its corner, over all cells of the tile.
 float farthest_corner_m(const ColumnGeometry& geometry, const Tile& tile) {
     float radius_m = 0;
     for (int iy = tile.first_y; iy < tile.end_y; ++iy) {

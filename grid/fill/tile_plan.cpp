@@ -5,7 +5,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The sweeps around one sweep, `reach` to each side.
+// The sweeps up to `reach` below and above a sweep.
 struct Around {
     std::size_t first, last;
 };
@@ -23,9 +23,9 @@ void TilePlan::make(std::span<const PolarSweep> sweeps, const std::vector<bool>&
     for (const PolarSweep& sweep : sweeps)
         uniform_.push_back(sweep.uniform_status(wider));
 
-    // A sweep is dropped if it and all sweeps around it are uniform and equal, without a lost cut
-    // between them. It is kept but not sampled if no sweep around it is sampled. Then it counts as
-    // a state without a detection limit, because no value could mix with that limit.
+    // Drop a sweep if it and all sweeps around it are uniform with the same status and no lost cut
+    // is between them. Do not sample a uniform sweep if no sweep around it is sampled. It then has
+    // a status without a detection limit, because no value can be mixed with it.
     planned_.clear();
     const std::size_t count = sweeps.size();
     for (std::size_t at = 0; at < count; ++at) {

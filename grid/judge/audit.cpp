@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t classes = audit_range_borders_m.size() + 1;
 
-// Returns the state of a cell that corresponds to the state of a gate; none for no data, where the
-// gate says nothing.
+// Returns the state of a cell for the state of a gate; none for no data, which says nothing about
+// the weather.
 std::optional<CellStatus> status_of(level2::GateStatus status) {
     switch (status) {
         case level2::GateStatus::valid:
@@ -41,17 +41,17 @@ float shorter_way(float difference, float period) {
     return period > 0 ? std::remainder(difference, period) : difference;
 }
 
-// The result of the virtual radar at a gate.
+// The grid at a gate, and its difference.
 struct Finding {
     CellStatus status = CellStatus::not_seen;
-    float difference = 0;  // grid minus gate, where both are values
+    float difference = 0;  // grid minus gate; 0 unless both are values
 };
 
-// Facts about a gate besides its place.
+// What mix() needs to know about a gate.
 struct Gate {
     float value = 0;
     float period = 0;
-    // The detection limit, which no echo stands for; NaN if there is none.
+    // The detection limit, as which no echo counts; NaN: no echo does not count.
     float limit = std::numeric_limits<float>::quiet_NaN();
 };
 
@@ -108,7 +108,7 @@ struct Scan {
     bool is_tdwr = false;
 };
 
-// Scans one kind of radials of a sweep, thinned along the range.
+// Audits the radials of one kind in a sweep, at some of their gates.
 class KindScan {
   public:
     KindScan(const Scan& scan, const level2::Sweep& sweep, const level2::SweepMoment& moment,
@@ -151,8 +151,7 @@ class KindScan {
     }
 
   private:
-    // Returns a copy of the moment with only the sampled gates, which serves to compute places and
-    // nothing else.
+    // Returns a moment with only the sampled gates. It serves only to compute their places.
     static level2::SweepMoment thinned(const level2::SweepMoment& moment, int gate_step) {
         level2::SweepMoment few;
         few.first_gate_m = moment.first_gate_m;
@@ -160,7 +159,7 @@ class KindScan {
         few.gate_stride = (moment.gate_stride + gate_step - 1) / gate_step;
         return few;
     }
-    // Returns true where cells with echo and cells without echo meet.
+    // Returns true if some corners have values and some have no echo.
     static bool needs_limit(const GridSampler::Corners& corners) {
         bool echo = false;
         bool none = false;

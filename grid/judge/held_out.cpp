@@ -98,8 +98,8 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
         const TimeMethod method = facts.method;
         const auto start = Clock::now();
         InstantOptions options{.instant = held_out.middle, .method = method};
-        // The held-out volume also took minutes, so its cells are compared without sweep times:
-        // they are as late in their volume as the cells of the other two.
+        // The held-out volume also took minutes. Without sweep times, a cell of the reconstruction
+        // has about the same time within the volume as the cell with which it is compared.
         options.sweep_times = false;
         options.threads = threads;
         std::optional<MotionField> motion;

@@ -15,7 +15,7 @@ double seconds_between(UtcTime from, UtcTime to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-// A volume on the columns that all volumes of the sequence share.
+// A volume, gridded on the columns of the sequence.
 struct Gridded {
     BrickGrid bricks;
     UtcTime middle;
@@ -29,7 +29,7 @@ Result<Gridded> grid_one(const TimedVolume& timed, const ColumnGeometry& geometr
     return Gridded{BrickGrid::from(*made, default_quantization(options.moment)), middle};
 }
 
-// Returns the sweeps of the lowest elevation that the gridder would take at some time.
+// Returns the sweeps of the lowest elevation that the gridder would choose for some time.
 std::set<std::size_t> lowest_sweeps(const level2::Volume& volume, const SitePosition& site,
                                     level2::Moment moment) {
     std::set<std::size_t> found;

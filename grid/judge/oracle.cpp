@@ -28,8 +28,8 @@ Real gaussian_radius(Real latitude_deg) {
     return std::sqrt(m * n);
 }
 
-// The beam of the 4/3 earth, by the textbook's formulas, or by bisection where these have no closed
-// form. The other beams have oracles of their own (tests/grid/beam_model_test.cpp).
+// The beam of the 4/3 earth, by the textbook's formulas, or by bisection if they have no closed
+// form. Other beams have their own oracles (tests/grid/beam_model_test.cpp).
 class Beamline {
   public:
     Beamline(const SitePosition& site, const OracleSetting& setting)
@@ -74,7 +74,7 @@ class Beamline {
     std::optional<BeamModel> model_;
 };
 
-// One column of a spec: its place, and the test whether a gate is inside its outline.
+// One column of a spec: its place, and a test that tells whether a gate is inside its outline.
 class Outline {
   public:
     Outline(const SitePosition& site, const GridSpec& spec, int ix, int iy)
@@ -106,7 +106,7 @@ class Outline {
     double azimuth_deg = 0, arc_m = 0, radius_m = 0;
 
   private:
-    // The other projections have an oracle of their own (tests/grid/projection_test.cpp).
+    // Other projections have their own oracle (tests/grid/projection_test.cpp).
     [[nodiscard]] PolarPoint as_seen(double x, double y) const {
         const MaskedTraps masked;
         GeoPoint place = projection_.to_geo({x, y});
@@ -176,8 +176,8 @@ OracleColumn::OracleColumn(const level2::Volume& volume, const std::vector<Chose
     put_in_order();
 }
 
-// Returns the rise from the edges that pass on their own side of the beam's center. If there is
-// none, returns the width of a degree at this range.
+// Returns the rise per degree from the edges that are on their proper side of the beam's center. If
+// both are lost, returns the width of a degree at this range.
 double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) {
     const bool has_lower = std::islessequal(beam.lower_edge_m, beam.height_m);
     const bool has_upper = std::isgreaterequal(beam.upper_edge_m, beam.height_m);
@@ -189,8 +189,8 @@ double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) 
     return range_m * static_cast<double>(degree);
 }
 
-// Sorts the beams. Radials that were measured off their sweeps' elevations may be in another order.
-// A lost cut stays between the same places.
+// Sorts the beams by height, because radials may be measured off their sweeps' elevations. A lost
+// cut keeps its position in the order.
 void OracleColumn::put_in_order() {
     std::vector<bool> adjacent;
     for (const Beam& beam : beams_)

@@ -64,7 +64,7 @@ OracleSweep::OracleSweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
     if (!(spacing_deg_ > 0)) spacing_deg_ = 1;
 }
 
-// Returns true if there is no gap between the radial and the next one, clockwise.
+// Returns true if there is no gap between a radial and the next one, clockwise.
 bool OracleSweep::is_joined(std::size_t at) const {
     if (radials_.size() == 1) return false;
     const Radial& next = radials_[(at + 1) % radials_.size()];
@@ -130,7 +130,7 @@ WeightedGate OracleSweep::gate(const Radial& radial, std::int32_t number, double
     return gate;
 }
 
-// Adds the nearest gate alone, or two gates, linear in range.
+// Adds the nearest gate, or if `two` is true two gates, linear in range.
 void OracleSweep::add_along(const Radial& radial, double range_m, double weight, bool two,
                             std::vector<WeightedGate>& gates, bool& doubtful) const {
     if (radial.kind == nullptr) {
@@ -182,7 +182,7 @@ void OracleSweep::add_radials(double azimuth_deg, std::size_t nearest, double ra
         for (const std::size_t at : joined)
             weights.push_back(oracle_pattern(offset(at), width_deg));
     } else {
-        // Finds the nearest radial on the other side.
+        // Find the nearest radial on the other side of the azimuth.
         double other_deg = 1e9;
         for (const std::size_t at : joined) {
             const bool other_side = at != nearest && (offset(at) > 0) != (offset(nearest) > 0);

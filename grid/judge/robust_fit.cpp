@@ -10,8 +10,7 @@ namespace {
 
 constexpr double huber_limit = 1.345;
 constexpr double deviations_a_median = 1.4826;
-// If the other numbers explain all but this share of the square of a number, the rows do not
-// determine it.
+// The rows do not determine a number if the other numbers explain all but this share of its square.
 constexpr double least_pivot = 1e-4;
 
 using Numbers = std::array<double, fit_size>;
@@ -40,8 +39,8 @@ struct Equations {
     }
 };
 
-// Solves the equations by Gauss's elimination, in place. A number that is not sought has an
-// equation of its own.
+// Solves the equations by Gaussian elimination. `of` is a copy, in which a number that is not
+// sought has a trivial equation.
 std::optional<Numbers> solve(Equations of, FitChoice sought, std::size_t* unclear) {
     for (std::size_t i = 0; i < fit_size; ++i) {
         if (sought[i]) continue;
@@ -95,7 +94,7 @@ std::vector<Equations> equations_of_blocks(std::span<const FitRow> rows, double 
     return blocks;
 }
 
-// Solves without each block in turn, and returns the errors that follow from the scatter of the
+// Solves without each block in turn, and returns the standard errors from the scatter of the
 // solutions.
 Numbers jackknife(const std::vector<Equations>& blocks, const Equations& all, FitChoice sought) {
     Numbers errors;
@@ -129,8 +128,8 @@ std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought, std::size
         return std::nullopt;
     }
     Fit made{.deviation = deviation_of(rows)};
-    // If half the residuals are exact, all others count as outliers; the smallest deviation keeps
-    // them.
+    // If half the residuals are 0, so is the deviation, and all other rows would be outliers
+    // without weight. This least deviation keeps them.
     const double deviation = std::max(made.deviation, 1e-9);
     const std::vector<Equations> blocks = equations_of_blocks(rows, deviation);
     Equations all;

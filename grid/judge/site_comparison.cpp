@@ -18,13 +18,14 @@ constexpr std::array<const char*, fit_size> fault_names = {"bias", "azimuth", "e
 constexpr std::size_t fewest_blocks = 8;
 constexpr std::size_t fewest_cells = 400;
 constexpr double slowest_mps = 2;
-// If the motion is not known, the two looks may be at most this far apart. In a longer time the
-// echo moves as far as a fault would move it.
+// Without a motion, the two looks may be at most this far apart. In a longer time, echo moves as
+// far as a fault would move it.
 constexpr double longest_apart_s = 90;
 constexpr int most_rounds = 12;
-// A step is never longer than this: dB, degrees, degrees, seconds.
+// No step is longer than this (dB, degrees, degrees, seconds).
 constexpr std::array<double, fit_size> longest_step = {10, 0.5, 0.5, 60};
-// A step below this share of the errors, or of the limit above, changes nothing.
+// A step changes nothing if it is below this share of the error, or of the longest step if that is
+// less.
 constexpr double settled = 0.02;
 
 using Numbers = std::array<double, fit_size>;
@@ -74,8 +75,8 @@ double correlation_of(const std::vector<double>& a, const std::vector<double>& b
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-// Makes a row for each cell, with A minus B after B's faults are applied. Also computes how alike
-// the two grids then are.
+// Returns a row for each cell, with A minus B after removing B's faults. Also computes the
+// correlation of A and B.
 std::vector<FitRow> rows_of(const std::vector<SitePair>& pairs, const GridSampler& b,
                             const Numbers& numbers, double least_dbz, double& correlation) {
     std::vector<FitRow> rows;
@@ -107,7 +108,7 @@ std::array<Estimate*, fit_size> estimates_of(SiteComparison& comparison) {
             &comparison.time_s};
 }
 
-// Returns the reason why these cells do not suffice; empty if they do.
+// Returns the reason why there are too few cells; empty if there are enough.
 std::string too_little(std::size_t pairs, std::size_t rows, std::size_t blocks) {
     if (pairs == 0) return "there is no echo where both sites look";
     if (rows >= fewest_cells && blocks >= fewest_blocks) return "";
@@ -131,7 +132,7 @@ std::size_t blocks_of(const std::vector<FitRow>& rows) {
     return static_cast<std::size_t>(std::unique(blocks.begin(), blocks.end()) - blocks.begin());
 }
 
-// Adds a step, no longer than allowed. Returns true if it still changes anything.
+// Adds a step, cut to its longest length. Returns true if it still changes anything.
 bool take_step(const Fit& found, Numbers& numbers) {
     bool changes = false;
     for (std::size_t i = 0; i < fit_size; ++i) {
@@ -154,7 +155,7 @@ double median_apart_s(const std::vector<SitePair>& pairs) {
     return *middle;
 }
 
-// Chooses the faults that can be sought, as far as this is known beforehand.
+// Returns the faults to seek, and gives the others a reason why they are untold.
 FitChoice choose_faults(const ComparisonOptions& options, SiteComparison& comparison) {
     FitChoice sought{true, true, true, true};
     const auto give_up = [&](Fault fault, std::string why) {
@@ -227,7 +228,7 @@ std::array<FaultText, fit_size> texts(const FaultLimits& limits) {
             FaultText{"clock late by", "clock early by", "s", limits.time_s}};
 }
 
-// Returns a sentence for each of the four estimates about which `words_for` has something to say.
+// Returns a sentence for each of the four estimates for which `words_for` returns words.
 template <class WordsFor>
 std::vector<std::string> sentences(const SiteComparison& comparison, WordsFor words_for) {
     const std::array estimates = {&comparison.bias_db, &comparison.azimuth_deg,

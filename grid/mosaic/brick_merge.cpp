@@ -13,12 +13,11 @@ namespace {
 constexpr double db_per_log2 = 3.0102999566398120;  // 10 log10(2)
 constexpr double nearest_range_m2 = 100.0 * 100.0;  // as in grid/beam/detection_limit.h
 
-// The last bricks of a grid often hold only a few levels; for these the loops are shorter.
+// The last bricks of a grid often have only a few levels, for which the loops are shorter.
 constexpr int few = 4;
 
-// The states that occur in the sixteen codes of a column, as bits. The codes of no echo (1) and
-// range folded (2) are bits themselves, so one "or" over the column finds the states without a
-// branch.
+// The states in the sixteen codes of a column, as bits. The codes of no echo (1) and range folded
+// (2) are such bits, so an "or" over the column finds the states without a branch.
 constexpr unsigned has_no_echo = 1;
 constexpr unsigned has_folded = 2;
 constexpr unsigned has_value = 4;
@@ -30,7 +29,7 @@ unsigned states_in(const Code* codes) {
     return states;
 }
 
-// A column whose sixteen cells are all in one state. A uniform brick has no codes in memory, so all
+// Columns whose sixteen cells all have one state. A uniform brick has no codes in memory, so all
 // its columns point to one of these.
 template <class Code>
 constexpr std::array<std::array<Code, brick_edge>, 3> columns_of_states = [] {
@@ -84,9 +83,8 @@ BrickMerger<Code>::BrickMerger(const MosaicOptions& options, const Quantization&
     }
 }
 
-// Finds the codes of each layer for every kind of brick. Stored codes are used in place, packed
-// states are unpacked, and a uniform brick gets one constant column. After this, all rules can
-// treat all layers alike.
+// Finds the codes of each layer. Stored codes are used in place, packed states are unpacked, and a
+// uniform brick becomes a constant column. Afterward the rules can treat all layers alike.
 template <class Code>
 void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExtent& extent) {
     codes_.resize(layers.size());
@@ -107,7 +105,7 @@ void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExte
             codes_[i] = {columns_of_states<Code>[state].data(), 0};
         }
     }
-    // No rule writes the columns and cells beyond the extent, so clear them here.
+    // No rule writes columns and cells beyond the extent, so clear them here.
     if (extent.cells() == static_cast<int>(brick_cells)) return;
     merged_.codes.fill(0);
     merged_.counts.fill(0);
@@ -115,14 +113,14 @@ void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExte
 }
 
 // Prepares the detection limits. In decibels the limit rises by 20 log10(range), so its Z is
-// proportional to the square of the range. That square is arc^2 + (height - altitude)^2. Both terms
-// can be computed separately: the heights once for each brick, here, and the arcs for each column.
+// proportional to the square of the range, arc^2 + (height - altitude)^2. The two terms are
+// computed separately: the heights here, once for each brick, and the arcs for each column.
 template <class Code>
 void BrickMerger<Code>::open_limits(std::span<const BrickLayer> layers,
                                     std::span<const double> levels_m) {
     limits_.resize(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        // Z at 1 km; the factor 1e-6 makes it Z per m^2.
+        // Z at 1 km, times 1e-6 for Z per m^2.
         limits_[i].scale =
             static_cast<Real>(std::pow(10.0, layers[i].limit.at_1km_dbz / 10) * 1e-6);
         for (std::size_t z = 0; z < levels_m.size(); ++z) {
@@ -132,8 +130,8 @@ void BrickMerger<Code>::open_limits(std::span<const BrickLayer> layers,
     }
 }
 
-// Finds the layers that see anything in this column. Most layers see nothing, because a site covers
-// little of the domain, and only the others should cost time.
+// Finds the layers that see something in this column. Most layers see nothing there, because a site
+// covers little of the domain, and should cost no time.
 template <class Code>
 void BrickMerger<Code>::find_active(std::size_t column) {
     active_.clear();
@@ -148,7 +146,7 @@ void BrickMerger<Code>::find_active(std::size_t column) {
 }
 
 // Merges a column by the weighted mean. Three frequent cases need no sums: no layer sees anything,
-// only one layer does, or every layer that does sees only no echo.
+// only one layer does, or all that do see only no echo.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size_t column,
@@ -174,9 +172,9 @@ void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size
     finish_mean(sums, to, height);
 }
 
-// Adds one layer to the sums of a column. Each state has a loop of its own, which is left out if
-// the state does not occur. Inside a loop every cell is treated alike: a cell of another state adds
-// 0, so that the loop needs no branches.
+// Adds one layer to the sums of a column. Each state has its own loop, which is skipped if the
+// column lacks the state. Inside a loop, a cell of another state adds 0, so that the loop needs no
+// branches.
 //
 // The codes are copied to wider integers first. The compiler must assume that bytes alias any
 // object, so it would not vectorize a loop that writes sums while it reads bytes.
@@ -188,8 +186,8 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
     for (std::size_t z = 0; z < size; ++z)
         codes[z] = active.codes[z];
     const auto weight = static_cast<Real>(layer.columns->weights[column]);
-    // No echo adds its weight. In a mean its detection limit also counts as a value, but only if
-    // some layer has a value in this column.
+    // No echo adds its weight. If some layer has a value in this column, it also adds its detection
+    // limit as a value.
     if ((active.states & has_no_echo) != 0) {
         for (std::size_t z = 0; z < size; ++z)
             sums.no_echo[z] += codes[z] == 1 ? weight : 0;
@@ -200,14 +198,14 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
                 sums.sum[z] += codes[z] == 1 ? weight * limits[z] : 0;
         }
     }
-    // Range folded adds its weight and nothing else.
+    // Range folded adds only its weight.
     if ((active.states & has_folded) != 0) {
         for (std::size_t z = 0; z < size; ++z)
             sums.folded[z] += codes[z] == 2 ? weight : 0;
     }
     if ((active.states & has_value) == 0) return;
-    // Values add their weight, and weight times value. Averaging in Z takes Z from a table;
-    // averaging in dB uses the codes themselves, because values are linear in them.
+    // Values add their weight, and weight times value. In Z, values are Z from a table; in dB, they
+    // are codes, because values are linear in codes.
     std::array<Real, size> values;
     for (std::size_t z = 0; z < size; ++z)
         values[z] =
@@ -219,9 +217,8 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
     }
 }
 
-// Computes the detection limits of a layer in a column: as Z if the mean is in Z, else as codes. A
-// code is linear in dBZ and dBZ is linear in log2(Z), so log2(Z) gives the code with one
-// multiplication.
+// Computes a layer's detection limits in a column: as Z if the mean is in Z, else as codes. A code
+// is linear in dBZ, and dBZ is linear in log2(Z), so one multiplication turns log2(Z) into a code.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::find_limits(const BrickLayer& layer, const Limit& limit, std::size_t column,
@@ -238,7 +235,7 @@ void BrickMerger<Code>::find_limits(const BrickLayer& layer, const Limit& limit,
     limits = found;
 }
 
-// Decides the state of each cell by its three weights, and turns the sums of values into a code.
+// Decides the state of each cell from its three weights, and turns sums of values into codes.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height) {
@@ -256,7 +253,7 @@ void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height
             Real code = sums.sum[z] / (with_limits_ ? value + no_echo : value);
             if (in_z_) code = code_base_ + code_per_log2_ * fast_log2(code);
             if (code < Real{first_value_code} - Real{0.5}) ++clamped_;
-            // The code is not below 3, so cutting off the fraction rounds it down.
+            // The code is at least 3, so truncation rounds it down.
             to[z] =
                 static_cast<Code>(std::clamp<Real>(code, first_value_code, largest) + Real{0.5});
         }
@@ -264,8 +261,8 @@ void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height
 }
 
 // Merges a column by the maximum. A value ranks above no echo, no echo above range folded, and
-// range folded above not seen. If the codes 1 and 2 change places, the larger code ranks higher, so
-// one maximum over all codes decides. Afterward the two codes change back.
+// range folded above not seen. After swapping codes 1 and 2, a larger code ranks higher, so one
+// maximum over all codes decides; then the two codes are swapped back.
 template <class Code>
 void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
     alignas(64) std::array<Code, brick_edge> most{};
@@ -282,13 +279,13 @@ void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
         to[z] = ranked(most[static_cast<std::size_t>(z)]);
 }
 
-// Merges a column by the nearest site that sees each cell. From the nearest layer to the farthest,
-// each layer fills the cells that are still empty, until no cell is empty.
+// Merges a column by the nearest site that sees each cell. The layers fill cells that are still
+// empty, the nearest layer first, until no cell is empty.
 template <class Code>
 void BrickMerger<Code>::merge_nearest(std::span<const BrickLayer> layers, std::size_t column,
                                       int height) {
-    // Sorts the layers by distance, by insertion into the order of the previous column. Neighboring
-    // columns have almost the same order, so this takes few steps.
+    // Sort the layers by distance, by insertion into the order of the previous column, because
+    // neighboring columns have almost the same order.
     const auto nearer = [&](std::size_t a, std::size_t b) {
         const float arc_a = layers[a].columns->squared_arcs_m2[column];
         const float arc_b = layers[b].columns->squared_arcs_m2[column];
@@ -340,8 +337,8 @@ const MergedBrick<Code>& BrickMerger<Code>::merge(std::span<const BrickLayer> la
     return merged_;
 }
 
-// Counts the sites that see each cell and adds up their weights, then stores both as codes. A sum
-// is limited before it is rounded, so that it fits into its code.
+// Counts the sites that see each cell, sums their weights, and stores both as codes. A sum is
+// clamped before it is rounded, so that it fits into its code.
 template <class Code>
 const MergedBrick<Code>& BrickMerger<Code>::count(std::span<const BrickLayer> layers,
                                                   const BrickExtent& extent) {
@@ -365,7 +362,7 @@ const MergedBrick<Code>& BrickMerger<Code>::count(std::span<const BrickLayer> la
             merged_.counts[cell] = static_cast<std::uint8_t>(
                 seen[z] == 0 ? 0 : before_first + std::min<int>(seen[z], most));
             const float steps = std::min(weight[z] / weight_quantization.step, 65000.0F);
-            // Positive and small: NOLINTNEXTLINE(bugprone-incorrect-roundings)
+            // The number is positive and small. NOLINTNEXTLINE(bugprone-incorrect-roundings)
             const int rounded = static_cast<int>(steps + 0.5F);
             merged_.weights[cell] =
                 static_cast<std::uint16_t>(seen[z] == 0 ? 0 : first_value_code + rounded);

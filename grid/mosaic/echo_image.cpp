@@ -56,7 +56,7 @@ int lowest_level_of(const GridSpec& spec, double lowest_m) {
     return first == spec.levels_m.end() ? 0 : static_cast<int>(first - spec.levels_m.begin());
 }
 
-// Turns sums over pixels into means.
+// Divides the sum in each pixel by its number of seen columns, and decides which pixels are seen.
 void divide(EchoImage& image, const std::vector<std::uint32_t>& columns,
             const std::vector<std::uint32_t>& seen) {
     for (std::size_t at = 0; at < image.seen.size(); ++at) {

@@ -15,7 +15,7 @@ struct Correlation {
 
 Correlation correlate(const EchoImage& before, const EchoImage& after, const PixelBox& box, int dx,
                       int dy) {
-    // Rounded toward minus infinity, so that the two halves add up to the whole.
+    // The shift rounds toward minus infinity, so that the two halves add up to the whole.
     const int back_x = dx >> 1, back_y = dy >> 1;
     double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
     std::size_t echoes = 0;
@@ -66,8 +66,8 @@ class Search {
         }
     }
 
-    // Returns the best shift. If several are equally good, returns the shortest, because an image
-    // that does not change has not moved.
+    // Returns the best shift. Of equally good shifts, returns the shortest, because an image that
+    // does not change has not moved.
     [[nodiscard]] std::optional<Shift> best() const {
         std::optional<Shift> best;
         for (int dy = -search_.reach_y; dy <= search_.reach_y; ++dy) {

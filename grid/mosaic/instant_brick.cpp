@@ -20,14 +20,15 @@ std::size_t cell_in_brick(int x, int y, int z) {
     return static_cast<std::size_t>(cell);
 }
 
-// Returns the nearest code. A value beyond the range of codes gets the code at that end.
+// Returns the nearest code. A value beyond the range of codes is clamped to its end.
 std::uint16_t clamped_code(float value, const Quantization& quantization) {
     const double code = nearest_code(value, quantization);
     return static_cast<std::uint16_t>(std::clamp(code, static_cast<double>(first_value_code),
                                                  static_cast<double>(quantization.largest_code())));
 }
 
-// Joins two ends that have no value: their common state, or the state of the end that sees.
+// Returns the status of two ends without values: their common status, or the status of the only end
+// that sees; none if they differ.
 std::optional<CellStatus> joined(CellStatus a, CellStatus b) {
     if (a == b || b == CellStatus::not_seen) return a;
     if (a == CellStatus::not_seen) return b;
@@ -81,7 +82,7 @@ InstantBrick::InstantBrick(const InstantMaker& maker, int bx, int by)
         read_times(end);
 }
 
-// Reads the time of each cell, for the columns of the brick at all heights.
+// Computes the time of each cell of one end, for the columns of the brick at all heights.
 void InstantBrick::read_times(std::size_t end) {
     const InstantMaker::End& from = maker_.ends_[end];
     if (!from.clock) return;
@@ -102,7 +103,7 @@ void InstantBrick::read_times(std::size_t end) {
     }
 }
 
-// Finds the times of the cells of the brick at this height.
+// Copies the times of the cells of the brick at height `bz`.
 void InstantBrick::take_times(std::size_t end, int bz) {
     Source& source = sources_[end];
     source.seconds.fill(static_cast<float>(maker_.ends_[end].middle_s));
@@ -116,7 +117,7 @@ void InstantBrick::take_times(std::size_t end, int bz) {
     }
 }
 
-// Finds the columns from which the cells of the brick may be made.
+// Finds the columns that the cells of the brick may come from.
 void InstantBrick::find_box(std::size_t end) {
     const GridSpec& spec = maker_.geometry_->spec();
     Source& source = sources_[end];
@@ -128,8 +129,8 @@ void InstantBrick::find_box(std::size_t end) {
     if (source.is_still) return;
     float west = static_cast<float>(x1), east = static_cast<float>(x0);
     float south = static_cast<float>(y1), north = static_cast<float>(y0);
-    // The motion of a column is the same at all heights, and a cell is moved by motion times
-    // seconds. So the extremes over the brick are at the earliest and the latest time of its cells.
+    // At all heights, a column moves by its motion times the seconds of the cell. So the extremes
+    // over the brick are at the earliest and the latest time of its cells.
     const auto [early, late] = std::minmax_element(source.seconds.begin(), source.seconds.end());
     for (const float seconds : {*early, *late}) {
         for (int x = x0; x <= x1; ++x) {
@@ -145,7 +146,7 @@ void InstantBrick::find_box(std::size_t end) {
             }
         }
     }
-    // No volume lasts long enough to need more. Without this bound a frame could take minutes.
+    // No volume lasts long enough to move farther. Without this bound, a frame could take minutes.
     constexpr float most_columns = 256;
     const bool is_too_wide = east - west > most_columns || north - south > most_columns;
     if (is_too_wide && *early != *late) {
@@ -161,7 +162,7 @@ Sample InstantBrick::sample_of(std::uint16_t code) const {
     return {CellStatus::value, maker_.ends_[0].timed.view.quantization.value_of(code), 0, 0};
 }
 
-// Adds the detection limit to a sample, for a mixture of no echo and echo.
+// Adds the detection limit to a sample without echo, for mixing it with echo.
 Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     const bool counts =
         sample.status == CellStatus::no_echo && maker_.blending_ == Blending::with_detection_limit;
@@ -183,7 +184,7 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
     const auto code = [&](int ix, int iy) { return source.codes.column(ix, iy)[z]; };
-    // A moment that wraps is not mixed: the nearest column gives the cell.
+    // If values wrap, the nearest column counts alone.
     if (is_circular(maker_.blending_)) {
         return sample_of(code(x0 + (fx >= 0.5F ? 1 : 0), y0 + (fy >= 0.5F ? 1 : 0)));
     }
@@ -202,8 +203,7 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     return {mixed.status, mixed.value, 0, 0};
 }
 
-// Returns the sample of one end for a cell: the cell itself, or the place from which the echo moved
-// to the cell.
+// Returns one end's sample for a cell: the cell itself, or the place from which its echo moved.
 Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     const Source& source = sources_[end];
     const std::size_t column = cell / brick_edge;
@@ -216,8 +216,8 @@ Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     return mix(source, x, y, cell);
 }
 
-// Returns the weight of the later end. The weight is linear between the times of the two ends; the
-// instant is at 0.
+// Returns the weight of the later end, linear between the times of the two ends. The instant is at
+// 0.
 float InstantBrick::weight_of_after(std::size_t cell) const {
     const float before = sources_[0].seconds[cell], after = sources_[1].seconds[cell];
     if (!(after > before)) return 0.5F;
@@ -247,8 +247,8 @@ void InstantBrick::write(int bz, BricksWriter& writer) {
     writer.put_codes(index, bytes.data(), extent);
 }
 
-// Makes the codes of the brick at this height. If all cells that may contribute have one state at
-// each end, this gives the state of the brick without reading any cell.
+// Makes the codes of the brick at height `bz`. If all cells that may contribute have one state at
+// each end, returns the state of the brick without reading a cell.
 std::optional<CellStatus> InstantBrick::make(int bz) {
     bz_ = bz;
     const std::size_t ends = maker_.ends_.size();
@@ -271,8 +271,8 @@ std::optional<CellStatus> InstantBrick::make(int bz) {
     return std::nullopt;
 }
 
-// Mixes the two ends cell by cell. A cell needs no mixing if both ends have the same state, or if
-// one end has not seen it.
+// Mixes the two ends cell by cell. No mixing is needed if both ends have the same state, or if one
+// end has not seen the cell.
 void InstantBrick::fill() {
     codes_.fill(0);
     limits_.fill(std::numeric_limits<float>::quiet_NaN());

@@ -77,7 +77,7 @@ std::vector<bool> changed_columns(const BrickView& shape, std::span<const GridWi
     return changed;
 }
 
-// Drops the sites whose windows hold no changed bricks.
+// Removes sites whose windows touch no changed bricks.
 void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
                     std::vector<PlacedSite>& sites) {
     std::erase_if(sites, [&](const PlacedSite& site) {
@@ -96,8 +96,7 @@ void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
     });
 }
 
-// The part that an update has to merge: the columns of bricks that changed, and the sites that
-// reach them.
+// What an update merges: the changed columns of bricks, and the sites whose windows touch them.
 struct ChangedPart {
     std::vector<bool> columns;
     std::vector<PlacedSite> sites;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float least_power = -99.6578428F;  // 1e-30
 
-// Fills all bricks with the same bx, in one thread.
+// Fills all bricks with one bx, in one thread.
 template <class Code>
 class Slab {
   public:
@@ -57,8 +57,8 @@ class Slab {
         }
     }
 
-    // Merges all bricks of a column of bricks. Only the sites whose windows cover this column
-    // matter, and their distances are computed once for all of its bricks.
+    // Merges all bricks of a column of bricks. Only sites whose windows cover this column matter,
+    // and their distances are computed once for all its bricks.
     void merge_column(int by) {
         here_.clear();
         for (const PlacedSite& site : work_.sites) {
@@ -71,7 +71,7 @@ class Slab {
             merge_brick(by, bz);
     }
 
-    // Merges one brick. A site that sees nothing in it is left out; if no site is left, the brick
+    // Merges one brick, without sites that see nothing in it. If no site sees anything, the brick
     // stays not seen.
     void merge_brick(int by, int bz) {
         layers_.clear();
@@ -104,9 +104,9 @@ class Slab {
         if (weights_) weights_->put_codes(to, counted.weights.data(), extent);
     }
 
-    // Merges bricks that need no weights, whatever the rule. These are the bricks that one site
-    // alone sees, and those without a value or a folded cell. In the latter, a cell is no echo if
-    // any site sees no echo there.
+    // Merges a brick for which the rule and the weights do not matter: only one site sees it, or it
+    // has neither values nor range folded. In the latter case, a cell is no echo if any site sees
+    // no echo there.
     bool merge_by_rule_of_thumb(std::size_t to, const BrickExtent& extent) {
         if (layers_.size() == 1) {
             cells_.copy(to, *layers_[0].view, layers_[0].brick);
@@ -114,7 +114,7 @@ class Slab {
         }
         bool any_stored = false;
         bool any_folded = false;
-        bool all_no_echo = false;  // one site sees no echo everywhere
+        bool all_no_echo = false;  // true if one site sees no echo everywhere
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
             const bool uniform = entry.kind == BrickKind::uniform;
@@ -123,8 +123,8 @@ class Slab {
             all_no_echo |= uniform && entry.uniform_status == CellStatus::no_echo;
         }
         if (any_stored || any_folded) return false;
-        // All cells have states only. A state is a number of two bits; without range folded, "or"
-        // over the sites gives no echo if any site sees no echo, else not seen.
+        // All cells have states only. A state has two bits; without range folded, the "or" over the
+        // sites is no echo if any site sees no echo, else not seen.
         std::array<std::byte, state_block_bytes> any{};
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
@@ -146,7 +146,7 @@ class Slab {
         return true;
     }
 
-    // Computes distances and weights of the layers, once for all bricks of the column.
+    // Computes the layers' distances and weights, once for all bricks of the column.
     void measure(int by) {
         const bool by_distance = work_.options.overlap == Overlap::distance_weighted;
         const auto log2_per_m2 = static_cast<float>(
@@ -162,8 +162,7 @@ class Slab {
                 columns.weights.fill(1);
                 continue;
             }
-            // The weight exp(-r^2 / L^2) is computed as a power of two, which fast_exp2()
-            // vectorizes.
+            // Compute the weight exp(-r^2 / L^2) as a power of two, because fast_exp2() vectorizes.
             for (std::size_t c = 0; c < brick_columns; ++c) {
                 const float power = columns.squared_arcs_m2[c] * log2_per_m2;
                 columns.weights[c] = fast_exp2(std::max(power, least_power));
@@ -181,10 +180,10 @@ class Slab {
     std::vector<LayerColumns> columns_;  // for the sites of this column of bricks
     std::vector<bool> is_measured_;
     std::vector<BrickLayer> layers_;
-    std::vector<std::size_t> layer_sites_;  // index into columns_
+    std::vector<std::size_t> layer_sites_;  // indices into columns_
 };
 
-// Collects one kind of writer from all slabs, in the order of the bricks.
+// Collects the writers that `pick` selects from each slab, in the order of the bricks.
 template <class Code, class Pick>
 std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& slabs, Pick pick) {
     std::vector<BricksWriter> writers;
@@ -194,8 +193,7 @@ std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& sla
     return writers;
 }
 
-// Calls finish(grid, writers) for each grid of the mosaic, so that the grid takes over the bricks
-// of the writers.
+// Calls finish(grid, writers) for each grid of the mosaic, with the writers of its bricks.
 template <class Code, class Finish>
 void fill(const MosaicWork& work, Finish finish) {
     const int count = work.made.cells.view().bricks_x;

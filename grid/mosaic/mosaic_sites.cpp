@@ -57,7 +57,6 @@ bool has_shape_of(const BrickView& view, const GridSpec& spec) {
                bricks * brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
 }
 
-// Sorts the sites into the order in which they are summed, whatever order they came in.
 Result<std::vector<PlacedSite>> place_sites(const GridSpec& domain,
                                             std::span<const Partial> partials,
                                             const Quantization& quantization) {

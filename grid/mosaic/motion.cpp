@@ -11,11 +11,11 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::size_t fewest_pixels = 200;  // pixels of 4 km, for the motion of the whole image
+constexpr std::size_t fewest_pixels = 200;  // pixels of 4 km, to know the motion of the whole image
 constexpr std::size_t fewest_in_block = 40;
 constexpr double worthless_correlation = 0.3;
 
-// The motion that a block, or the whole image, suggests.
+// The motion of a block or of the whole image, with its weight.
 struct Vote {
     double x = 0, y = 0;  // pixels
     double weight = 0;
@@ -27,7 +27,7 @@ int reach_of(double speed_mps, double seconds, double pixel_m) {
 
 struct Images {
     EchoImage before, after;                // with pixels of pixel_m
-    EchoImage coarse_before, coarse_after;  // with pixels of twice that size
+    EchoImage coarse_before, coarse_after;  // with pixels twice as large
     double pixel_width_m = 0, pixel_height_m = 0;
 };
 
@@ -46,7 +46,7 @@ Images images_of(const BrickView& before, const BrickView& after, const MotionOp
     return images;
 }
 
-// Returns the motion of the whole image in pixels of the fine images.
+// Returns the motion of the whole image, in pixels of the fine images.
 std::optional<Vote> motion_of_whole(const Images& images, double seconds,
                                     const MotionOptions& options) {
     const EchoImage& before = images.coarse_before;
@@ -64,7 +64,7 @@ std::optional<Vote> motion_of_whole(const Images& images, double seconds,
 // Blocks overlap by half. Their middles are the nodes of the motion field.
 struct Blocks {
     int width = 0, height = 0;
-    int step = 0;  // pixels from one middle to the next; a block is twice as wide
+    int step = 0;  // pixels from one middle to the next; blocks are twice as wide
 
     [[nodiscard]] std::size_t index(int column, int row) const {
         const int before = row * width + column;
@@ -94,8 +94,8 @@ Vote vote_of_block(const Images& images, const Blocks& blocks, int column, int r
     return {shift->x, shift->y, worth * worth * std::sqrt(static_cast<double>(shift->pixels))};
 }
 
-// Returns the weighted mean of the votes of the blocks, by a Gaussian of one step about the node.
-// The whole motion enters with a small weight, so it decides where no block has a vote.
+// Returns the mean of the votes of the blocks around a node, weighted by a Gaussian of one step.
+// The motion of the whole has a small weight, so it counts only where no block has a vote.
 Vote smoothed(const std::vector<Vote>& votes, const Blocks& blocks, int column, int row,
               const Vote& whole) {
     constexpr double weight_of_whole = 0.02;
@@ -173,7 +173,7 @@ Result<std::optional<MotionField>> estimate_motion(const BrickView& before, cons
                            1 + reach_of(options.block_differs_mps, seconds, images.pixel_height_m)};
     const std::vector<Vote> votes = votes_of(images, blocks, near, options.threads);
     const int cells = images.before.cells;
-    // The search ends at whole pixels, which may be too coarse for the time between the grids.
+    // The search covers whole pixels, so it may find motions faster than the options allow.
     const double fastest_mps = options.greatest_mps + options.block_differs_mps;
     const auto columns_per_s = [&](double pixels, double pixel_m) {
         const double most = fastest_mps * cells / pixel_m;

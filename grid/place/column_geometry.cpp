@@ -17,7 +17,7 @@ ColumnPlace narrow(PolarPoint point) {
     return {azimuth_deg, static_cast<float>(point.arc_m)};
 }
 
-// Calls solve(place on the earth) for every column, row by row.
+// Calls solve(GeoPoint) for every column, row by row.
 template <class Solve>
 void solve_each(const GridSpec& spec, std::vector<ColumnPlace>& places, Solve solve) {
     const GridProjection projection(spec);

@@ -15,11 +15,11 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double geodesic_error_m = 1e-6;
-constexpr double half_meridian_m = 20003931.5;  // of WGS84: no two points are farther apart
+constexpr double half_meridian_m = 20003931.5;  // of WGS84; no two points are farther apart
 constexpr double quarter_meridian_m = 10001965.7;
 
-// Relative excess of a length on the sphere over the ellipsoid, along the meridian and along the
-// parallel.
+// By how much a length on the sphere exceeds the length on the ellipsoid, as a share, along the
+// meridian and along the parallel.
 struct ScaleError {
     double north = 0;
     double east = 0;
@@ -34,7 +34,7 @@ ScaleError scale_error(double latitude_deg) {
 }
 
 // Returns the largest error in scale in any direction between two latitudes. Both errors fall from
-// the equator to the poles, so their extremes are at the ends.
+// the equator to the poles, so their extremes are at the two ends.
 double largest_scale_error(double latitude_deg, double width_deg) {
     const double middle_deg = std::abs(latitude_deg);
     const ScaleError low = scale_error(std::max(0.0, middle_deg - width_deg));
@@ -43,7 +43,7 @@ double largest_scale_error(double latitude_deg, double width_deg) {
         {std::abs(low.north), std::abs(low.east), std::abs(high.north), std::abs(high.east)});
 }
 
-// Returns columns along the border of a grid, at most about 256 on each side, with its corners.
+// Returns columns along the border of a grid with its corners, at most about 256 on each side.
 std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     std::vector<ColumnPoint> border;
     const auto along = [](int count, auto add) {
@@ -58,8 +58,7 @@ std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     return border;
 }
 
-// Returns true if the region holds the site's antipode. The arc from the site has no other maximum
-// inside a region.
+// Returns true if the grid holds the site's antipode, the only maximum of the arc inside a region.
 bool holds_antipode(const SitePosition& site, const GridSpec& spec,
                     const GridProjection& projection) {
     const ColumnPoint at = projection.to_column({-site.latitude_deg, site.longitude_deg + 180});
@@ -101,28 +100,27 @@ double reach_m(const SitePosition& site, const GridSpec& spec) {
         last = point;
         first = false;
     }
-    // Every column of the border is at most half a gap from a computed one. A tenth more is added
-    // because the border may be curved in between.
+    // Every column of the border is at most half a gap from a computed one. Add a tenth, because
+    // the border may be curved in between.
     return std::min(farthest_m + 0.55 * widest_gap_m, half_meridian_m);
 }
 
 double storage_error_bound_m(double reach_m) noexcept {
-    // The error is half a unit in the last place of a float: for an azimuth below 360, and for the
-    // arc.
+    // Half a unit in the last place of a float, for an azimuth below 360 and for the arc.
     constexpr double azimuth_rad = 0x1p-16 * degree;
     const double arc_m = std::ldexp(1.0, std::ilogb(std::max(reach_m, 1e-30)) - 24);
     return std::hypot(reach_m * azimuth_rad, arc_m);
 }
 
-// Consider a step ds along a geodesic from the site. On the sphere its image is stretched by (1 +
-// north) along the meridian and by (1 + east) along the parallel, both for the latitude there. Only
-// these stretches turn the image against a great circle, because latitude and azimuth change alike
-// on both. So the end of the image is off by at most the integral of the larger error. In the
-// equidistant plane, theta / sin(theta) multiplies this error. 1 % is added for the products of
-// errors.
+// Consider a step ds along a geodesic from the site. On the sphere, its image is stretched by (1 +
+// north) along the meridian and by (1 + east) along the parallel, both at the step's latitude. Only
+// these stretches turn the image away from a great circle, because latitude and azimuth change
+// alike on both. So the end of the image is off by at most the integral of the larger error. In the
+// equidistant plane, the error is multiplied by theta / sin(theta). The bound adds 1 % for products
+// of errors.
 double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept {
     if (!(reach_m > 0)) return 0;
-    // Two points of the disc cannot be farther apart than the disc is wide.
+    // Two points of the disc are at most its width apart.
     if (reach_m > quarter_meridian_m) return 2.01 * reach_m;
     constexpr int steps = 64;
     constexpr double shortest_degree_m = 110574;  // length of a degree of latitude at the equator

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t order = 6;  // nodes along each side
 constexpr int largest_side = 128;
-// below this number, nodes and checks cost as much as the columns
+// blocks of so few columns are solved exactly: nodes and checks would cost as much
 constexpr int fewest_columns = 128;
 constexpr double farthest_m = 15e6;  // closer to the antipode, directions diverge
 
@@ -21,7 +21,8 @@ struct Block {
     int x, y, width, height;  // in columns
 };
 
-// Returns Chebyshev's nodes, where T6 is 0, and the peaks of T6, on a side from -1 to 1.
+// node() returns Chebyshev's nodes, where T6 is 0; peak() returns the peaks of T6. Both are on a
+// side from -1 to 1.
 double node(std::size_t i) {
     return std::cos((2.0 * static_cast<double>(i) + 1) * std::numbers::pi / (2 * order));
 }
@@ -29,7 +30,7 @@ double peak(std::size_t i) {
     return std::cos(static_cast<double>(i) * std::numbers::pi / order);
 }
 
-// The values of the polynomials that are 1 at one node and 0 at the others.
+// The values at one place of the polynomials that are 1 at one node and 0 at the others.
 using Weights = std::array<double, order>;
 Weights weights_at(double t) {
     Weights weights;
@@ -42,7 +43,7 @@ Weights weights_at(double t) {
     return weights;
 }
 
-// Returns the weights at the centers of `count` columns, which fill -1 to 1.
+// Returns the weights at the centers of `count` columns, whose outer edges are at -1 and 1.
 std::vector<Weights> weights_of_columns(int count) {
     std::vector<Weights> weights;
     weights.reserve(static_cast<std::size_t>(count));
@@ -81,7 +82,7 @@ class TableFiller {
         ++geodesics_;
         return SiteFrame::to_plane(site_.to_polar(projection_.to_geo({x, y})));
     }
-    // -1 and 1 are the outer edges of the columns of a block.
+    // In s and t, -1 and 1 are the outer edges of the block's columns.
     PlanePoint solve_in(const Block& block, double s, double t) {
         return solve(block.x - 0.5 + 0.5 * block.width * (1 + s),
                      block.y - 0.5 + 0.5 * block.height * (1 + t));
@@ -96,7 +97,7 @@ class TableFiller {
         }
     }
 
-    // Returns false if a node is too far from the site for the plane to be smooth.
+    // Returns false if a node is so far from the site that the plane is not smooth.
     bool solve_nodes(const Block& block) {
         for (std::size_t j = 0; j < order; ++j) {
             for (std::size_t i = 0; i < order; ++i) {
@@ -108,7 +109,7 @@ class TableFiller {
         return true;
     }
 
-    // Returns the polynomial along x at one place along y.
+    // Returns the values at the nodes along x, at one place along y.
     [[nodiscard]] std::array<PlanePoint, order> row_at(const Weights& weights) const {
         std::array<PlanePoint, order> row{};
         for (std::size_t j = 0; j < order; ++j) {
@@ -128,8 +129,8 @@ class TableFiller {
         return value;
     }
 
-    // At the peaks, the errors along x and along y have every pair of signs, so neither hides the
-    // other.
+    // At the peaks, the errors along x and along y occur with all pairs of signs, so they cannot
+    // hide each other.
     bool holds(const Block& block) {
         for (std::size_t j = 0; j <= order; ++j) {
             const auto row = row_at(peak_weights_[j]);

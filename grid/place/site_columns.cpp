@@ -14,7 +14,8 @@ constexpr double widest_deg = 350;
 
 SiteColumns::Way SiteColumns::way_for(const SitePosition& site, const GridSpec& spec) {
     if (spec.in_degrees()) {
-        // Columns are not smooth near a pole, where meridians meet, or where the grid meets itself.
+        // Columns are not smooth near a pole, where meridians meet, or across the seam of a grid
+        // around the earth.
         const bool smooth = std::abs(site.latitude_deg) <= highest_latitude_deg &&
                             spec.nx * spec.spacing_deg < widest_deg;
         return smooth ? Way::table : Way::exact;

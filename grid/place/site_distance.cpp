@@ -10,11 +10,11 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int widest_step = 8;
-constexpr double tolerance_m = 0.05;   // allowed error of an arc where it is checked
-constexpr double least_arc_m = 100e3;  // for shorter arcs, the square may be off by as much as here
-// a patch whose nodes are all farther away sees nothing
+constexpr double tolerance_m = 0.05;   // the greatest error of an arc that a check accepts
+constexpr double least_arc_m = 100e3;  // the square of a shorter arc may err as much as here
+// no caller uses patches whose nodes are all farther away
 constexpr double farthest_asked_m = 2000e3;
-constexpr int patches_to_ask = 1024;  // of more patches, one in 4 along x and along y is checked
+constexpr int patches_to_ask = 1024;  // of more patches, every fourth along x and y is checked
 
 // The weights of three nodes at -1, 0 and 1.
 using Weights = std::array<double, 3>;
@@ -28,7 +28,7 @@ class Solver {
     Solver(const GridSpec& domain, const GridWindow& window, const SitePosition& site)
         : projection_(domain), frame_(site.latitude_deg, site.longitude_deg), window_(window) {}
 
-    // Returns the square at columns of the window; NaN beyond a pole of a grid in degrees.
+    // Returns the squared arc at a place of the window; NaN beyond a pole in a grid in degrees.
     [[nodiscard]] double at(double x, double y) const {
         const double arc_m =
             frame_.to_polar(projection_.to_geo({window_.first_x + x, window_.first_y + y})).arc_m;
@@ -62,7 +62,7 @@ struct Lattice {
 };
 
 Lattice solve_nodes(const Solver& solver, const GridWindow& window, int step) {
-    // Counts one node for each column, or nodes up to both ends of whole bricks.
+    // Counts a node for each column, or the nodes that cover whole bricks with both ends.
     const auto along = [&](int cells) {
         return step == 1 ? cells : bricks_along(cells) * brick_edge / step + 1;
     };

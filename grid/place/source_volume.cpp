@@ -19,8 +19,9 @@ bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& 
         moments, [&](level2::Moment moment) { return level2::holds(volume, moment); });
 }
 
-// Decodes the metadata, chooses cuts by its pattern and decodes those. Returns none if there is no
-// pattern, or if the cuts are all cuts or do not hold the moments.
+// Decodes the metadata, lets `choose_cuts` choose cuts and decodes them. Returns none if decoding
+// fails, there is no pattern, all cuts are chosen, the cuts do not hold the moments, or the file
+// has several volumes.
 std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
                                            level2::DecodeOptions options,
                                            const ChooseCuts& choose_cuts) {
@@ -32,12 +33,12 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
     if (options.selection.all_cuts()) return std::nullopt;
     auto decoded = level2::decode(bytes, options);
     if (!decoded || !holds_any(decoded->volume, options.selection.moments)) return std::nullopt;
-    // Further volumes may have patterns of their own.
+    // Other volumes of the file may have other patterns.
     if (!decoded->report.further_volume_starts.empty()) return std::nullopt;
     return std::move(*decoded);
 }
 
-// Takes one volume of the file. If the file has several, adds a note that says so.
+// Takes one volume of the file. If the file has several, adds a note about it.
 Result<level2::Volume> take_volume(level2::Decoded decoded, const SourceWish& wish,
                                    SourceVolume& source) {
     const bool damaged = decoded.report.damaged;

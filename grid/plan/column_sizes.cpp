@@ -9,7 +9,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Other beam models bend the beam more or less, which moves a gate along the ground.
+// Other beam models bend the beam more or less, which moves a gate along the ground by up to this.
 constexpr float bent_by_m = 500;
 
 std::vector<std::uint16_t> valued_cells(const Grid& base) {
@@ -23,7 +23,7 @@ std::vector<std::uint16_t> valued_cells(const Grid& base) {
     return valued;
 }
 
-// Returns the greatest number of valued cells in a column and the eight beside it.
+// Returns the greatest number of valued cells in a column or one of the eight around it.
 std::uint16_t most_beside(const std::vector<std::uint16_t>& valued, const GridSpec& spec, int ix,
                           int iy) {
     std::uint16_t most = 0;
@@ -36,7 +36,7 @@ std::uint16_t most_beside(const std::vector<std::uint16_t>& valued, const GridSp
     return most;
 }
 
-// Looks for gates with a value near columns in which the default method found none.
+// Looks for gates with a value near columns where the default method found none.
 class NearGates {
   public:
     NearGates(const GridSpec& spec, const SweepStack& stack)
@@ -45,7 +45,7 @@ class NearGates {
           half_cell_m_(static_cast<float>(std::hypot(spec.cell_width_m(), spec.cell_height_m())) /
                        2) {}
 
-    // Takes the sweeps that have anything but clear air over a tile.
+    // Takes the sweeps that have anything but no echo or not seen over a tile.
     void move_to(const Tile& tile) {
         busy_.clear();
         const auto table_end =
@@ -58,7 +58,8 @@ class NearGates {
         }
     }
 
-    // Returns the number of levels that gates near this column may fill; 0: there are none.
+    // Returns the number of levels that gates near this column may fill; 0 if there are no such
+    // gates.
     [[nodiscard]] std::uint16_t levels_near(const ColumnPlace& at) const {
         float lowest_m = highest_beam_m;
         float highest_m = -highest_beam_m;

@@ -14,7 +14,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Number of tiles in a piece that a thread takes.
+// The number of tiles in a piece of work for a thread.
 constexpr std::size_t tiles_a_piece = 16;
 constexpr std::size_t fewest_pieces = 2;
 constexpr std::size_t most_pieces = 8;
@@ -29,7 +29,7 @@ bool may_hold_values(const GridScene& scene, const Tile& tile) {
     return false;
 }
 
-// Spreads the sample evenly along the arc, so that each piece of it reaches from near to far.
+// Spreads the sample evenly along the arc, so that each of its pieces has near and far tiles.
 TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     std::stable_sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) {
         return a.bounds.least_arc_m < b.bounds.least_arc_m;
@@ -45,8 +45,7 @@ TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     return stratum;
 }
 
-// Times a stratum. A short time is measured again and the smaller one counts, because it holds less
-// of the machine's noise.
+// Times a stratum. Times a short run again and takes the lesser time, which has less noise.
 Result<double> stratum_s(GridScene& scene, const Method& method,
                          const TileSample::Stratum& stratum) {
     if (stratum.tiles.empty()) return 0.0;
@@ -60,7 +59,7 @@ Result<double> stratum_s(GridScene& scene, const Method& method,
     return *took_s * static_cast<double>(stratum.count) / static_cast<double>(stratum.tiles.size());
 }
 
-// Returns the time of one geodesic for every column, from the times of some.
+// Estimates the time of a geodesic for every column, from the times of some.
 double geodesics_s(const GridScene& scene) {
     constexpr int a_side = 16;
     const GridSpec& spec = scene.spec();
@@ -106,7 +105,7 @@ double more(double with_s, double without_s) {
     return std::max(0.0, with_s - without_s);
 }
 
-// Sets the cost of each effect alone, for points by the nearest gate.
+// Sets the cost of each effect by itself: of interpolations for points, of areas for nearest gates.
 void set_effect_costs(const Fills& fills, std::size_t interpolation, std::size_t cell,
                       accuracy::Chain& chain) {
     std::vector<accuracy::Effect>& rungs = chain.steps[interpolation].effects;
@@ -127,8 +126,8 @@ void set_joint_costs(const Fills& fills, std::size_t interpolation, std::size_t 
     }
 }
 
-// Returns the step of that name. Only the circle may be missing in a grid's chain, and no caller
-// asks for it.
+// Returns the step with this name. Only the circle may be missing in a grid's chain; callers check
+// for it.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
@@ -140,7 +139,7 @@ TileSample draw_tiles(GridScene& scene, std::size_t of_each) {
     std::vector<Tile> without;
     const auto reach_m = static_cast<float>(scene.reach_m());
     for (const Tile& tile : scene.tiles()) {
-        // beyond the reach, tiles are done at once because nothing is there
+        // beyond the reach nothing is seen, so a tile takes no time
         if (!(tile.bounds.least_arc_m < reach_m)) continue;
         (may_hold_values(scene, tile) ? with_echo : without).push_back(tile);
     }
@@ -163,7 +162,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     const std::size_t cell = accuracy::find_step(chain, step::cell).value();
     accuracy::Choice cheapest;
     cheapest.rungs.resize(chain.steps.size());
-    Method usual;  // all rungs but the averaging, which is not a choice
+    Method usual;  // the usual rungs; the chain does not choose the averaging
     usual.averaging = scene_choice(chain, cheapest).method.averaging;
     const auto fills = predicted_fills(scene, usual, sample);
     if (!fills) return pass_on(fills);
@@ -188,7 +187,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
         method.on_circle = false;
         if (auto done = set_cost_without(step::circle, method); !done) return done;
     }
-    // The closed formulas take equally long, and sampling takes the same time along any path.
+    // All closed formulas take equally long, and sampling takes the same time along any path.
     method = usual;
     method.beam = BeamKind::traced;
     const double traced_s = scene.stack_seconds(method);
@@ -196,7 +195,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     step_named(chain, step::beam).effects[1].cost_s = more(traced_s, tables_s);
     step_named(chain, step::frame).effects[1].cost_s = geodesics_s(scene);
 
-    // The base was made by the default chain in the moment's own unit.
+    // The base was made by the default chain, in the moment's own unit.
     const auto base_fill_s = predicted_fill_s(scene, Method{}, sample);
     if (!base_fill_s) return pass_on(base_fill_s);
     const double rest_s = more(scene.base_seconds(), *base_fill_s + scene.stack_seconds(Method{}));

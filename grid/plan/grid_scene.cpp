@@ -24,7 +24,7 @@ Tile tile_of_one(const ColumnGeometry& geometry, int ix, int iy) {
 
 // Returns an integer below `size`, the same on every machine.
 std::uint64_t below(std::uint64_t size, std::mt19937_64& random) {
-    return random() % size;  // size is below 2^32: off by less than 1 in 2^32
+    return random() % size;  // a size below 2^32 makes this uneven by less than 1 in 2^32
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ std::size_t GridScene::columns_with_echo() const {
 }
 
 ColumnSample GridScene::draw(std::size_t count, std::uint64_t seed) const {
-    std::vector<std::uint64_t> ends;  // running sum of the sizes
+    std::vector<std::uint64_t> ends;  // running sums of the sizes
     ends.reserve(sizes_.size());
     std::uint64_t total = 0;
     for (const std::uint16_t size : sizes_)

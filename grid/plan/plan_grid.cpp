@@ -16,8 +16,8 @@ PositionScene position_scene(const GridScene& scene) {
             scene.options().profile, scene.options().moment};
 }
 
-// Returns true if velocities spread over more than the smallest Nyquist velocity, so that they may
-// lie on two sides of a fold.
+// Returns true if velocities span more than the smallest Nyquist velocity, so that some may be on
+// the far side of a fold.
 bool may_fold(const GridScene& scene) {
     float least = std::numeric_limits<float>::max();
     float most = std::numeric_limits<float>::lowest();
@@ -54,7 +54,7 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     for (accuracy::Effect& effect : step.effects) {
         effect.predicted.position_m = effect_position_m(position_scene(scene), effect.name);
         effect.evidence = accuracy::Evidence::sample;
-        // A grid about its own site is the same in every frame.
+        // A grid about its own site is the same for every rung of the frame.
         if (step.name == step::frame && centered)
             effect.evidence = accuracy::Evidence::proven_bound;
         if (effect.name == "exact_geodesic") effect.evidence = accuracy::Evidence::proven_bound;
@@ -65,10 +65,10 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     return {};
 }
 
-// Returns how many columns are needed to bound the 99th percentile, and not only the greatest error
-// near it. 900 columns that hold as many errors as they may are just enough for a bound to exist
-// (accuracy/quantile_bound.h); three times as many give a good bound. How much a column holds is
-// estimated from a sample that is not used again.
+// Returns how many columns are needed for a good bound of the 99th percentile, which is not just
+// the greatest error. A bound exists from 900 columns on, if each holds as many errors as it may
+// (accuracy/quantile_bound.h); three times as many make it good. How much a column holds is
+// estimated from a sample that serves nothing else.
 Result<std::size_t> columns_for_a_bound(GridScene& scene, const SceneChoice& exact,
                                         const PlanOptions& options) {
     constexpr double full_columns = 3 * 900;
@@ -97,8 +97,7 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                            const std::optional<accuracy::Budget>& budget,
                            const PlanOptions& options) {
     if (auto done = predict(scene, options, chain); !done) return pass_on(done);
-    // The columns are drawn anew, so that a prediction from the first sample is checked on a second
-    // one.
+    // Draw new columns, so that a second sample checks a prediction from the first.
     std::optional<ColumnSample> sample;
     std::optional<SampledCells> exact;
     const auto measure = [&](const accuracy::Choice& choice) -> Result<accuracy::Measured> {

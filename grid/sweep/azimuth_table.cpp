@@ -13,7 +13,7 @@ constexpr double gap_spacings = 1.5;
 void AzimuthTable::sort(std::span<const float> azimuths_deg) {
     for (std::size_t i = 0; i < azimuths_deg.size(); ++i)
         entries_.push_back({azimuths_deg[i], static_cast<int>(i), false});
-    // If azimuths are equal, the later radial is sorted first, because unique() keeps the first.
+    // Sort later radials first if azimuths are equal, because unique() keeps the first.
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
         return a.azimuth_deg != b.azimuth_deg ? a.azimuth_deg < b.azimuth_deg : a.radial > b.radial;
     });
@@ -31,8 +31,8 @@ void AzimuthTable::add_sector(double end_deg, int entry) {
     radials_.push_back(entry == none ? none : entries_[static_cast<std::size_t>(entry)].radial);
 }
 
-// Goes once round, from the last radial before north to the first one after north. Two neighbors
-// meet in the middle between them, unless they are so far apart that there is a gap.
+// Goes around once, from the last radial before north to the first after north. Neighbors meet in
+// the middle between them, unless they are so far apart that there is a gap.
 void AzimuthTable::make_sectors() {
     const std::size_t count = entries_.size();
     if (count == 0) {
@@ -60,8 +60,8 @@ void AzimuthTable::make_sectors() {
     add_sector(360, static_cast<int>(before));
 }
 
-// Sectors are narrow and many. To spare find() a search, the table notes for each quarter degree
-// the first sector that reaches into it.
+// Sectors are narrow and many. So that find() need not search, the table notes the first sector in
+// each quarter degree.
 AzimuthTable::AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg)
     : spacing_deg_(static_cast<float>(spacing_deg)) {
     sort(azimuths_deg);

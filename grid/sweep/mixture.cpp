@@ -21,9 +21,9 @@ float half_period_of(level2::Moment moment, float nyquist_mps) {
     return circle == level2::Circle::nyquist && is_known ? nyquist_mps : 0;
 }
 
-// Adds a value by its difference from the reference, the shorter way round. The reference is the
-// first value; the caller adds the value that weighs most first. A value on another circle is left
-// out.
+// Adds a value as its difference from the reference, the shorter way around. Without refer_to(),
+// the first value is the reference, so the caller adds the value with the largest weight first.
+// Omits a value on another circle.
 void Mixture::add_on_circle(float value, float half_period, float weight) {
     const bool is_first = sum_weight_ == 0 && !(half_period_ > 0);
     if (is_first) {

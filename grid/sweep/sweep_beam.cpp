@@ -8,12 +8,12 @@
 namespace stormcellar::grid {
 namespace {
 
-// Height of a beam that never passes over an arc. It is so high that the line from the previous arc
-// passes none of the heights that matter.
+// The height of a beam that never passes over an arc. It is so large that the line from the
+// previous arc is above all heights that matter.
 constexpr float above_everything_m = 1e30F;
 
-// An edge is lost if it is on the wrong side of the beam's center, or NaN because it never passes
-// over the arc.
+// These return true if an edge is on the wrong side of the beam's center, or is NaN because it
+// never passes over the arc.
 bool is_lost_lower(double edge_m, double center_m) {
     return std::isnan(edge_m) || edge_m > center_m;
 }
@@ -23,8 +23,8 @@ bool is_lost_upper(double edge_m, double center_m) {
 
 }  // namespace
 
-// Fills the table of the beam: for each step along the arc the heights of its center and of its
-// edges. Only this loop asks the beam model; sampling interpolates in the table.
+// Fills the table with the heights of the beam's center and edges at each step along the arc. Only
+// this loop calls the beam model; sampling interpolates in the table.
 SweepBeam::SweepBeam(const BeamModel& beam, double elevation_deg, double half_beam_deg,
                      std::size_t table_size, const ArcTable* gates)
     : halves_per_deg_(static_cast<float>(1 / half_beam_deg)) {
@@ -46,8 +46,8 @@ SweepBeam::SweepBeam(const BeamModel& beam, double elevation_deg, double half_be
         double upper_m = upper.over(arc_m).height_m;
         const bool no_lower = is_lost_lower(lower_m, height_m);
         const bool no_upper = is_lost_upper(upper_m, height_m);
-        // A missing edge is mirrored from the other edge. If both are missing, half the beam width
-        // at this range stands for each.
+        // Mirror a lost edge from the other edge. If both are lost, use half the beam width at this
+        // range.
         if (no_upper) {
             const double free_m = range_m * half_beam_deg * degree;
             upper_m = height_m + (no_lower ? free_m : height_m - lower_m);

@@ -9,8 +9,8 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double same_elevation_deg = 0.2;
-// A sweep is good enough if it has this share of the fullest sweep's azimuths, of the farthest
-// range, and of the longest unambiguous range.
+// A sweep is good enough with this share of the largest azimuth coverage, of the farthest range,
+// and of the longest unambiguous range.
 constexpr double full_enough = 0.9;
 constexpr double widest_spacing_deg = 2;
 constexpr double believable_vcp_error_deg = 0.5;
@@ -20,10 +20,10 @@ constexpr float largest_value = 1e5F;  // for any moment, in its unit
 
 struct Candidate {
     ChosenSweep sweep;
-    double angle_deg = 0;  // fixed angle where it is known
+    double angle_deg = 0;  // the fixed angle if it is plausible, else the measured one
     double covered_deg = 0;
-    double reach_m = 0;        // the fixed angle if it is known
-    double unambiguous_m = 0;  // 0: not known, or without meaning for the moment
+    double reach_m = 0;
+    double unambiguous_m = 0;  // 0: unknown, or without meaning for the moment
 };
 
 struct Pattern {
@@ -44,7 +44,7 @@ const std::vector<Pattern>& early_patterns() {
     return patterns;
 }
 
-// A damaged scale gives values that nobody measured, even infinite ones.
+// Returns false for a damaged scale, whose values would be absurd or infinite.
 bool has_believable_values(const level2::SweepMoment& kind) {
     const std::uint16_t largest = kind.word_size_bits == 8 ? 255 : 65535;
     const MaskedTraps masked;
@@ -79,9 +79,9 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
     return reach_m;
 }
 
-// Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond it is lost,
-// unless a surveillance sweep sorts it out. For Doppler moments it is short by nature, so it does
-// not count there.
+// Returns the median unambiguous range, by which sweeps are chosen: echo from beyond it is lost,
+// unless a surveillance sweep sorts it out. Returns 0 for Doppler moments, whose unambiguous range
+// is always short.
 double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
                            std::span<const std::uint32_t> radials) {
     if (level2::facts_of(moment).is_doppler) return 0;
@@ -151,7 +151,7 @@ std::optional<Candidate> candidate_of(const level2::Volume& volume, std::size_t 
     return candidate;
 }
 
-// Keeps the candidates that come near the largest in one member.
+// Keeps the candidates whose member `respect` is near the largest.
 void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respect) {
     double largest = 0;
     for (const Candidate* candidate : group)
@@ -161,7 +161,7 @@ void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respec
     });
 }
 
-// Returns true if `later`, which comes later in the file, is better than `other`.
+// Returns true if `later`, which is later in the file, is to be preferred.
 bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
                std::optional<UtcTime> nearest_to) {
     if (!nearest_to) return true;
@@ -171,7 +171,7 @@ bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
            std::chrono::abs(*other.median_time - *nearest_to);
 }
 
-// Returns the best of the sweeps at one elevation, which are in file order.
+// Returns the best of the sweeps at one elevation, which must be in file order.
 Candidate take_best(std::span<Candidate> group, std::optional<UtcTime> nearest_to) {
     std::vector<Candidate*> fit;
     for (Candidate& candidate : group)
@@ -243,7 +243,7 @@ std::vector<ChosenSweep> choose_sweeps(const level2::Volume& volume, level2::Mom
             candidates.push_back(std::move(*candidate));
         }
     }
-    // The sort is stable, so that candidates with the same angle stay in file order.
+    // Stable, so that candidates with the same angle remain in file order.
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const auto& a, const auto& b) { return a.angle_deg < b.angle_deg; });
 

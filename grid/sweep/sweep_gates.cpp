@@ -8,7 +8,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The gate of a beam that never passes over an arc, where there is none.
+// The gate number where a beam does not pass over an arc.
 constexpr double no_gate = -1e9;
 
 ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std::size_t size) {
@@ -21,7 +21,7 @@ ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std
 
 float in_unit(float value, Averaging averaging) {
     if (averaging == Averaging::in_db) return value;
-    // No radar measures values outside these limits, and floats end at 385 dBZ.
+    // No radar measures values outside these limits, and a float would overflow at 385 dBZ.
     return std::pow(10.0F, std::clamp(value, -300.0F, 300.0F) / 10);
 }
 
@@ -33,7 +33,7 @@ std::vector<float> value_table(const level2::SweepMoment& moment, Averaging aver
     return values;
 }
 
-// Returns the gates of a radial that really exist, whatever the damaged counts say.
+// Returns how many gates of a radial really exist, even if the counts are damaged.
 std::int32_t gates_of(const level2::SweepMoment& moment, std::size_t radial) {
     if (radial >= moment.gate_counts.size() || moment.gate_spacing_m <= 0) return 0;
     const std::size_t held =
@@ -79,8 +79,8 @@ void SweepGates::add_kind(const level2::SweepMoment& moment, const BeamPath& pat
     kinds_.push_back(std::move(kind));
 }
 
-// Tabulates, for each gate, what its range adds to the detection limit. The first radial gives the
-// attenuation. Usually all radials share it, and detection_limit_of() corrects those that do not.
+// Tabulates what the range of each gate adds to the detection limit, with the attenuation of the
+// first radial. detection_limit_of() corrects it for radials with another attenuation.
 void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
     const DetectionLimit at_zero_dbz{0, 0};
     kind.attenuation_db_per_m = attenuation_db_per_m;
@@ -90,8 +90,8 @@ void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
         const float attenuation_db = attenuation_db_per_m * static_cast<float>(range_m);
         kind.losses.push_back({static_cast<float>(at_zero_dbz.at(range_m)), attenuation_db});
     }
-    // The mean over a cell with an extent adds up the limits of long runs of gates. With running
-    // sums each run costs one subtraction (add_gates()).
+    // The mean over a cell with an extent sums the limits of long runs of gates. With running sums,
+    // a run costs one subtraction (add_gates()).
     if (averaging_ == Averaging::in_db && cell_ == CellExtent::area) {
         double sum = 0;
         kind.loss_sums.push_back(sum);
@@ -105,8 +105,8 @@ void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
         loss = {in_unit(loss.spreading, averaging_), in_unit(loss.attenuation, averaging_)};
 }
 
-// Prepares one row for each radial that is used, with its codes, its limits and its circle. A
-// radial belongs to the first kind in which it has gates.
+// Makes a row for each used radial, with its codes, its limits and its circle. A radial belongs to
+// the first kind in which it has gates.
 void SweepGates::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
                           const PolarSweepOptions& options) {
     for (const std::uint32_t radial : chosen.radials) {
@@ -138,9 +138,9 @@ void SweepGates::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
     }
 }
 
-// Marks the blocks of gates that hold anything other than code 0, so that uniform_status() can tell
-// at once that a tile sees nothing but no echo. This is done only for the usual coding: one kind of
-// radials, 8-bit codes, and code 0 for no echo.
+// Marks the blocks of gates that hold anything but code 0, so that uniform_status() sees at once
+// that a tile has only no echo. Does so only for the usual coding: one kind of radials, 8-bit
+// codes, and code 0 for no echo.
 void SweepGates::mark_blocks() {
     if (rows_.empty()) return;
     const auto [fewest, most] =
@@ -225,8 +225,8 @@ Sample SweepGates::gate(int position, std::int32_t gate) const {
     return gate_of(row, kinds_[row.kind], gate);
 }
 
-// Adds a run of gates with weight 1. The same codes give the same bits in 8 bits and in 16, because
-// the two branches below differ only in how a code is read and turned into a value.
+// Adds a run of gates with weight 1. Equal codes have the same result in 8 bits and in 16, because
+// the two branches below differ only in how they read a code and its value.
 void SweepGates::add_gates(int position, std::int32_t first, std::int32_t end,
                            Mixture& mixture) const {
     if (first >= end) return;
@@ -258,8 +258,8 @@ void SweepGates::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
                                  std::int32_t end, const CodeAt& code_at, const ValueOf& value_of,
                                  Mixture& mixture) const {
     const bool has_limits = blending_ == Blending::with_detection_limit;
-    // Most runs hold nothing but code 0, no echo. One "or" over the run finds out, and the running
-    // sums of the kind give the sum of its detection limits.
+    // Most runs hold only code 0, no echo. An "or" over the run shows that, and the kind's running
+    // sums give the sum of the detection limits.
     unsigned any = 0;
     for (std::int32_t gate = first; gate < end; ++gate)
         any |= code_at(gate);
@@ -273,7 +273,7 @@ void SweepGates::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
         mixture.add_counted(CellStatus::no_echo, end - first, static_cast<float>(sum), blending_);
         return;
     }
-    // Otherwise the gates are counted by state, and values and limits are added up.
+    // Otherwise count the gates by state, and sum values and limits.
     int valued = 0, quiet = 0;
     float values = 0, limits = 0;
     for (std::int32_t gate = first; gate < end; ++gate) {
@@ -302,7 +302,7 @@ void SweepGates::add_along_radial(int position, ArcPlace place, float weight,
     if (!within) return mixture.add_unseen(weight);
     const Kind& kind = kinds_[row.kind];
     const auto nearest = static_cast<std::int32_t>(at.number_and_half);
-    // Offset of the place from the center of the nearest gate, from -1/2 to 1/2 of a gate.
+    // The distance of the place from the center of the nearest gate, from -1/2 to 1/2 gates.
     const float beyond = at.number_and_half - static_cast<float>(nearest) - 0.5F;
     const std::int32_t other = beyond < 0 ? nearest - 1 : nearest + 1;
     const bool alone = other < at.first || other >= at.end;

@@ -15,9 +15,9 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double farthest_place_m = 1e6;  // no radar sees farther; bounds the tables
+constexpr double farthest_place_m = 1e6;  // no radar sees farther; limits the tables
 
-// Returns the numbers of the sweeps that hold the moment, for a message.
+// Returns the numbers of the sweeps that hold the moment, as text for a message.
 std::string numbers_of_sweeps(const level2::Volume& volume, level2::Moment moment) {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < volume.sweeps.size(); ++i) {
@@ -52,13 +52,13 @@ Result<ChosenSweep> wanted_sweep(const level2::Volume& volume, level2::Moment mo
     for (const ChosenSweep& sweep : sweeps)
         angles.push_back(fmt::format("{:.1f}", sweep.fixed_angle_deg));
     return fail(ErrorCode::not_found,
-                "no sweep with {} is within {:g} degree of {:g} degrees; those that there are have "
+                "no sweep with {} is within {:g} degree of {:g} degrees; the sweeps with it have "
                 "elevations of {} degrees",
                 level2::moment_name(moment), SweepWish::farthest_deg, *wish.elevation_deg,
                 fmt::join(angles, ", "));
 }
 
-// Notes the times of the radials that have one.
+// Notes the first and the last time of the radials.
 void note_times(const level2::Sweep& sweep, const ChosenSweep& chosen, SweepFacts& facts) {
     bool is_first = true;
     for (const std::uint32_t radial : chosen.radials) {
@@ -80,7 +80,7 @@ struct SweepLookup::Prepared {
     SweepFacts facts;
     BeamGeometry beam;
     PolarSweep polar;
-    float end_m;  // of the tables
+    float end_m;  // end of the tables
 
     [[nodiscard]] const level2::Sweep& sweep() const { return volume->sweeps[chosen.sweep_index]; }
 };

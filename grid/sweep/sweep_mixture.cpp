@@ -50,13 +50,13 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
         int position;
         float weight;
     };
-    // Radials are at least 0.2 degrees apart. If a damaged sweep has more in reach, the rest is
-    // left out.
+    // Radials are at least 0.2 degrees apart. If a damaged sweep has more within reach, the rest
+    // does not count.
     std::array<Weighted, 32> radials{};
     std::size_t count = 0;
     float total = 0;
-    // The pattern depends on the azimuth alone, so it is evaluated once for each radial; the
-    // weights are scaled to a sum of 1 below.
+    // The pattern depends only on the azimuth, so evaluate it once for each radial; scale the
+    // weights to a sum of 1 below.
     sweep.azimuths().visit(azimuth_deg, width_deg, [&](int position, float offset_deg) {
         const float weight = beam_pattern(offset_deg, width_deg);
         if (count == radials.size() || !(weight > 0 || count == 0)) return;
@@ -65,8 +65,7 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
     });
     if (count == 0) return Mixture::of_unseen();
     Mixture mixture;
-    // All radials may be where the pattern is 0. Then only the first one counts, which is the
-    // nearest.
+    // If the pattern is 0 at all radials, only the first counts, which is the nearest.
     if (!(total > 0)) {
         sweep.gates().add_along_radial(radials[0].position, place, 1, mixture);
         return mixture;
@@ -78,7 +77,7 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
 }
 
 Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPlace place) {
-    // The outline is a parallelogram within a circle. Seen from the site, the circle covers the
+    // The outline is a parallelogram within a circle. As the site sees it, the circle covers the
     // azimuths within asin(radius / arc) of its center, or all azimuths if the site is inside it.
     const float reach_deg = footprint.arc_m > footprint.radius_m
                                 ? std::asin(footprint.radius_m / footprint.arc_m) / degree
@@ -86,7 +85,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
     const Blending blending = sweep.gates().blending();
     Mixture gates;
     Mixture beyond;
-    // The values of a moment that wraps are taken as differences from the gate at the center.
+    // If values wrap, take differences from the gate at the center.
     if (is_circular(blending)) {
         const Sample center = sweep.sample(footprint.azimuth_deg, place);
         if (center.status == CellStatus::value) gates.refer_to(center);
@@ -98,8 +97,12 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         if (at.end == 0) return;
         const float sine = std::sin(turn_deg * degree);
         const float cosine = std::cos(turn_deg * degree);
-        // Along this radial the coordinates u and v of the outline are linear in the arc, so each
-        // of the two conditions |u| <= 1/2 and |v| <= 1/2 leaves an interval of arcs.
+        // Along this radial, the coordinates u and v of the outline are linear in the arc, so each
+        // of the conditions
+        // u
+        //  <= 1/2 and
+        // v
+        //  <= 1/2 limits the arcs to an interval.
         float from_m = std::max(0.0F, footprint.arc_m - footprint.radius_m);
         float to_m = footprint.arc_m + footprint.radius_m;
         narrow(-footprint.u_along * footprint.arc_m,
@@ -107,8 +110,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         narrow(-footprint.v_along * footprint.arc_m,
                footprint.v_along * cosine + footprint.v_across * sine, from_m, to_m);
         if (!(from_m <= to_m)) return;
-        // The interval of arcs becomes a run of gates. Those beyond the last gate count as not
-        // seen.
+        // The interval of arcs becomes a run of gates; gates beyond the last count as not seen.
         const float center = at.number_and_half - 0.5F;
         const float low = center + (from_m - footprint.arc_m) * gates_a_m_of_arc;
         const float high = center + (to_m - footprint.arc_m) * gates_a_m_of_arc;
@@ -118,7 +120,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         if (last >= at.end)
             beyond.add_unseen(static_cast<float>(last - std::max(first, at.end) + 1));
     });
-    // The weights are scaled to 1. The part of the circle inside azimuth gaps is not seen.
+    // Scale the weights to 1. The part of the circle inside azimuth gaps is not seen.
     const float count = gates.weight() + beyond.weight();
     if (count == 0) return {};
     const bool gaps = sweep.azimuths().has_gaps() && reach_deg < 180;

@@ -21,8 +21,8 @@ struct SweepStack {
     std::vector<PolarSweep> sweeps;  // rising elevation, at least one
     std::vector<bool> adjacent_to_next;
     std::vector<float> elevations_deg;
-    // True if every radial was measured higher than all radials of lower sweeps, and no beams cross
-    // or are much wider or narrower than their elevations imply (as in ducts).
+    // True if every radial was measured higher than all radials of lower sweeps, and no traced
+    // beams cross or are much wider or narrower than their elevations imply (as in ducts).
     bool in_order = true;
     float beam_width_deg = 0.95F;
     std::size_t table_size = 2;  // length of each sweep's tables by arc

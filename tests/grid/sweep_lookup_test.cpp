@@ -254,7 +254,7 @@ TEST(SweepLookup, FindsSweepsByNumberAngleAndTime) {
     ASSERT_FALSE(far);
     EXPECT_EQ(far.error().code, ErrorCode::not_found);
     EXPECT_EQ(far.error().message,
-              "no sweep with VEL is within 1 degree of 45 degrees; those that there are have "
+              "no sweep with VEL is within 1 degree of 45 degrees; the sweeps with it have "
               "elevations of 0.5, 1.5, 2.4, 3.4, 4.3, 6.0, 9.9, 14.6, 19.5 degrees");
     const auto none =
         SweepLookup::find(real.volume, real.site, Moment::vel, half_beam_deg, {.number = 0});
