@@ -19,8 +19,8 @@ namespace {
 constexpr double degree = 0.017453292519943295;
 const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
 
-// A field that is linear in space, so that cells represent it exactly: 0.4 dB a kilometer to the
-// northeast, minus 1.5 dB a kilometer of height.
+// Returns a field that is linear in space, so that cells represent it exactly: it rises by 0.4 dB
+// per kilometer to the northeast and falls by 1.5 dB per kilometer of height.
 double field_dbz(double x_m, double y_m, double z_m) {
     return 40 + 0.1e-3 * x_m + 0.12e-3 * y_m - 1.5e-3 * z_m;
 }
@@ -31,7 +31,7 @@ GridSpec small_spec() {
     return spec;
 }
 
-// The radar sees the field in each gate, rounded to its codes of half a decibel.
+// Observes the field in each gate, rounded to the radar's codes of half a decibel.
 level2::Volume observed(double turned_deg = 0) {
     const BeamGeometry beam(site.latitude_deg, site.altitude_m);
     std::vector<SweepPlan> plans;
@@ -53,7 +53,7 @@ level2::Volume observed(double turned_deg = 0) {
     return make_volume(plans);
 }
 
-// The field at the cells, with a value everywhere.
+// Returns the field at the cells, with a value everywhere.
 BrickGrid grid_of_field(const GridSpec& spec, double shift_m = 0) {
     Grid grid;
     grid.spec = spec;
@@ -82,7 +82,8 @@ AuditRow total(const Result<Audit>& audit) {
     return audit ? pooled(audit->rows) : AuditRow{};
 }
 
-// Both sides are rounded to steps of 0.5 dB: 0.144 dB of the gate, and less of the cells around it.
+// Both sides are rounded to steps of 0.5 dB, which adds an RMS of 0.144 dB from the gate, and less
+// from the eight cells around it.
 TEST(Audit, AFieldThatCellsHoldAuditsToTheQuantisation) {
     const BrickGrid grid = grid_of_field(small_spec());
     const auto audited = audit(grid.view(), observed(), site, {});
@@ -100,7 +101,7 @@ TEST(Audit, AGridShiftedByACellShowsIt) {
     EXPECT_NEAR(row.mean, -0.1, 0.01) << "0.1 dB a kilometre to the east";
 }
 
-// At 100 km, half a degree is 0.87 km, which shows most where the field changes around the radar.
+// At 100 km, half a degree is 0.87 km. It shows most where the field changes around the radar.
 TEST(Audit, AVolumeTurnedByHalfADegreeShowsItAndMoreWithRange) {
     const BrickGrid grid = grid_of_field(small_spec());
     const level2::Volume straight = observed();
@@ -130,7 +131,7 @@ TEST(Audit, StatesThatDisagreeAreCountedApart) {
     EXPECT_EQ(found->states[value][static_cast<std::size_t>(CellStatus::no_echo)], row.sampled);
 }
 
-// Velocities next to the fold: 24 and -24 m/s on a circle of 25 are 2 apart.
+// Uses velocities next to the fold: 24 and -24 m/s on a circle of 25 differ by 2.
 TEST(Audit, VelocitiesDifferByTheShorterWayRound) {
     SweepPlan plan;
     plan.moment = level2::Moment::vel;
@@ -166,8 +167,9 @@ TEST(Audit, WhatItCannotDoIsAnError) {
               ErrorCode::not_found);
 }
 
-// Real volumes with the default gridder. Method nearest is worse near the radar, where echo changes
-// most between gates and cells and where most gates are. Far away it repeats gates and is better.
+// Audits real volumes gridded with the defaults. Near the radar, where most gates are and echo
+// changes most between gates and cells, the method nearest is worse. Far away it repeats gates and
+// is better.
 struct Real {
     level2::Volume volume;
     SitePosition site;
@@ -189,8 +191,8 @@ BrickGrid gridded(const Real& of, const GridSpec& spec, const GridderOptions& op
 
 struct Expected {
     const char* file;
-    std::vector<double> rms_db;  // by range class, upper bounds
-    double least_same;           // share of gates that have the same status as the grid
+    std::vector<double> rms_db;  // upper bounds by range class
+    double least_same;           // least share of gates whose status equals the grid's
 };
 
 class AuditOfRealVolumes : public ::testing::TestWithParam<Expected> {};
@@ -225,8 +227,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Expected{"volumes/KTLX19990503_235621.gz", {4, 1.1, 0.9}, 0.98},
                       Expected{"volumes/KLOT20220317_000842_V06", {4.8}, 0.96}));
 
-// Half a degree of the antenna's azimuth on real echo: the grid no longer fits its gates, except
-// for those near the radar, which hardly move.
+// Turns the antenna by half a degree over real echo. The grid no longer fits its gates, except for
+// gates near the radar, which hardly move.
 TEST(Audit, ARealVolumeTurnedByHalfADegreeShowsIt) {
     STORMCELLAR_NEED_DATA();
     Real of = real("volumes/KTLX19990503_235621.gz");

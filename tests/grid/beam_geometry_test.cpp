@@ -22,7 +22,7 @@ struct Site {
 const std::vector<Site> sites = {{35.33, 390}, {0, 0},       {78, 50},  {-71, 4000},
                                  {90, -100},   {-90, 10000}, {45, 0.1}, {13.45, 80}};
 
-// Strata: draws are uniform within each interval, so that small ranges and angles have their share.
+// Draws are uniform within each stratum, so that small ranges and angles have their share.
 const std::vector<double> range_edges_m = {-1000, -1, 0, 1, 1e3, 1e4, 1e5, 2.3e5, 4.7e5};
 const std::vector<double> elevation_edges_deg = {-5, -0.5, -1e-6, 0, 1e-6, 0.5, 2, 20, 60};
 constexpr int draws_a_stratum = 200;
@@ -50,7 +50,7 @@ Quad radians(double degrees) {
     return Quad{degrees} * acosq(-1) / 180;
 }
 
-// M and N separately, as textbooks define them.
+// Computes M and N separately, as in textbooks.
 Quad gaussian_radius(double latitude_deg) {
     const Quad a = 6378137;
     const Quad f = 1 / (Quad{298257223563} / 1000000000);
@@ -62,7 +62,7 @@ Quad gaussian_radius(double latitude_deg) {
     return sqrtq(meridian * prime_vertical);
 }
 
-// The textbook's formula with its cancellation, for which 113 bits are enough.
+// The textbook's formula, in which 113 bits survive the cancellation.
 struct Exact {
     Quad arc_m, height_m;
 };
@@ -155,8 +155,8 @@ TEST(BeamGeometry, ABeamNeverPassesOverWhatItsLineDoesNotReach) {
     EXPECT_FALSE(std::isnan(beam.over(460e3, 60).height_m));
 }
 
-// The largest difference between our heights and those over a sphere that fits each azimuth, at
-// this range and 0.5 degrees.
+// Returns the largest difference, at this range and 0.5 degrees, between our heights and the
+// heights over a sphere that fits each azimuth.
 double radius_error_m(double latitude_deg, double range_m) {
     const Quad f = 1 / (Quad{298257223563} / 1000000000);
     const Quad s = sinq(radians(latitude_deg));
@@ -194,15 +194,15 @@ TEST(BeamGeometry, TheSameFormulaInFloatsErrsByATenthOfAMetre) {
             const float q = r * r + 2 * r * a * std::sin(e * std::numbers::pi_v<float> / 180);
             const float height_m =
                 static_cast<float>(site.altitude_m) + q / (std::sqrt(a * a + q) + a);
-            const double exact_m = beam.forward({r, e}).height_m;  // tested above
+            const double exact_m = beam.forward({r, e}).height_m;  // which another test checks
             worst_m = std::max(worst_m, std::abs(static_cast<double>(height_m) - exact_m));
         }
     }
     EXPECT_NEAR(worst_m, 0.1, 0.02);
 }
 
-// An independent figure: the height of a 0.5 degree beam at 230 km over a sphere of 4/3 * 6371 km
-// and a site at sea level is 5.12 km in every radar textbook's chart.
+// Uses an independent figure: in every radar textbook's chart, a beam at 0.5 degrees is 5.12 km
+// high at 230 km, over a sphere of 4/3 * 6371 km and a site at sea level.
 TEST(BeamGeometry, AgreesWithTheTextbookChart) {
     const EarthPoint point = BeamGeometry(35, 0).forward({230e3, 0.5});
     EXPECT_NEAR(point.height_m, 5120, 5);

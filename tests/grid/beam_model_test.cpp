@@ -92,9 +92,9 @@ TEST(BeamModel, NamesSayWhatWasUsed) {
     EXPECT_EQ(BeamModel::traced(35, 0, exponential()).kind(), BeamKind::traced);
 }
 
-// A known figure: the height of a gate on the 4/3 earth minus that on a ray in the exponential
-// reference atmosphere, at the same GEOMETRIC range, over a sphere of 6371 km (at 35 N it is 6370.8
-// km), with the antenna at sea level.
+// Uses known figures: the height of a gate on the 4/3 earth minus its height on a ray in the
+// exponential reference atmosphere, at the same geometric range, over a sphere of 6371 km (at 35 N
+// it is 6370.8 km), with the antenna at sea level.
 TEST(BeamModel, FourThirdsIsAsFarOffATracedRayAsIsKnown) {
     const BeamModel closed = BeamModel::four_thirds(35, 0);
     const BeamModel traced = BeamModel::traced(35, 0, exponential(), RangeKind::geometric);
@@ -110,7 +110,7 @@ TEST(BeamModel, FourThirdsIsAsFarOffATracedRayAsIsKnown) {
             EXPECT_NEAR(higher_m, row.too_high_m[i], 1) << row.elevation_deg << ' ' << ranges_m[i];
         }
     }
-    // The same for the arc of a gate at 230 km.
+    // Compares the arc of a gate at 230 km in the same way.
     for (const auto& [elevation_deg, longer_m] :
          {std::pair{0.5, 21.0}, {5.0, 159.0}, {10.0, 324.0}}) {
         EXPECT_NEAR(
@@ -119,7 +119,7 @@ TEST(BeamModel, FourThirdsIsAsFarOffATracedRayAsIsKnown) {
     }
 }
 
-// If the gradient is that of the 4/3 earth, the beam must be, too.
+// With the gradient that the 4/3 earth assumes, the traced beam must be the 4/3 beam.
 TEST(BeamModel, TracedThroughTheStandardGradientIsTheFourThirdsEarthAtLowHeights) {
     const BeamModel closed = BeamModel::four_thirds(35, 10);
     const BeamModel traced =
@@ -139,7 +139,7 @@ TEST(BeamModel, TracedPathCoversTheGates) {
             int checks = 0;
             for (int range_m = -1000; range_m <= 600e3; range_m += 1711) {
                 const EarthPoint point = path.at(range_m);
-                if (std::isnan(point.arc_m)) break;  // it has reached the floor
+                if (std::isnan(point.arc_m)) break;  // the ray has reached the floor
                 ASSERT_NEAR(path.over(point.arc_m).range_m, range_m, 1e-3);
                 ASSERT_NEAR(path.over(point.arc_m).height_m, point.height_m, 1e-3);
                 ++checks;
@@ -183,7 +183,7 @@ TEST(BeamModel, DifferenceOfAModelFromItselfIsNothing) {
     EXPECT_EQ(none.gate_m, 0);
 }
 
-// Checked every 10 m: no more than the stated excess between the tabulated 500 m.
+// Checks every 10 m that the excess between the points at every 500 m is within the stated limit.
 TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
     const std::vector<RefractivityLevel> levels = {{0, 330},    {300, 300},  {350, 294},
                                                    {1500, 250}, {6000, 140}, {12e3, 60}};
@@ -227,7 +227,7 @@ TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
 }
 
 TEST(BeamModel, DifferenceIsInfiniteWhereABeamIsLost) {
-    // A beam that a duct bends into the ground, although on the 4/3 earth it rises.
+    // A duct bends this beam into the ground, but on the 4/3 earth it rises.
     const std::vector<RefractivityLevel> levels = {{0, 400}, {1000, 200}, {8000, 90}};
     const BeamModel traced =
         BeamModel::traced(35, 100, RefractivityProfile::from_levels(levels, "duct").value());
@@ -236,7 +236,7 @@ TEST(BeamModel, DifferenceIsInfiniteWhereABeamIsLost) {
         std::isinf(greatest_difference(BeamModel::four_thirds(35, 100), traced, low, {}).height_m));
     BeamLimits near;
     near.arc_m = near.range_m = 20e3;
-    // Half the square of 20 km times the curvatures' difference: 259 less 39 N-units per km.
+    // Half the square of 20 km times the difference of the curvatures, 259 minus 39 N-units per km.
     EXPECT_NEAR(greatest_difference(BeamModel::four_thirds(35, 100), traced, low, near).height_m,
                 0.5 * 20e3 * 20e3 * 220e-9, 5);
 }

@@ -22,7 +22,8 @@ Grid grid_of(int nx, int ny, int nz, CellStatus status) {
     return grid;
 }
 
-// Three regions along x, so that every kind of brick occurs: uniform, states only, values.
+// Returns a grid with three regions along x, so that every kind of brick occurs: uniform, states
+// only, values.
 Grid mixed_grid(float least, float largest) {
     Grid grid = grid_of(37, 20, 19, CellStatus::not_seen);
     std::mt19937 random(7);
@@ -91,7 +92,7 @@ TEST(BrickGrid, ThreadsChangeNothing) {
     }
 }
 
-// Fills one brick of mixed_grid().
+// Fills one brick of mixed_grid() with two alternating states.
 void set_brick(Grid& grid, int bx, int by, int bz, CellStatus even, CellStatus odd) {
     const BrickExtent extent = brick_extent(grid.spec, bx, by, bz);
     for (int x = 0; x < extent.x; ++x) {
@@ -109,11 +110,12 @@ TEST(BrickGrid, BricksThatAreWrittenAgainInAnyOrderLeaveNoTrace) {
     const Quantization quantization{1, -32, 0.5F};
     const Grid before = mixed_grid(-32, 60);
     Grid after = before;
-    set_brick(after, 0, 0, 0, CellStatus::no_echo, CellStatus::range_folded);   // was uniform
-    set_brick(after, 1, 0, 0, CellStatus::no_echo, CellStatus::range_folded);   // was states
-    set_brick(after, 1, 1, 0, CellStatus::range_folded, CellStatus::not_seen);  // was states
-    set_brick(after, 1, 1, 1, CellStatus::no_echo, CellStatus::no_echo);        // was states
-    set_brick(after, 2, 0, 1, CellStatus::not_seen, CellStatus::no_echo);       // was values
+    set_brick(after, 0, 0, 0, CellStatus::no_echo, CellStatus::range_folded);   // replaces a
+                                                                                // uniform brick
+    set_brick(after, 1, 0, 0, CellStatus::no_echo, CellStatus::range_folded);   // replaces states
+    set_brick(after, 1, 1, 0, CellStatus::range_folded, CellStatus::not_seen);  // replaces states
+    set_brick(after, 1, 1, 1, CellStatus::no_echo, CellStatus::no_echo);        // replaces states
+    set_brick(after, 2, 0, 1, CellStatus::not_seen, CellStatus::no_echo);       // replaces values
     const BrickGrid wanted = BrickGrid::from(after, quantization);
     BrickGrid made = BrickGrid::from(before, quantization);
     std::vector<BricksWriter> writers(2, BricksWriter(made));

@@ -72,8 +72,8 @@ TEST(BrickView, ReadsEachKindOfBrick) {
 }
 
 TEST(Quantization, StepsAreNoCoarserThanTheRadarsOwn) {
-    // Step of the radar's finest coding of each moment (ICD 2620002 table XVII-I and what files
-    // hold), and the range of values that must fit.
+    // The step of the radar's finest coding of each moment (ICD 2620002 table XVII-I and real
+    // files), and the range of values that must fit.
     struct Coding {
         level2::Moment moment;
         double step, least, largest;

@@ -1,4 +1,4 @@
-// Tests quiet stretches against a look at every code.
+// Tests quiet stretches against a search of every code.
 #include "grid/sweep/busy_blocks.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int32_t gates_a_block = 32;
 
-// Looks at whole blocks, like the stretch.
+// Searches whole blocks, as BusyBlocks does.
 bool is_quiet(const std::vector<std::uint8_t>& codes, std::int32_t first, std::int32_t last) {
     const std::int32_t first_gate = first / gates_a_block * gates_a_block;
     const std::int32_t end_gate = (last / gates_a_block + 1) * gates_a_block;
@@ -26,7 +26,7 @@ bool is_quiet(const std::vector<std::uint8_t>& codes, std::int32_t first, std::i
 
 TEST(BusyBlocks, AreThoseThatHoldAnythingButZero) {
     std::mt19937_64 random(12);
-    // Gate counts around blocks of 32 gates and words of 2048.
+    // Numbers of gates around blocks of 32 gates and words of 2048 gates.
     for (const std::size_t gates : {1, 31, 32, 33, 460, 1832, 2047, 2048, 2049, 4100}) {
         std::vector<std::vector<std::uint8_t>> rows(5, std::vector<std::uint8_t>(gates));
         rows[1][gates - 1] = 1;

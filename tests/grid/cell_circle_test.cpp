@@ -9,7 +9,7 @@ namespace {
 
 const SitePosition centre{"KTLX", 35, -97, 0};
 
-// Sweeps at 0.5 and 2.5 degrees, whose heights 60 km away are about 0.7 and 2.8 km.
+// Returns sweeps at 0.5 and 2.5 degrees, whose heights at 60 km are about 0.7 and 2.8 km.
 level2::Volume volume_of(level2::Moment moment, float lower_mps, float upper_mps) {
     SweepPlan lower{.moment = moment};
     SweepPlan upper = lower;
@@ -22,7 +22,7 @@ level2::Volume volume_of(level2::Moment moment, float lower_mps, float upper_mps
     return volume;
 }
 
-// At 60 km, at heights below, between and above the beams.
+// Differences at 60 km, at heights below, between and above the beams.
 struct Differences {
     double below = 0, between = 0, above = 0;
 };

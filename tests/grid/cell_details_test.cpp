@@ -20,7 +20,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// stormcellar/grid/cell_details.h
+// as in stormcellar/grid/cell_details.h
 constexpr double height_accuracy_m = 0.5;
 constexpr double distance_accuracy_m = 0.5;
 constexpr double age_accuracy_s = 2e-3;
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(Volumes, RealDetails,
                                            "volumes/KOKX20080109_141449.gz",
                                            "volumes/KCCX20130112_070503_V06.gz", "chunks/L2D_230"));
 
-// Moves each radial off its elevation by up to this many hundredths of a degree.
+// Moves each radial off its elevation by up to `most` hundredths of a degree.
 void shake_elevations(level2::Volume& volume, unsigned most, std::mt19937& random) {
     change_radials(volume, [&](level2::Radial& radial) {
         radial.elevation_deg +=
@@ -158,8 +158,8 @@ void shake_elevations(level2::Volume& volume, unsigned most, std::mt19937& rando
     });
 }
 
-// Sweeps of different reach, with a gap and some undated radials. All are off their elevation, but
-// by less than would make sweeps change places.
+// Returns sweeps of different reach, with a gap and some radials without times. All radials are off
+// their elevation, but not enough for sweeps to change places.
 level2::Volume made_volume() {
     std::mt19937 random(5);
     SweepPlan like{.first_azimuth_deg = 200.5, .first_gate_m = -375};
@@ -182,11 +182,12 @@ TEST(CellDetails, OfMadeSweeps) {
     EXPECT_GT(linear.undated, 300);
     compare(volume, made_site, spec, asking(everything(), Interpolation::nearest), 3);
     level2::Volume lost = volume;
-    lost.vcp = 21;  // this pattern has 3.35 and 6 degrees too
+    lost.vcp = 21;  // pattern 21 also has 3.35 and 6 degrees
     compare(lost, made_site, spec, asking(everything()), 3);
 }
 
-// From high and low sites all over the earth, elevations from -5 to 60 degrees, ranges to 470 km.
+// Covers high and low sites all over the earth, elevations from -5 to 60 degrees and ranges to 470
+// km.
 TEST(CellDetails, OfSweepsFromSitesAllOverTheEarth) {
     SweepPlan like{.gates = 471, .first_gate_m = -1};
     level2::Volume volume =
@@ -202,7 +203,7 @@ TEST(CellDetails, OfSweepsFromSitesAllOverTheEarth) {
     }
 }
 
-// A grid of one cell that is at the center of a gate.
+// Uses a grid with one cell at the center of a gate.
 TEST(CellDetails, ACellAtAGatesCentreIsAtTheGate) {
     const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
     SweepPlan plan;
@@ -212,7 +213,7 @@ TEST(CellDetails, ACellAtAGatesCentreIsAtTheGate) {
     const BeamGeometry beam(site.latitude_deg, site.altitude_m);
     const EarthPoint gate = beam.forward({100e3, 1.5});
     GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    spec.nx = 3;  // about the site, so that the last column is due east of it
+    spec.nx = 3;  // about the site: the last column is due east of it
     spec.ny = 1;
     spec.spacing_m = gate.arc_m;
     spec.levels_m = {gate.height_m, gate.height_m + 300};
@@ -271,7 +272,7 @@ TEST(CellDetails, WithoutATimeThereAreNoAges) {
     EXPECT_GT(seen, 500);
 }
 
-// Tests the weights of methods that mix many gates against the gridder's oracle.
+// Tests the weights of methods that mix several gates, against the gridder's oracle.
 class MixedWeights : public ::testing::TestWithParam<std::pair<Interpolation, CellExtent>> {};
 
 TEST_P(MixedWeights, AreTheShareThatWasSeen) {
@@ -348,7 +349,7 @@ TEST(FrameTime, OfAGridNamesTheSweepsThatItIsMadeOf) {
               1);
     EXPECT_EQ(first->time, newest->time);
     EXPECT_EQ(first->frame_time, options.frame_time);
-    // 20 km east at 500 m, only the lowest sweeps see the cell.
+    // At 20 km east and a height of 500 m, only the lowest sweeps see the cell.
     const std::size_t low = spec.index(55, 50, 0);
     ASSERT_TRUE(first->details.at(Detail::age, low) && newest->details.at(Detail::age, low));
     EXPECT_LT(*first->details.at(Detail::age, low), 40);

@@ -15,7 +15,7 @@ namespace {
 
 const SitePosition ktlx{"KTLX", 35.3333, -97.2778, 389};
 
-// The slow way: GeographicLib's own projection, then the geodesic from the site.
+// Computes a place the slow way: GeographicLib's projection, then the geodesic from the site.
 PolarPoint slow_place(const SitePosition& from, const GridSpec& spec, int ix, int iy) {
     const GeographicLib::AzimuthalEquidistant plane;
     double latitude_deg = 0;
@@ -70,7 +70,7 @@ TEST(ColumnGeometry, AtThePoleAndAcrossTheAntimeridian) {
     expect_places({"XANT", 13.45, 179.95, 80}, spec);
 }
 
-// Grids beside their sites that reach to 500 km, and fine ones close to them.
+// Uses grids beside their sites that reach to 500 km, and fine grids close to their sites.
 TEST(ColumnGeometry, FromSitesAllOverTheEarth) {
     for (const SitePosition& from :
          {SitePosition{"AA", 78, 15, -100}, SitePosition{"BB", 0, 180, 4000},

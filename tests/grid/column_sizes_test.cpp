@@ -65,7 +65,7 @@ class ColumnSizes : public ::testing::TestWithParam<std::size_t> {
     std::optional<GridScene> scene_;
 };
 
-// A column whose only echo was a gate between its points was never drawn (2026-11-25).
+// Regression of 2026-11-25: a column was never drawn whose only echo was a gate between its points.
 TEST_P(ColumnSizes, NoColumnWithAValueIsLeftOut) {
     const Grid exact = whole(exact_of(effects_of(level2::Moment::ref)));
     const std::size_t nz = spec_.levels_m.size();
@@ -88,8 +88,8 @@ TEST_P(ColumnSizes, NoColumnWithAValueIsLeftOut) {
     EXPECT_EQ(left_out, 0U) << "of " << valued;
 }
 
-// The value error that the plan states is a bound of what it is over all cells. In a sparse scene
-// the stated one was 2.27 dB, and the true one 2.30 (2026-11-25).
+// The value error that the plan states must bound the error over all cells. Regression of
+// 2026-11-25: in a sparse scene the plan stated 2.27 dB, and the true error was 2.30 dB.
 TEST_P(ColumnSizes, TheStatedErrorHoldsOverAllCells) {
     const accuracy::Chain chain = effects_of(level2::Moment::ref);
     const auto budget = accuracy::parse_budget(sparse_scenes()[GetParam()].budget);

@@ -59,7 +59,7 @@ TEST(FillColumn, WhereBeamsBesideALostCutOverlapTheNearerCounts) {
     EXPECT_FLOAT_EQ(column.values[1], 20);
 }
 
-// 2026-11-21: nothing at all was filled where the lower edge of the lowest beam is at no height.
+// Regression of 2026-11-21: no cell was filled if the lower edge of the lowest beam had no height.
 TEST(FillColumn, ALowerEdgeThatIsNowhereLeavesTheRest) {
     BeamSample lowest = beam(valued(10), 1000);
     lowest.lower_edge_m = 1e9F;

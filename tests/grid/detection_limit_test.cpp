@@ -50,7 +50,7 @@ TEST(DetectionLimit, IsFiniteAtRangeZero) {
     EXPECT_TRUE(std::isfinite(DetectionLimit{}.at(-500)));
 }
 
-// Compares the weakest of at least 100 valid gates within 5 km with the limit there, from 20 km on
+// Compares the limit with the weakest of at least 100 valid gates within 5 km, from 20 km on
 // (closer in, ground clutter and receiver limits dominate).
 void expect_limit(const char* name, bool is_tdwr) {
     STORMCELLAR_NEED_DATA();
@@ -75,7 +75,8 @@ void expect_limit(const char* name, bool is_tdwr) {
             }
             if (valid < 100) continue;
             ++rings;
-            // Never much weaker than the limit; stronger only where there is no weak echo.
+            // The weakest gate is never far below the limit; it is far above only where there is no
+            // weak echo.
             EXPECT_GE(weakest, limit.at(moment->range_m(from)) - 3.5)
                 << name << " cut " << sweep.elevation_number << " at " << moment->range_m(from);
         }

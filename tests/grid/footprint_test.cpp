@@ -1,5 +1,4 @@
-// Tests that the outlines of neighboring cells fit together, whatever the projection, site and
-// cells.
+// Tests that the outlines of neighboring cells fit together, for all projections, sites and cells.
 #include "grid/place/footprint.h"
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// In the plane of azimuth and arc about the site.
+// A vector in the plane of azimuth and arc about the site.
 struct Vector {
     double x = 0, y = 0;
 };
@@ -31,7 +30,7 @@ double cross(Vector a, Vector b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Center and sides, from what the header promises about u and v.
+// The center and the sides of a footprint, from the header's definition of u and v.
 struct Outline {
     Vector center, u, v;
 };
@@ -49,7 +48,7 @@ Outline outline_of(const Footprint& footprint) {
             inverse * (du.x * across - du.y * along)};
 }
 
-// The area between two sides that should coincide, relative to the area of the cell.
+// Returns the area between two sides that should coincide, as a share of the cell's area.
 double between(const Outline& a, Vector a_from, Vector a_to, Vector b_from, Vector b_to) {
     const Vector side = a_to - a_from;
     const double area =
@@ -115,7 +114,7 @@ TEST(Footprint, NeighboursLeaveAndShareLessThanAThousandthOfACell) {
                     const GridSpec spec = spec_of(projection, center, spacing_m);
                     double most = 1e-3;
                     if (projection == Projection::latitude_longitude) {
-                        // Parallels, and rows of equal degrees, grow shorter toward the poles.
+                        // Parallels, and rows of equal degrees, shorten toward the poles.
                         const double edge_deg =
                             std::abs(center.latitude_deg) + spec.ny * spec.spacing_deg / 2;
                         most += spacing_m / 6371e3 * std::tan(edge_deg * M_PI / 180);
@@ -129,7 +128,7 @@ TEST(Footprint, NeighboursLeaveAndShareLessThanAThousandthOfACell) {
     }
 }
 
-// The cell of a grid of one column is a square of its spacing, turned as the site sees it.
+// The cell of a grid with one column must be a square of the spacing, turned as the site sees it.
 TEST(Footprint, OfASingleColumnIsASquareOfItsSpacing) {
     const SitePosition site{"AA", 35, -97, 0};
     GridSpec spec = square_spec(35.5, -96.2, 1, 2000);
@@ -143,7 +142,7 @@ TEST(Footprint, OfASingleColumnIsASquareOfItsSpacing) {
     EXPECT_NEAR(footprint_of(**geometry, 0, 0).radius_m, 1000 * std::sqrt(2), 0.1);
 }
 
-// The centers of all other cells are outside, that of the cell itself is inside.
+// The centers of all other cells must be outside, and the cell's own center inside.
 TEST(Footprint, HoldsItsOwnCentreAlone) {
     const SitePosition site{"AA", 35, -97, 0};
     GridSpec spec = spec_of(Projection::lambert_conformal, {36, -95}, 3000);

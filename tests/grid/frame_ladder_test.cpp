@@ -1,4 +1,4 @@
-// Tests that the bounds of the site frame's rungs always hold and are less than twice too large.
+// Tests that the bounds of the site frame's rungs always hold and are at most twice the error.
 #include "stormcellar/grid/frame_ladder.h"
 
 #include <cmath>
@@ -24,7 +24,7 @@ double apart_m(PolarPoint a, PolarPoint b) {
     return std::hypot(first.x_m - second.x_m, first.y_m - second.y_m);
 }
 
-// The largest error of the sphere over 128 azimuths at an arc.
+// Returns the largest error of the sphere over 128 azimuths at an arc.
 double sphere_error_m(GeoPoint site, double arc_m) {
     const SiteFrame exact(site.latitude_deg, site.longitude_deg);
     const SphereFrame sphere(site.latitude_deg, site.longitude_deg);
@@ -59,7 +59,7 @@ TEST(FrameLadder, TheBoundOfTheSphereHoldsToTheAntipode) {
     }
 }
 
-// Measured independently before this code was written (35 N): 237, 566 and 1209 m.
+// At 35 N, 237, 566 and 1209 m were measured independently before this code was written.
 TEST(FrameLadder, TheSphereIsOffByWhatWasMeasured) {
     EXPECT_NEAR(sphere_error_m({35, -97}, 100e3), 237, 1);
     EXPECT_NEAR(sphere_error_m({35, -97}, 230e3), 566, 1);
@@ -69,7 +69,7 @@ TEST(FrameLadder, TheSphereIsOffByWhatWasMeasured) {
     EXPECT_NEAR(sphere_error_bound_m(35, 460e3), 1226, 1);
 }
 
-// The textbook's haversines, for which 113 bits are enough at the antipode.
+// Computes the textbook's haversines, for which 113 bits are enough at the antipode.
 PolarPoint slow_sphere(GeoPoint from, GeoPoint to) {
     const Quad degree = acosq(-1) / 180;
     const Quad a = from.latitude_deg * degree;
@@ -101,7 +101,7 @@ TEST(FrameLadder, GreatCirclesAreThoseOf113BitFloatsUpToTheAntipode) {
                 ASSERT_LT(apart_m(fast, slow_sphere(site, to)), most_m) << latitude_deg << arc_m;
             }
         }
-        // The antipode itself has no azimuth.
+        // The antipode has no azimuth, so stay beside it.
         const GeoPoint antipode{-latitude_deg, -0.1};
         EXPECT_NEAR(sphere.to_polar(antipode).arc_m, M_PI * 6371000, 1e-7) << latitude_deg;
         const PolarPoint here = sphere.to_polar(site);
@@ -156,7 +156,7 @@ void expect_bound(const SitePosition& site, const GridSpec& spec, FrameKind kind
     EXPECT_LT(reach_m(site, spec), 1.02 * measured.farthest_m);
 }
 
-// Grids all around their site, with the site away from their center.
+// Uses grids all around their site, whose centers are away from the site.
 TEST(FrameLadder, TheBoundOfEachRungHoldsForWholeGridsAndIsTight) {
     double longitude_deg = -97.3;
     for (const double latitude_deg : {78.0, 65.0, 45.0, 35.0, 2.0, -30.0, -71.0}) {

@@ -1,5 +1,5 @@
-// Tests every column of the table against its own geodesic, where the plane is smooth and where it
-// is not.
+// Tests every column of the table against its own geodesic, including where the plane is not
+// smooth.
 #include "grid/place/frame_table.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct Case {
     GeoPoint center;
     double spacing;  // meters or degrees
     GeoPoint site;
-    bool few_geodesics;  // whether the table must need few geodesics there
+    bool few_geodesics;  // true if the table must need few geodesics for this case
 };
 
 using enum Projection;

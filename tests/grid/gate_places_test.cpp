@@ -7,7 +7,7 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double accuracy_m = 0.02;  // grid/beam/gate_places.h
+constexpr double accuracy_m = 0.02;  // as in grid/beam/gate_places.h
 
 level2::SweepMoment gates(int first_m, int spacing_m, int count) {
     level2::SweepMoment moment;
@@ -55,8 +55,8 @@ TEST(GatePlaces, ThereAreNoneWhereTheBeamDoesNotGo) {
     const GatePlaces places(gates(0, 1000, 400), BeamModel::four_thirds(35, 0), 0.5, 0.475);
     EXPECT_FALSE(places.at(-1, 0));
     EXPECT_FALSE(places.at(400, 0));
-    // Half a beam lower, a traced ray soon meets the ground. One below the horizon goes down all
-    // along.
+    // A traced ray half a beam below the sweep soon meets the ground. A ray that starts below the
+    // horizon only falls.
     const BeamModel traced = BeamModel::traced(35, 0, RefractivityProfile::reference());
     const GatePlaces low(gates(0, 1000, 400), traced, -0.3, 0.475);
     EXPECT_TRUE(low.at(50, 0));

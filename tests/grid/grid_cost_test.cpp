@@ -1,5 +1,4 @@
-// Tests what is timed to predict the time of a grid. The times themselves are not tested:
-// bench/bench_plan.
+// Tests the work that is timed to predict the time of a grid. bench/bench_plan checks the times.
 #include "grid/plan/grid_cost.h"
 
 #include <cmath>
@@ -16,7 +15,7 @@ namespace {
 
 const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
 
-// Echo in the east, within 75 km and again beyond.
+// Returns a volume with echo in the east, within 75 km and again farther out.
 level2::Volume half_volume(level2::Moment moment = level2::Moment::ref) {
     SweepPlan plan;
     plan.moment = moment;
@@ -68,7 +67,7 @@ TEST(TileSample, StrataHoldEveryTileWithinReachAndSpreadAlongTheArc) {
             EXPECT_EQ(has_echo(scene, tile), stratum == &sample.with_echo);
             EXPECT_TRUE(places.emplace(tile.first_x, tile.first_y).second) << "drawn twice";
         }
-        // Both pieces of 16 reach from near to far.
+        // Both pieces of 16 tiles have near and far tiles.
         for (const std::size_t first : {std::size_t{0}, std::size_t{16}}) {
             EXPECT_LT(stratum->tiles[first].bounds.least_arc_m, farthest_m / 3);
             EXPECT_GT(stratum->tiles[first + 15].bounds.least_arc_m, farthest_m * 2 / 3);
@@ -96,7 +95,8 @@ TEST(PredictedCosts, AreSaidOfEveryStepAndOfWhatInterpolationAndExtentTakeTogeth
             EXPECT_EQ(chain.joint_costs.size(), interpolation_facts.size() - 1)
                 << "each interpolation but the cheapest";
             EXPECT_GT(chain.cheapest_cost_s, 0);
-            // Ten times apart on a quiet machine, so no load reverses the order.
+            // The costs are a factor of ten apart on a quiet machine, so no load reverses their
+            // order.
             accuracy::Choice cheapest;
             accuracy::Choice exact;
             for (const accuracy::Step& step : chain.steps) {
@@ -104,7 +104,7 @@ TEST(PredictedCosts, AreSaidOfEveryStepAndOfWhatInterpolationAndExtentTakeTogeth
                 exact.rungs.push_back(step.effects.size());
             }
             EXPECT_GT(accuracy::cost_s(chain, exact), accuracy::cost_s(chain, cheapest));
-            // About the site, every frame is in closed form.
+            // For a grid about the site, every frame is in closed form.
             EXPECT_EQ(chain.steps[0].effects[1].cost_s, 0);
         }
     }

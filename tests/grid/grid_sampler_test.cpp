@@ -10,7 +10,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// 20 x 18 columns and three uneven levels: several bricks. Values are linear in x, y and height.
+// Returns 20 x 18 columns and three uneven levels, in several bricks. Values are linear in x, y and
+// height.
 Grid linear_grid() {
     Grid grid;
     grid.spec.nx = 20;
@@ -59,7 +60,7 @@ TEST(GridSampler, BeyondTheOutermostCellsIsNothing) {
     EXPECT_TRUE(std::isnan(sampler.level_at(nan)));
 }
 
-// In every kind of brick, find() must return what the view says about the cell.
+// In every kind of brick, find() must agree with the view about the cell.
 TEST(GridSampler, ReadsEveryKindOfBrickAsTheViewDoes) {
     Grid grid = linear_grid();
     for (std::size_t i = 0; i < grid.status.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// 20 columns by 18 rows and three levels, with bricks that are not full.
+// Returns 20 columns by 18 rows and three levels, so that bricks are not full.
 GridSpec small_spec() {
     GridSpec spec;
     spec.nx = 20;
@@ -25,7 +25,7 @@ struct Cell {
     float dbz = 0;
 };
 
-// Cells that are not named are not seen.
+// Returns a grid with these cells; all others are not seen.
 BrickGrid grid_of(const std::vector<Cell>& cells) {
     Grid grid;
     grid.spec = small_spec();
@@ -84,7 +84,7 @@ TEST(GridTally, KnowsFrequenciesMeansAndTops) {
     EXPECT_NEAR(tally.columns().mean_z_as_dbz(column), 10 * std::log10(z), 1e-6);
     EXPECT_NEAR(tally.columns().quantile_dbz(column, 0.5), 18.5, 2.5);
     EXPECT_NEAR(tally.columns().quantile_dbz(column, 0.99), 42.5, 2.5);
-    // The tops are at 2000 m and, with 18.5 dBZ itself, at 4000 m.
+    // The echo tops are at 2000 m and at 4000 m, where the value is 18.5 dBZ exactly.
     EXPECT_EQ(tally.tops_from(column, 0), 2U);
     EXPECT_EQ(tally.tops_from(column, 1), 2U);
     EXPECT_EQ(tally.tops_from(column, 2), 1U);
@@ -104,7 +104,7 @@ TEST(GridTally, CountsEachCellWhereAsked) {
     EXPECT_EQ(cells.with_value(at(2)), 1U) << "no echo is no value";
     EXPECT_EQ(cells.seen(small_spec().index(0, 0, 0)), 1U) << "range folded";
     EXPECT_EQ(cells.seen(small_spec().index(0, 0, 1)), 0U);
-    // The columns are counted as ever.
+    // Columns are counted in any case.
     EXPECT_EQ(tally.columns().seen(column), 3U);
 
     const auto bytes = tally.to_bytes();

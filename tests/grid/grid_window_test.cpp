@@ -108,14 +108,15 @@ TEST(GridWindow, OffsetsAreHalvesWithinTheLargestGrid) {
 }
 
 TEST(GridWindow, WholeBricksEndAtBricksOrAtTheDomain) {
-    const GridSpec& domain = domains().front();  // 701 x 350
+    const GridSpec& domain = domains().front();  // 701 x 350 columns
     EXPECT_TRUE(is_whole_bricks(domain, {16, 32, 48, 16}));
     EXPECT_TRUE(is_whole_bricks(domain, {16, 32, 685, 318}));
     EXPECT_FALSE(is_whole_bricks(domain, {8, 32, 40, 16}));
     EXPECT_FALSE(is_whole_bricks(domain, {16, 32, 47, 16}));
 }
 
-// Finds every column within reach, by geodesics where great circles do not decide.
+// Finds the extremes of the columns within reach, by geodesics where great circles are too close to
+// decide.
 struct Extremes {
     int least_x = 1 << 20, greatest_x = -1, least_y = 1 << 20, greatest_y = -1;
 };
@@ -211,7 +212,7 @@ TEST(GridWindow, AcrossTheAntimeridianAndAboutThePoles) {
     }
     expect_holds_all(alaska, {71, -156}, 460e3, true);
     expect_holds_all(alaska, {51.5, 176}, 460e3, true);
-    // The plane is cut at the antipode of the center.
+    // The plane is torn at the antipode of its center.
     const Columns wide(domain_of(azimuthal_equidistant, {0, 0}, 200000, 200, 200));
     expect_holds_all(wide, {0.5, 179}, 460e3, false);
 }
@@ -224,8 +225,8 @@ TEST(GridWindow, NoWindowWhereNothingIsReached) {
     EXPECT_FALSE(site_window(cone, {"PGUA", 13.45, 144.81, 100}));
 }
 
-// Grids one volume on a domain and on a window of it, also by methods that look beyond the cell:
-// the cells must be the same, also at the edge of the window.
+// Grids one volume on a domain and on a window of it. The cells must be the same, even at the edge
+// of the window and by methods that look beyond the cell.
 class InAWindow : public ::testing::TestWithParam<std::pair<Interpolation, CellExtent>> {};
 
 TEST_P(InAWindow, AVolumeIsTheSame) {

@@ -21,8 +21,8 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double beam_width_deg = 0.95;
-// Tables of arc are accurate to 0.15 m in range and height. A radial's own elevation adds 0.25 m,
-// and 1 m at the edges of the beam.
+// Tables by arc are accurate to 0.15 m in range and height. A radial's own elevation adds 0.25 m,
+// or 1 m at the edges of the beam.
 constexpr double height_accuracy_m = 1;
 constexpr double weight_accuracy = 2e-3;
 
@@ -33,8 +33,9 @@ struct Tally {
     std::vector<double> differences;
 };
 
-// A cell may be what the oracle finds anywhere within the stated accuracy of height. `slack` is
-// allowed in addition: a gate on the very edge of a cell's outline may count or not.
+// Compares a column. A cell must equal what the oracle finds somewhere within the stated accuracy
+// of height. `slack` is an additional tolerance, because a gate on the edge of a cell's outline may
+// count or not.
 void compare_column(const Grid& grid, const OracleColumn& slow, int ix, int iy, double slack,
                     Tally& tally) {
     for (std::size_t level = 0; level < grid.spec.levels_m.size(); ++level) {
@@ -117,7 +118,7 @@ TEST_P(RealVolume, AgreesWithTheOracleFarFromTheSite) {
     compare(volume, site, spec, {level2::Moment::ref, {}, 7});
 }
 
-// A grid of one cell at the center of a gate must hold that gate.
+// The cell of a grid with one cell at the center of a gate must hold that gate.
 TEST_P(RealVolume, ACellAtAGatesCentreHoldsTheGate) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume(std::string("volumes/") + GetParam());
@@ -199,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(
                       method_of(Interpolation::beam_weighted, CellExtent::area),
                       method_of(Interpolation::beam_weighted, CellExtent::area, Averaging::in_z)));
 
-// States scattered at random, so that every pair of them occurs with every weight.
+// Returns a volume of random states, so that every pair of states occurs with every weight.
 level2::Volume scattered_volume(level2::Moment moment) {
     std::mt19937 random(23);
     SweepPlan plan;
@@ -227,7 +228,7 @@ TEST(GridderOracle, ScatteredStates) {
 
 TEST(GridderOracle, ALostCut) {
     level2::Volume volume = scattered_volume(level2::Moment::ref);
-    volume.vcp = 21;  // this pattern has 3.35 degrees too
+    volume.vcp = 21;  // pattern 21 also has 3.35 degrees
     const SitePosition site{"XXXX", -33, 151, 10};
     GridSpec spec = square_spec(-33, 151, 100, 4100);
     compare(volume, site, spec, {level2::Moment::ref, {}, 3});
@@ -244,7 +245,7 @@ TEST(GridderOracle, EveryProjectionOffItsSiteAndAcrossTheAntimeridian) {
     Comparison area{level2::Moment::ref, {}, 17};
     area.method = method_of(Interpolation::beam_weighted, CellExtent::area);
     area.most_doubtful_cells = 0.2;
-    area.slack = 20;  // neighboring gates are independent
+    area.slack = 20;  // neighboring gates are independent here
     const Tally area_degrees = compare(volume, site, spec, area);
     spec.projection = Projection::lambert_conformal;
     spec.spacing_m = 4100;

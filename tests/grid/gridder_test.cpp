@@ -26,7 +26,7 @@ SweepPlan plan(double elevation_deg, int cut, double dbz = 20) {
 Grid make(const level2::Volume& volume, int threads = 1) {
     GridSpec spec = default_spec(ktlx.latitude_deg, ktlx.longitude_deg);
     spec.spacing_m = 5000;
-    spec.nx = spec.ny = 121;  // column 60 is the site's own; 600 km across
+    spec.nx = spec.ny = 121;  // 600 km across, with column 60 at the site
     const auto geometry = make_column_geometry(ktlx, spec);
     EXPECT_TRUE(geometry);
     auto grid = make_grid(volume, ktlx, **geometry, {level2::Moment::ref, 0.95, threads, {}, {}});
@@ -72,7 +72,7 @@ TEST(Gridder, TheConeOfSilenceIsNotSeen) {
 
 TEST(Gridder, BelowTheLowestBeamIsNotSeen) {
     const Grid grid = make(make_volume({plan(0.5, 1), plan(1.5, 2)}));
-    // The lower edge of the 0.5 degree beam at 250 km lies near 4.1 km.
+    // At 250 km, the lower edge of the 0.5 degree beam is near 4.1 km.
     EXPECT_EQ(status_at(grid, 250, 0, 3.5), CellStatus::not_seen);
     EXPECT_EQ(status_at(grid, 250, 0, 4.5), CellStatus::value);
     EXPECT_EQ(status_at(grid, 50, 0, 0.5), CellStatus::not_seen) << "edge near 560 m";
@@ -150,7 +150,7 @@ TEST(Gridder, EqualElevationsAndASingleSweep) {
     volume.sweeps[0].vcp_elevation_deg = 0.5F;
     volume.sweeps[1].vcp_elevation_deg = 0.9F;
     for (level2::Radial& radial : volume.sweeps[1].radials)
-        radial.elevation_deg = 0.5F;  // another cut, measured at the same elevation
+        radial.elevation_deg = 0.5F;  // make the cut have the same elevation
     const Grid grid = make(volume);
     for (const float value : grid.values)
         ASSERT_TRUE(std::isfinite(value));
@@ -160,7 +160,7 @@ TEST(Gridder, EqualElevationsAndASingleSweep) {
     EXPECT_EQ(status_at(single, 100, 0, 3.5), CellStatus::not_seen);
 }
 
-// One sector of the upper sweep was measured below the lower one, so the two change places there.
+// One sector of the upper sweep is measured below the lower sweep, so the two change places there.
 TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
     level2::Volume volume = make_volume({plan(0.5, 1, 10), plan(0.9, 2, 30), plan(2.4, 3, 30)});
     for (std::size_t i = 0; i < 60; ++i) {
@@ -181,8 +181,8 @@ TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
     EXPECT_NEAR(value_at(grid, -75, 130, 3.5), expected(0.5, 0.9, 10, 30), 0.05);
 }
 
-// 2026-11-21: where sweeps change places, one that brackets a cell was missing in a tile's plan, so
-// that cells that were not seen became no echo. Every second radial is off, up or down.
+// Regression of 2026-11-21: where sweeps changed places, a tile's plan lacked a sweep beside a
+// cell, so cells that were not seen became no echo. Every second radial is off, up or down.
 TEST(Gridder, SweepsThatChangePlacesAreAllLookedAt) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 0.9, 1.3, 1.7, 2.1}) {
@@ -200,7 +200,7 @@ TEST(Gridder, SweepsThatChangePlacesAreAllLookedAt) {
             sweep.radials[i].elevation_deg += flipped ? -off_deg : off_deg;
         }
     }
-    // One folded gate in every stretch means that nothing is uniform, so every sweep is sampled.
+    // With a folded gate in every stretch, nothing is uniform, so every sweep is sampled.
     level2::Volume sampled = volume;
     for (level2::Sweep& sweep : sampled.sweeps) {
         for (std::size_t at = 0; at < sweep.moments[0].codes8.size(); at += 16)
@@ -280,8 +280,8 @@ TEST(Gridder, SameBitsForAnyNumberOfThreadsOnARealVolume) {
         EXPECT_TRUE(same_bits(one, make(volume, threads))) << threads;
 }
 
-// The Oklahoma outbreak: the supercell that reached Moore half an hour later is some 40 km
-// west-southwest of the radar, its core above 50 dBZ up to at least 8 km.
+// Uses the Oklahoma outbreak. The supercell that reached Moore half an hour later is some 40 km
+// west-southwest of the radar, with a core above 50 dBZ up to at least 8 km.
 TEST(Gridder, StormsStandWhereTheyStood) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume("volumes/KTLX19990503_235621.gz");

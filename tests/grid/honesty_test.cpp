@@ -1,8 +1,9 @@
 // Checks the promises of the planner over real volumes of every kind:
-// - An effect that it left off changes the grid by less than the budget if it is forced on.
-// - An effect that it turned on changes the grid by more than a tenth of the budget if it is forced
-//   off, in at least one scene for each effect.
-// - The grid that it chose is within the budget of the oracle's.
+// - If an effect that the plan left off is forced on, the grid changes by less than the budget.
+// - For each effect there is a scene whose plan has it on, and in which the grid changes by more
+// than
+//   a tenth of the budget if the effect is forced off.
+// - The planned grid differs from the oracle's grid by at most the budget.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,7 +32,7 @@ struct HonestScene {
     level2::Moment moment = level2::Moment::ref;
     int side = 150;
     double spacing_m = 2000;
-    double east_deg = 0;  // of the center of the grid from the site
+    double east_deg = 0;  // longitude of the grid's center minus the site's
     int columns = 40;     // columns that the oracle computes; wide cells take long
 };
 
@@ -101,7 +102,7 @@ double arc_m(PreparedScene& prepared, int ix, int iy) {
     return static_cast<double>((*geometry)->row(iy)[static_cast<std::size_t>(ix)].arc_m);
 }
 
-// The 99th percentile over all cells that are valued in both.
+// Returns the 99th percentile over all cells with a value in both grids.
 double difference(PreparedScene& prepared, const Grid& a, const Grid& b) {
     std::vector<double> errors;
     CellCircles circles = circles_of(prepared);
@@ -144,7 +145,7 @@ TEST_P(Honesty, WhatIsLeftOffIsLessThanTheBudget) {
         << "all that was left off";
 }
 
-// At most one cell in a hundred of the grid is off by more than the budget. In the sample it may be
+// At most one cell in a hundred of the grid may be off by more than the budget; the sample may have
 // some more.
 TEST_P(Honesty, TheGridIsWithinTheBudgetOfTheOracle) {
     STORMCELLAR_NEED_DATA();
@@ -191,7 +192,7 @@ TEST_P(Honesty, TheGridIsWithinTheBudgetOfTheOracle) {
         }
     }
     EXPECT_GT(compared, 20 / testing::slow_down);
-    // Cells of a column are off together: three times the share, plus two columns.
+    // The cells of a column are off together, so allow three times the share, plus two columns.
     EXPECT_LE(exceeding, 0.03 * compared + 6) << "of " << compared;
 }
 
@@ -206,7 +207,7 @@ TEST(Honesty, EveryEffectThatIsTurnedOnMattersInSomeScene) {
         const accuracy::Plan& plan = prepared->plan->plan;
         const Grid chosen = whole_grid(*prepared, prepared->plan->choice);
         for (const accuracy::Decision& decision : plan.decisions) {
-            // Leave out what was turned on because it costs nothing, or with the most accurate
+            // Skip effects that are on because they cost nothing, or as part of the most accurate
             // choice.
             const bool called_for = decision.reason.starts_with("without it") ||
                                     accuracy::is_unbounded(decision.predicted);

@@ -1,4 +1,4 @@
-// Tests a lookup against a search of all levels.
+// Tests lookups against a search of all levels.
 #include "grid/cells/level_table.h"
 
 #include <cmath>

@@ -18,7 +18,8 @@ namespace stormcellar::grid {
 inline constexpr Quantization one_byte{1, -32, 0.5F};
 inline constexpr Quantization two_bytes{2, -40, 0.01F};
 
-// 70 x 52 columns of some 12 km and 18 levels: the last bricks are cut along every axis.
+// Returns a domain of 70 x 52 columns of some 12 km and 18 levels, whose last bricks are cut along
+// every axis.
 inline GridSpec small_domain() {
     GridSpec spec = default_spec(41, -75);
     spec.projection = Projection::latitude_longitude;
@@ -32,7 +33,7 @@ inline GridSpec small_domain() {
     return spec;
 }
 
-// Holds the grids to which its partials point.
+// Holds grids, and partials that point to them.
 class Partials {
   public:
     explicit Partials(GridSpec domain) : domain_(std::move(domain)) {}
@@ -56,7 +57,8 @@ class Partials {
         grids_.push_back(BrickGrid::from(grid, quantization));
         all_.push_back({grids_.back().view(), site});
     }
-    // Bricks of every kind: some uniform, some with states alone, some with everything.
+    // Adds a partial with bricks of every kind: some uniform, some with states only, some with
+    // values.
     void add_random(const SitePosition& site, const GridWindow& window,
                     const Quantization& quantization, unsigned seed) {
         std::mt19937 random(seed);

@@ -1,4 +1,4 @@
-// tests/grid/method_of.h -- a method by what most tests vary in it.
+// tests/grid/method_of.h -- makes a method from the members that most tests vary.
 #pragma once
 
 #include "stormcellar/grid/method.h"

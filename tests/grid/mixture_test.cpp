@@ -1,4 +1,4 @@
-// Tests the status rule case by case (docs/geometry.md), and means on a circle.
+// Tests each case of the status rule (docs/geometry.md), and means on a circle.
 #include "grid/sweep/mixture.h"
 
 #include <random>
@@ -75,7 +75,7 @@ TEST(Blend, EqualStatesStay) {
 TEST(Blend, VelocitiesAreLinearOnTheNyquistCircle) {
     const auto circle = Blending::nyquist_circle;
     EXPECT_FLOAT_EQ(mix(valued(10, 25), valued(20, 25), 0.25F, circle).value, 12.5F);
-    // From 24 up to -24, which is 26: the mean of both is 25, which is the same as -25.
+    // From 24 up to -24 (which is 26 on the circle), the mean is 25, the same as -25.
     EXPECT_FLOAT_EQ(mix(valued(24, 25), valued(-24, 25), 0.5F, circle).value, -25);
     EXPECT_FLOAT_EQ(mix(valued(24, 25), valued(-24, 25), 0.25F, circle).value, 24.5F);
     EXPECT_FLOAT_EQ(mix(valued(24, 25), valued(-24, 25), 0.75F, circle).value, -24.5F);

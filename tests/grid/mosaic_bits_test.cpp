@@ -1,5 +1,5 @@
-// Tests what must not change a bit of a mosaic: the order of arrival, threads, an update instead of
-// a merge, bricks that are not to be read.
+// Tests what must not change a bit of a mosaic: the order of the partials, the number of threads,
+// an update instead of a merge, and the contents of bricks that are not read.
 #include <algorithm>
 #include <memory>
 #include <random>
@@ -86,7 +86,7 @@ TEST(MosaicBits, AnUpdateIsAFullMerge) {
         auto mosaic = merge(domain, partials.all(), options);
         ASSERT_TRUE(mosaic);
         for (unsigned round = 0; round < 12; ++round) {
-            // A new volume, or a site that comes, goes, or moves its window.
+            // A site has a new volume, appears, disappears, or moves its window.
             std::vector<Partial>& all = partials.all();
             std::vector<GridWindow> changed;
             const std::size_t at = random() % sites.size();
@@ -114,7 +114,7 @@ TEST(MosaicBits, AnUpdateIsAFullMerge) {
     }
 }
 
-// Each stripe, made from only the partials that touch it, is the same as in the full merge.
+// Each stripe, made from only the partials that touch it, must equal that part of the full merge.
 TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
     for (const Quantization& quantization : {one_byte, two_bytes}) {
         Partials partials = random_partials(quantization, 10);
@@ -140,8 +140,8 @@ TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
     }
 }
 
-// Bricks in which nothing is seen are not read, whatever they are on disk. Nor are bricks that no
-// changed window touches.
+// Damages bricks in which nothing is seen, and bricks that no changed window touches: neither must
+// be read.
 TEST(MosaicBits, ReadsOnlyWhatIsOccupiedAndTouched) {
     Partials partials = random_partials(one_byte, 9);
     const GridSpec& domain = partials.domain();
@@ -162,7 +162,7 @@ TEST(MosaicBits, ReadsOnlyWhatIsOccupiedAndTouched) {
     ASSERT_TRUE(made);
     expect_same_bits(*expected, *made);
 
-    // all but the bricks of one window
+    // all bricks outside the changed window
     const GridWindow changed{32, 32, 16, 32};
     for (std::size_t s = 0; s < all.size(); ++s) {
         const GridWindow window = *window_of(domain, *all[s].view.spec);

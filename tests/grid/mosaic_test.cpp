@@ -1,5 +1,5 @@
-// Tests the rules of merging, against the slow oracle and by hand. What must be the same to the bit
-// is in mosaic_bits_test.cpp.
+// Tests the rules of merging against the slow oracle and by hand. mosaic_bits_test.cpp tests what
+// must be the same to the bit.
 #include "stormcellar/grid/mosaic.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using level2::Moment;
 
-// Counts what was compared, so that a test can check that it was enough.
+// Counts the compared cells, so that a test can check that there were enough.
 struct Compared {
     std::array<int, 4> states{};
     int close = 0;
@@ -116,7 +116,8 @@ TEST(Mosaic, ShortAndLongWeightsLoseNoSite) {
     }
 }
 
-// Two sites at one place, so that their weights are equal: every pair of states by hand.
+// Uses two sites at one place, whose weights are therefore equal, and computes every pair of states
+// by hand.
 TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     GridSpec domain = square_spec(41, -75, 16);
     domain.levels_m = {1000};
@@ -126,7 +127,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
         value = state == weak ? 10.0F : 40.0F;
     };
     Partials partials(domain);
-    // the same place under another name
+    // This site is at the same place, with another name.
     partials.add({"KAAA", 41, -75, 0}, {0, 0, 16, 16}, one_byte,
                  [&](int ix, int, int, auto& status, float& value) { put(ix % 5, status, value); });
     partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, one_byte,
@@ -136,7 +137,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
         const auto made = merge(domain, partials.all(), options);
         const BrickView view = made->cells.view();
         const CellStatus status = view.status(a, b, 0);
-        // returns states as -100, -101 and -102, which no value is
+        // States become -100, -101 and -102, which are no values.
         if (status != CellStatus::value) return -100 - static_cast<int>(status);
         return static_cast<double>(view.value(a, b, 0));
     };
@@ -159,7 +160,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
         EXPECT_EQ(state_of(overlap, Moment::zdr, weak, nothing), 10) << "v = n is a value";
         EXPECT_EQ(state_of(overlap, Moment::zdr, folded, strong), 40) << "f = v is a value";
         EXPECT_EQ(state_of(overlap, Moment::zdr, folded, nothing), no_echo) << "f = n is no echo";
-        // Detection limits of -41.5 dBZ at 1 km, some 15 km away and 1 km up.
+        // The detection limit is -41.5 dBZ at 1 km; the radar is some 15 km away and 1 km below.
         const double arc_km = std::hypot(domain.x_m(strong), domain.y_m(nothing)) / 1000;
         const double limit = -41.5 + 20 * std::log10(std::hypot(arc_km, 1.0));
         EXPECT_NEAR(state_of(overlap, Moment::ref, strong, nothing), (40 + limit) / 2, 0.2551);
@@ -168,15 +169,15 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, nothing, weak), 10);
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, weak), 10);
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, nothing), no_echo);
-    // If two are equally near, the first by name counts.
+    // Of two sites that are equally near, the first by name counts.
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, weak, strong), 10);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, strong, weak), 40);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, folded, weak), range_folded);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, nothing, weak), no_echo);
 }
 
-// Two radars see one smooth field, one of them 2 dB stronger. Where the window of the second ends,
-// its weight is at most 3.4 % of one, and half of that of the first, which is 140 km nearer.
+// Two radars see one smooth field, but the second is 2 dB too strong. Where its window ends, its
+// weight is at most 3.4 % of 1, and half the weight of the first radar, which is 140 km nearer.
 TEST(Mosaic, NoSeamWhereAWindowEnds) {
     GridSpec domain = default_spec(41, -76);
     domain.nx = 256;
@@ -232,13 +233,13 @@ TEST(Mosaic, MeansBelowTheCodesAreClampedAndCounted) {
     partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, one_byte, fill_with(CellStatus::no_echo));
     const auto made = merge(domain, partials.all(), {});
     ASSERT_TRUE(made);
-    // Within 2 km, the limit of -41.5 dBZ at 1 km is below -32.
+    // Within 2 km, the limit of -41.5 dBZ at 1 km is below -32 dBZ.
     EXPECT_EQ(made->cells.view().value(8, 8, 0), -32);
     EXPECT_GT(made->cells.clamped_count(), 0U);
     EXPECT_LT(made->cells.clamped_count(), 60U);
 }
 
-// docs/geometry.md says how near c (arc^2 + height^2) is to the slant range over the 4/3 earth.
+// docs/geometry.md states how near c (arc^2 + height^2) is to the slant range over the 4/3 earth.
 TEST(Mosaic, TheDetectionLimitIsThatOfTheSlantRange) {
     double largest_db = 0;
     for (const double altitude_m : {0.0, 3000.0}) {

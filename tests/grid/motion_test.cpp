@@ -1,4 +1,4 @@
-// Tests that a known motion is found from two grids.
+// Tests that the estimate from two grids recovers a known motion.
 #include "grid/mosaic/motion.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double accuracy_mps = 1.5;  // grid/mosaic/motion.h
+constexpr double accuracy_mps = 1.5;  // as in grid/mosaic/motion.h
 constexpr double apart_s = 300;
 
 GridSpec spec_of(int cells, double spacing_m) {
@@ -22,7 +22,7 @@ GridSpec spec_of(int cells, double spacing_m) {
     return spec;
 }
 
-// Some fifteen storms, all different, all over the grid.
+// Returns some fifteen different storms all over the grid.
 std::vector<Blob> storms(double east_mps, double north_mps) {
     std::vector<Blob> blobs;
     for (int i = 0; i < 15; ++i) {
@@ -131,10 +131,10 @@ TEST(EchoImage, HoldsTheMeanOfColumnMaximaAboveTheFloor) {
         grid.status[spec.index(ix, iy, iz)] = CellStatus::value;
         grid.values[spec.index(ix, iy, iz)] = dbz;
     };
-    set(0, 0, 1, 25);  // 20 above the floor
+    set(0, 0, 1, 25);  // 20 dB above the floor
     set(0, 0, 2, 15);
-    set(1, 0, 2, 45);  // 40
-    set(2, 0, 0, 60);  // too low to count
+    set(1, 0, 2, 45);  // 40 dB above the floor
+    set(2, 0, 0, 60);  // below the lowest level that counts
     set(3, 0, 1, 4);   // below the floor
     const auto bricks = BrickGrid::from(grid, default_quantization(level2::Moment::ref));
     const EchoImage image = echo_image(bricks.view(), {2, 5, 1500});

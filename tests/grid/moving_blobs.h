@@ -1,4 +1,4 @@
-// tests/grid/moving_blobs.h -- grids of smooth echoes that drift, whose truth is known at any
+// tests/grid/moving_blobs.h -- grids of smooth echoes that drift, so that the truth is known at any
 // instant.
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace stormcellar::grid {
 
-// Reflectivity falls with the square of the distance, by 10 dB at the radius.
+// An echo whose reflectivity falls with the square of the distance, by 10 dB at the radius.
 struct Blob {
-    double x_km = 0, y_km = 0;  // at t = 0, from the center of the grid
+    double x_km = 0, y_km = 0;  // at t = 0, relative to the center of the grid
     double radius_km = 10;
     double peak_dbz = 50;
     double east_mps = 0, north_mps = 0;
@@ -29,7 +29,8 @@ inline double blobs_dbz(const std::vector<Blob>& blobs, double x_km, double y_km
     return most;
 }
 
-// Cells below 0 dBZ have no echo. Cells farther than `seen_km` from the center are not seen.
+// Returns the grid at time t_s. Cells below 0 dBZ have no echo. Cells farther than `seen_km` from
+// the center are not seen.
 inline Grid blob_grid(const GridSpec& spec, const std::vector<Blob>& blobs, double t_s,
                       double seen_km = 1e9) {
     Grid grid;

@@ -31,7 +31,7 @@ struct Prepared {
     [[nodiscard]] Sample at(double azimuth_deg, double arc_m) const {
         return sweep.sample(static_cast<float>(azimuth_deg), place_at(arc_m));
     }
-    // At least straight above this range.
+    // Samples a place over this range, or straight above it at least.
     [[nodiscard]] Sample at_range(double azimuth_deg, double range_m) const {
         return at(azimuth_deg, beam.forward({range_m, chosen[0].elevation_deg}).arc_m);
     }
@@ -40,7 +40,7 @@ struct Prepared {
     PolarSweep sweep;
 };
 
-// Sites whose radii and altitudes cover what exists.
+// Sites whose radii and altitudes cover all real sites.
 struct Stratum {
     double latitude_deg, altitude_m;
 };
@@ -50,8 +50,7 @@ PolarSweep sweep_of(const Prepared& prepared, const BeamModel& other) {
     return {prepared.volume.sweeps[0], prepared.chosen[0], other, options(level2::Moment::ref)};
 }
 
-// Tests the tables of a sweep against the model, at arcs drawn from everywhere that the beam goes,
-// up to a height.
+// Tests the tables of a sweep against the model, at random arcs everywhere below `ceiling_m`.
 void expect_tables_of(const BeamModel& other, double elevation_deg, double ceiling_m) {
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> arc(0, 499e3);
@@ -63,7 +62,7 @@ void expect_tables_of(const BeamModel& other, double elevation_deg, double ceili
     const BeamPath upper = other.path(center_deg + 0.475);
     int compared = 0;
     for (int i = 0; i < 1500; ++i) {
-        // A third of them are close by.
+        // Draw a third of the arcs close to the radar.
         const double arc_m = i % 3 == 0 ? arc(random) / 50 : arc(random);
         const auto exact = center.over(arc_m);
         const auto low = lower.over(arc_m + ArcTable::step_m);
@@ -104,7 +103,7 @@ TEST(PolarSweep, ARadialsOwnElevationIsWithin25CentimetresOfTheModel) {
             const Prepared prepared({.elevation_deg = elevation_deg});
             const PolarSweep sweep =
                 sweep_of(prepared, BeamModel::four_thirds(latitude_deg, altitude_m));
-            // No gate is higher than 21 km or farther than 470 km.
+            // No tested gate is higher than 21 km or farther than 470 km.
             const double slope = std::tan(std::abs(elevation_deg) / 57.3);
             const double farthest_m = slope > 0 ? std::min(470e3, 21e3 / slope) : 470e3;
             std::uniform_real_distribution<double> arc(0, farthest_m);
@@ -142,9 +141,9 @@ TEST(PolarSweep, TakesTheNearestGate) {
     EXPECT_EQ(prepared.at_range(10.5, 2125 + 1799 * 250 + 125.2).status, CellStatus::not_seen);
 }
 
-// Tests stretches of gates against one gate after another, with echo, folding and no echo in them.
-// Empty stretches, also beyond the last gate, add nothing (2026-11-22: sums of limits were read
-// behind their end there, which crashed once in a few thousand volumes).
+// Tests stretches of gates against single gates, with echo, range folded and no echo in them.
+// Regression of 2026-11-22: an empty stretch beyond the last gate read sums of limits behind their
+// end, which crashed once in a few thousand volumes.
 TEST(PolarSweep, StretchesOfGatesAreTheirGates) {
     std::mt19937 random(3);
     SweepPlan plan;
@@ -273,13 +272,14 @@ TEST(PolarSweep, TheGreatestArcIsThatOfTheLastGate) {
     EXPECT_NEAR(arc_m, beam.forward({300e3, 0.5}).arc_m, 1);
 }
 
-// The edges that pass over an arc on their own side of the beam's center, by the model itself.
+// The edges that pass over an arc on their proper side of the beam's center, by the model itself.
 struct Edges {
     bool lower = false, upper = false;
     bool operator==(const Edges&) const = default;
 };
 
-// In a duct, an edge may come down to earth before its beam, or cross to its other side.
+// In a duct, an edge may meet the ground before its beam does, or cross to the other side of the
+// beam.
 TEST(PolarSweep, ABeamThatLostAnEdgeRisesAsTheHalfThatIsThere) {
     const std::vector<RefractivityLevel> levels = {
         {0, 340}, {40, 338.4}, {190, 224.4}, {1000, 200}, {10000, 60}};

@@ -1,4 +1,5 @@
-// Tests columns and places, for every projection, from pole to pole and across the antimeridian.
+// Tests conversions between columns and places for every projection, from pole to pole and across
+// the antimeridian.
 #include "stormcellar/grid/projection.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ GridSpec spec_of(Projection projection, GeoPoint center) {
     return spec;
 }
 
-// The same, over some 4000 km.
+// Returns the spec with a coarser spacing, so that it spans some 4000 km.
 GridSpec large(GridSpec spec) {
     spec.spacing_m *= 100;
     spec.spacing_deg *= 100;
@@ -47,7 +48,7 @@ double turn(double from_deg, double to_deg) {
     return std::remainder(to_deg - from_deg, 360.0);
 }
 
-// Distance between two places; accurate enough for places close together.
+// Returns the distance between two places, accurately only if they are close together.
 double apart_m(GeoPoint a, GeoPoint b) {
     return SiteFrame(a.latitude_deg, a.longitude_deg).to_polar(b).arc_m;
 }
@@ -79,8 +80,8 @@ TEST(GridProjection, RoundTripsFromPoleToPole) {
         if (near_pole) continue;
         expect_round_trips(spec_of(Projection::latitude_longitude, center));
         GridSpec cone = spec_of(Projection::lambert_conformal, center);
-        // The center is not the cone's own origin, and a cone cannot have the equator as its only
-        // parallel.
+        // The center must not be the cone's own origin, and a cone cannot have the equator as its
+        // only parallel.
         cone.parallels_deg = {center.latitude_deg + 3, std::min(center.latitude_deg + 17, 88.0)};
         expect_round_trips(cone);
         const bool has_own_cone = center.latitude_deg != 0;
@@ -145,7 +146,7 @@ TEST(GridProjection, LatitudeLongitudeIsRegularAndGoesOnAcrossTheAntimeridian) {
     EXPECT_NEAR(projection.to_column({13.45, -179.95}).x, 34.5, 1e-9);
 }
 
-// Snyder (1987), Map Projections - A Working Manual, eqs 14-15, 15-7 to 15-11, implemented
+// Implements Snyder (1987), Map Projections - A Working Manual, eqs 14-15, 15-7 to 15-11,
 // literally.
 struct SlowCone {
     Real n, f;

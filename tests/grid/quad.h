@@ -1,6 +1,6 @@
-// tests/grid/quad.h -- floats of 113 bits, for closed forms that cancel in double.
+// tests/grid/quad.h -- floats of 113 bits, for closed forms whose terms cancel in double.
 //
-// The functions are those of libquadmath. They are declared here because clang lacks its header.
+// Declares functions of libquadmath, because clang lacks their header.
 #pragma once
 
 __extension__ typedef __float128 Quad;

@@ -16,13 +16,13 @@ namespace {
 
 using grid::CellStatus;
 
-constexpr double azimuth_deg = 40.2;  // neither that of a radial nor along an axis of a grid
+constexpr double azimuth_deg = 40.2;  // neither the azimuth of a radial nor along an axis of a grid
 constexpr double cell_m = 1000;
 constexpr double level_m = 500;
 constexpr double plateau_dbz = 40;
 constexpr double wave_db = 10;
 constexpr double echo_dbz = 20;
-constexpr double half_power_widths = 2.3548;  // of a Gaussian, in deviations
+constexpr double half_power_widths = 2.3548;  // of a Gaussian, in standard deviations
 constexpr std::array<double, 4> shifts_m = {-370, -110, 160, 430};
 
 struct Along {
@@ -63,7 +63,7 @@ synth::Footprint footprint_at(double range_m, double along_m, double across_m) {
     return footprint;
 }
 
-// Makes a grid about a place `ahead_m` beyond the feature, with its lattice shifted.
+// Makes a grid about the place `ahead_m` beyond the feature, with its lattice shifted by `shift_m`.
 grid::Grid grid_about(const Observed& given, const grid::Method& method, double ahead_m, int side,
                       double shift_m) {
     const synth::Site& at = given.scene.site;
@@ -85,8 +85,8 @@ grid::Grid grid_about(const Observed& given, const grid::Method& method, double 
     return made ? std::move(*made) : grid::Grid{};
 }
 
-// The place of a column in the scene's plane, and relative to the feature along and across the
-// beam.
+// A column's place in the plane of the scene, and its distances from the feature along and across
+// the beam.
 struct Place {
     double x_m = 0, y_m = 0, along_m = 0, across_m = 0;
 };
@@ -112,7 +112,7 @@ class Places {
     grid::SiteFrame frame_;
 };
 
-// Sums of Z over places.
+// Sums of Z over places, times powers of their distances.
 struct Moments {
     double sum = 0;
     std::array<double, 3> first{}, second{};  // along, across, up; km
@@ -138,7 +138,7 @@ struct PointSums {
     double peak_dbz = -100;
 };
 
-// The truth of a cell is the mean over 4 x 4 x 4 points.
+// The true value of a cell is the mean over 4 x 4 x 4 points.
 constexpr int parts = 4;
 
 double offset(int part) {
@@ -207,7 +207,7 @@ PointSums point_sums(const Observed& given, const grid::Method& method, double s
 Observed observe_point(double range_m, Gates gates) {
     synth::Scene scene = scene_of(gates);
     synth::Storm storm;
-    storm.footprint = footprint_at(range_m, 2000, 2000);  // 10 dBZ there: 40 dB below its peak
+    storm.footprint = footprint_at(range_m, 2000, 2000);  // there 10 dBZ, 40 dB below the peak
     storm.peak_dbz = 50;
     scene.weather.storms.push_back(storm);
     return observed(std::move(scene), range_m);
@@ -263,7 +263,7 @@ PointChart point_chart(const Observed& given, const grid::Method& method) {
 }
 
 EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
-    // The share of the plateau's Z by distance from the edge, in bins of 125 m.
+    // The plateau's share of Z by distance from the edge, in bins of 125 m.
     constexpr double reach_m = 8000;
     constexpr double bin_m = 125;
     constexpr auto bins = static_cast<std::size_t>(2 * reach_m / bin_m);
@@ -273,7 +273,7 @@ EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
         for_each_column(given, made, [&](int ix, int iy, const Place& place) {
             if (std::abs(place.along_m) >= reach_m || std::abs(place.across_m) > 12e3) return;
             const auto bin = static_cast<std::size_t>((place.along_m + reach_m) / bin_m);
-            // 4 to 8 km: seen at every range, and far from the top of the plateau.
+            // From 4 to 8 km, the plateau is seen at every range, far from its top.
             for (int level = 7; level < 16; ++level) {
                 const std::size_t cell = made.spec.index(ix, iy, level);
                 if (made.status[cell] == CellStatus::not_seen) continue;
@@ -283,7 +283,7 @@ EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
             }
         });
     }
-    // Returns where the share first passes a limit, linear between bins.
+    // Returns the distance at which the share first passes a limit, linear between bins.
     const auto passes_m = [&](double limit) {
         double before = 0;
         for (std::size_t bin = 0; bin < bins; ++bin) {
@@ -301,7 +301,7 @@ EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
 WaveChart wave_chart(const Observed& given, const grid::Method& method) {
     const synth::Wave& wave = given.scene.weather.boxes.front().wave;
     const bool across = wave.azimuth_deg > azimuth_deg + 45;
-    // Least squares of mean + a sin + b cos.
+    // Fit mean + a sin + b cos by least squares.
     std::array<std::array<double, 4>, 3> rows{};
     for (const double shift_m : shifts_m) {
         const grid::Grid made = grid_about(given, method, 0, 33, shift_m);

@@ -1,15 +1,14 @@
-// tests/grid/quality_chart.h -- quality figures of a grid: how wide a point becomes, how far it
-// moves, how steep an edge stays, how much of a wave is left, and whether reflectivity is
-// conserved.
+// tests/grid/quality_chart.h -- quality figures of a grid: the width of a point, how far it moves,
+// the steepness of an edge, how much of a wave remains, and whether reflectivity is conserved.
 //
 // A simulated radar (synth/observe.h, VCP 212) observes one small feature at a range. Its gates are
 // points, or means over the beam and the pulse of a WSR-88D. The grid about the feature is compared
-// with the truth in closed form, so the charts contain the effects of gate and grid together.
-// "Along" and "across" refer to the beam. Cells are 1 km wide and 500 m high. Their lattice is
-// shifted by parts of a cell from chart to chart, so that no feature is at the center of a cell by
-// chance, and charts are means over the shifts.
+// with the truth in closed form, so the charts contain the effects of both gates and grid. "Along"
+// and "across" refer to the beam. Cells are 1 km wide and 500 m high. Their lattice is shifted by
+// parts of a cell from chart to chart, so that no feature is at the center of a cell by chance.
+// Charts are means over the shifts.
 //
-// Threads   Pure: may be called from any thread.
+// Threads   Pure functions.
 #pragma once
 
 #include "stormcellar/grid/gridder.h"
@@ -17,7 +16,7 @@
 
 namespace stormcellar::grid {
 
-// A feature as its radar observes it.
+// A feature, and the volume in which its radar observes it.
 struct Observed {
     synth::Scene scene;
     level2::Volume volume;
@@ -26,39 +25,39 @@ struct Observed {
 // sampled at the center of the gate, or averaged over beam and pulse
 enum class Gates { of_points, of_beams };
 
-// A Gaussian of 1.1 km between half powers, 50 dBZ, from the ground to above 4 km.
+// Observes a Gaussian of 1.1 km between half powers, 50 dBZ, from the ground to above 4 km.
 [[nodiscard]] Observed observe_point(double range_m, Gates gates);
-// A plateau of 40 dBZ, 40 km by 40 km, whose near side is at the range.
+// Observes a plateau of 40 dBZ, 40 km by 40 km, whose near side is at the range.
 [[nodiscard]] Observed observe_edge(double range_m, Gates gates);
-// 30 +- 10 dBZ along or across the beam.
+// Observes a wave of 30 +- 10 dBZ along or across the beam.
 [[nodiscard]] Observed observe_wave(double range_m, Gates gates, double length_m, bool across);
 
-// Widths are 2.355 deviations of the distribution of Z, which is the width of a Gaussian between
-// half powers.
+// The chart of a point. Widths are 2.355 standard deviations of the distribution of Z, the width of
+// a Gaussian between half powers.
 struct PointChart {
     double along_km = 0, across_km = 0, height_km = 0;
     double true_along_km = 0, true_across_km = 0, true_height_km = 0;
-    double shift_km = 0;         // horizontal, of the centroid of Z; root of the mean square
-    double shift_height_km = 0;  // mean
+    double shift_km = 0;         // horizontal shift of the centroid of Z; root of the mean square
+    double shift_height_km = 0;  // mean vertical shift
     double peak_dbz = 0;         // the largest value
-    // Over the cells that are seen: total Z, and volume of 20 dBZ and more, divided by those of the
+    // Over the cells that are seen: total Z, and the volume of 20 dBZ and more, each divided by the
     // truth.
     double total_z_ratio = 0, echo_volume_ratio = 0;
 };
 [[nodiscard]] PointChart point_chart(const Observed& observed, const grid::Method& method);
 
-// Of the near side, in Z: the distance from 10 % to 90 % of the plateau, and how far beyond its
-// true place 50 % is.
+// The chart of the near side of the plateau, in Z: the distance from 10 % to 90 %, and how far 50 %
+// is beyond its true place.
 struct EdgeChart {
     double rise_km = 0;
     double shift_km = 0;
 };
 [[nodiscard]] EdgeChart edge_chart(const Observed& observed, const grid::Method& method);
 
-// In dBZ, fitted at the length of the wave itself.
+// The chart of a wave in dBZ, fitted at the true length of the wave.
 struct WaveChart {
     double amplitude_ratio = 0;
-    double shift_km = 0;  // of the phase
+    double shift_km = 0;  // shift of the phase
 };
 [[nodiscard]] WaveChart wave_chart(const Observed& observed, const grid::Method& method);
 

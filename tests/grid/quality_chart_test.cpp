@@ -14,7 +14,7 @@ namespace {
 
 constexpr double cell_km = 1;
 constexpr double gate_km = 0.25;
-// Half a degree in the lowest three cuts, a degree in those above.
+// spacing of the lowest three cuts; higher cuts have one degree
 constexpr double fine_deg = 0.5;
 constexpr double coarse_deg = 1;
 
@@ -31,7 +31,8 @@ const Method area = method_of(Interpolation::linear, CellExtent::area, Averaging
 class AtRange : public ::testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Kilometres, AtRange, ::testing::Values(50, 150));
 
-// No method moves a point by more than a quarter of the largest of cell, gate and radial spacing.
+// No method may move a point by more than a quarter of the largest of cell, gate and radial
+// spacing.
 TEST_P(AtRange, APointStaysWhereItIs) {
     const double range_km = GetParam();
     const Observed point = observe_point(range_km * 1000, Gates::of_points);
@@ -43,9 +44,9 @@ TEST_P(AtRange, APointStaysWhereItIs) {
     }
 }
 
-// Sampling adds at most the variance of the boxes that it treats as points (a gate, the distance
-// between radials, and a cell), which is s^2 / 12 for each. Linear weights double that of the boxes
-// between which they interpolate.
+// Sampling adds at most the variance s^2 / 12 of each box that it treats as a point (a gate, the
+// distance between radials, and a cell). Linear weights double the variance of the boxes between
+// which they interpolate.
 TEST_P(AtRange, APointIsNoWiderThanGateRadialAndCellMakeIt) {
     const double range_km = GetParam();
     const Observed point = observe_point(range_km * 1000, Gates::of_points);
@@ -72,8 +73,8 @@ TEST_P(AtRange, TheBeamsPatternSmearsAcrossTheBeam) {
     EXPECT_GT(point_chart(point, by_beam).across_km, point_chart(point, linear).across_km);
 }
 
-// The mean in Z over all gates in a cell preserves the total. Points do so only on average, and the
-// mean in dB always loses some.
+// The mean in Z over all gates of a cell preserves the total. Points preserve it only on average,
+// and the mean in dB always loses some.
 TEST(Conservation, TheMeanInZOverCellsKeepsTheTotal) {
     const Observed point = observe_point(50e3, Gates::of_points);
     const PointChart in_z = point_chart(point, area);
@@ -83,7 +84,8 @@ TEST(Conservation, TheMeanInZOverCellsKeepsTheTotal) {
     EXPECT_LT(point_chart(point, in_db).total_z_ratio, in_z.total_z_ratio - 0.05);
 }
 
-// An edge is at least as steep as the widest box of the average, and within half of it.
+// An edge must be at least as steep as the widest box of the average, and not shift by more than
+// half that box.
 TEST_P(AtRange, AnEdgeAlongTheBeamStaysAsSteepAsGatesAndCells) {
     const Observed edge = observe_edge(GetParam() * 1000, Gates::of_points);
     for (const Method& method : {nearest, linear, eight, by_beam}) {
@@ -91,14 +93,14 @@ TEST_P(AtRange, AnEdgeAlongTheBeamStaysAsSteepAsGatesAndCells) {
         EXPECT_LT(chart.rise_km, 2 * gate_km + 0.25) << method.name();
         EXPECT_LT(std::abs(chart.shift_km), gate_km / 2 + 0.13) << method.name();
     }
-    // A box of the width of a cell, seen at 40 degrees: at most 1.41 km from corner to corner.
+    // A box as wide as a cell, seen at 40 degrees, is at most 1.41 km from corner to corner.
     const EdgeChart chart = edge_chart(edge, area);
     EXPECT_GT(chart.rise_km, 0.4);
     EXPECT_LT(chart.rise_km, 1.6);
 }
 
-// The nearest radial is a box of the distance between radials. The mean over a box of width w
-// leaves sin(pi w / length) / (pi w / length) of a wave.
+// The nearest radial acts as a box as wide as the distance between radials. The mean over a box of
+// width w leaves sin(pi w / length) / (pi w / length) of a wave.
 TEST_P(AtRange, AWaveKeepsWhatAMeanOverABoxLeaves) {
     const double range_km = GetParam();
     const Observed wave = observe_wave(range_km * 1000, Gates::of_points, 8000, true);

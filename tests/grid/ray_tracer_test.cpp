@@ -1,6 +1,5 @@
 // Tests each line of the accuracy in stormcellar/grid/ray_tracer.h, over strata with the hard
-// cases: horizontal and falling rays, layers that bend the ray back, high and low antennas, steep
-// beams.
+// cases: level and falling rays, layers that bend the ray back, high and low antennas, steep beams.
 #include "stormcellar/grid/ray_tracer.h"
 
 #include <algorithm>
@@ -27,8 +26,8 @@ RefractivityProfile exponential(double n_units = 313, double scale_m = 7350) {
     return RefractivityProfile::exponential(n_units, scale_m).value();
 }
 
-// Levels from the altitude of the antenna on, with gradients per km between them, then those of the
-// exponential.
+// Returns a profile with these gradients per km from the altitude of the antenna up to each top,
+// and the exponential atmosphere above.
 RefractivityProfile layered(double altitude_m, std::vector<std::pair<double, double>> tops) {
     double n_units = exponential().at(altitude_m).n_units;
     std::vector<RefractivityLevel> levels = {{altitude_m - 20, n_units}};
@@ -64,7 +63,8 @@ int turns_before(const TracedRay& ray, double range_m) {
         if (node.height_rate * last < 0) ++turns;
         if (node.height_rate != 0) last = node.height_rate;
     }
-    // The stretch that holds the range begins at a turning point, or continues the one before.
+    // The stretch that holds the range begins at a turning point, or continues the previous
+    // stretch.
     const auto next = std::find_if(ray.nodes().begin(), ray.nodes().end(),
                                    [&](const RayNode& node) { return node.range_m > range_m; });
     if (next != ray.nodes().end() && next->height_rate * last < 0) ++turns;
@@ -91,7 +91,7 @@ void check(const RefractivityProfile& profile, const RayOptions& options, const 
     const double stretch_m = slow.range_m - range_m;
     const double height_m = std::abs(there.height_m - point.height_m);
     const double arc_m = std::abs(there.arc_m - slow.arc_m);
-    // NaN or a large error in range must not pass as a small error in height.
+    // A NaN or a large error in range must not look like a small error in height.
     ASSERT_LT(std::abs(stretch_m), 200) << options.elevation_deg << " deg, " << range_m << " m";
     worst.height_m = std::max(worst.height_m, height_m);
     worst.arc_m = std::max(worst.arc_m, arc_m);
@@ -106,7 +106,7 @@ void check_strata(const Site& site, const RefractivityProfile& profile, Worst& w
         std::uniform_real_distribution<double> anywhere(0, ray.nodes().back().range_m);
         for (const double range_m : {-1000.0, -10.0, 10.0, 1e3, 3e4, 1e5, 2.3e5, 4.7e5,
                                      anywhere(random), anywhere(random)}) {
-            // Near the turning point of a level beam, height says little about range: see below.
+            // Height says little about range where a level beam turns; another test covers this.
             if (range_m < 1e3 && std::abs(elevation_deg) < 0.01) continue;
             check(profile, options, ray, range_m, worst);
         }
@@ -135,7 +135,7 @@ TEST(RayTracer, SmoothAtmospheres) {
 TEST(RayTracer, KinkedAtmospheres) {
     Worst worst;
     for (const Site& site : sites) {
-        // A dry layer over a moist one, an inversion, and strong bending next to the ground.
+        // A dry layer over a moist layer, an inversion, and strong bending near the ground.
         check_strata(site, layered(site.altitude_m, {{500, -60}, {600, -130}, {1500, -20}}), worst);
         check_strata(site, layered(site.altitude_m, {{300, -120}, {310, 40}, {1200, -40}}), worst);
         check_strata(site, layered(site.altitude_m, {{400, 30}, {1000, -50}}), worst);
@@ -153,7 +153,7 @@ TEST(RayTracer, Ducts) {
     expect_within(worst, 0.01, 500);
 }
 
-// A level beam near the antenna is a parabola whose curvature is 1 / r + n' / n.
+// A level beam begins as a parabola with the curvature 1 / r + n' / n.
 TEST(RayTracer, ALevelBeamBeginsAsAParabola) {
     for (const Site& site : sites) {
         for (const auto& profile :
@@ -178,7 +178,7 @@ TEST(RayTracer, ALevelBeamBeginsAsAParabola) {
     }
 }
 
-// Straight lines need no quadrature: the triangle of center, antenna and point.
+// A straight line needs no quadrature, only the triangle of center, antenna and point.
 TEST(RayTracer, AVacuumLeavesItStraight) {
     for (const double elevation_deg : {-0.1, 0.0, 0.5, 5.0, 60.0, 89.999, 90.0}) {
         const RayOptions options = options_for({35, 390}, elevation_deg);
@@ -202,7 +202,7 @@ TEST(RayTracer, BouguersInvariantHoldsAtEveryNode) {
     const auto profile = layered(390, {{100, -300}, {400, -40}, {460, -500}, {1500, -35}});
     for (const double elevation_deg : {-0.3, 0.0, 0.2, 3.0}) {
         RayOptions options = options_for({35, 390}, elevation_deg);
-        // with it, the rate of height is the sine of the elevation
+        // With the geometric range, the rate of height is the sine of the elevation.
         options.range_kind = RangeKind::geometric;
         const TracedRay ray(profile, options);
         const auto invariant = [&](const RayNode& node) {
@@ -237,7 +237,7 @@ TEST(RayTracer, ARayThatMeetsTheFloorEndsThere) {
     EXPECT_FALSE(std::isnan(ray.at(end_m).arc_m));
     EXPECT_TRUE(std::isnan(ray.at(end_m + 1).arc_m));
     EXPECT_TRUE(std::isnan(ray.over(ray.nodes().back().arc_m + 1).height_m));
-    // From 4,000 m, a ray at -1 degree turns before it is that low.
+    // From 4,000 m, a ray at -1 degree turns upward before it reaches the floor.
     EXPECT_TRUE(TracedRay(exponential(), options_for({35, 4000}, -2.5)).meets_floor());
     EXPECT_FALSE(TracedRay(exponential(), options_for({35, 4000}, -1)).meets_floor());
 }
@@ -250,7 +250,8 @@ TEST(RayTracer, ADuctHoldsLowRaysAndLetsSteepOnesGo) {
     EXPECT_GT(TracedRay(profile, options_for({35, 50}, 0.6)).at(460e3).height_m, 10e3);
 }
 
-// 300 N-units at the ground lengthen the optical path of low beams by a share of 3e-4.
+// Refractivity of 300 N-units at the ground lengthens the optical path of low beams by 3e-4 of
+// itself.
 TEST(RayTracer, OpticalRangeIsLongerThanThePath) {
     RayOptions options = options_for({35, 0}, 0.5);
     const TracedRay optical(exponential(), options);

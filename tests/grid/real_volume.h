@@ -1,6 +1,6 @@
-// tests/grid/real_volume.h -- real volumes and the sites that made them.
+// tests/grid/real_volume.h -- real volumes and their sites.
 //
-// A test that uses them begins with STORMCELLAR_NEED_DATA().
+// A test that uses a real volume begins with STORMCELLAR_NEED_DATA().
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@
 
 namespace stormcellar::grid {
 
-// Decodes a file, or a folder of chunks, of the real data: "volumes/KLOT20220317_000842_V06".
+// Decodes a file, or a folder of chunks, of the real data, such as
+// "volumes/KLOT20220317_000842_V06".
 [[nodiscard]] inline level2::Volume real_volume(const std::string& name) {
     return level2::decode_path(*stormcellar::testing::data_directory() / name).value().volume;
 }

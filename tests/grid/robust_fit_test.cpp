@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<double, fit_size> truth = {1.5, -0.5, 0.25, 3};
 constexpr FitChoice all = {true, true, true, true};
 
-// Rows of a linear model. Rows of a block have an error in common.
+// Returns rows of a linear model. The rows of a block have an error in common.
 std::vector<FitRow> made(unsigned seed, int blocks, int rows_a_block, double common, double own) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -46,7 +46,7 @@ TEST(RobustFit, FindsExactNumbers) {
     }
 }
 
-// If a tenth of the rows is far off, the result changes only a little.
+// Moves a tenth of the rows far off; the result may change only a little.
 TEST(RobustFit, OutliersHardlyCount) {
     auto rows = made(2, 60, 20, 0, 0.1);
     for (std::size_t i = 0; i < rows.size(); i += 10)
@@ -58,13 +58,13 @@ TEST(RobustFit, OutliersHardlyCount) {
     EXPECT_LT(found->deviation, 20);
 }
 
-// The stated errors are the scatter over many draws, although the rows of a block are off together.
-// Computed from their number alone, they would be a quarter of it.
+// The stated errors must equal the scatter over many draws, although the rows of a block are off
+// together. Errors from the number of rows alone would be a quarter of that.
 TEST(RobustFit, ErrorsAreThoseOfBlocksThatAreOffTogether) {
     std::array<double, fit_size> scatter{}, stated{};
     constexpr int draws = 200;
     for (unsigned seed = 0; seed < draws; ++seed) {
-        // Residuals about the truth, as after the step.
+        // Residuals about the truth, as after the last step.
         auto rows = made(100 + seed, 40, 30, 1, 0.3);
         for (FitRow& row : rows) {
             for (std::size_t j = 0; j < fit_size; ++j)

@@ -15,7 +15,7 @@ namespace {
 
 const SitePosition ktlx{"KTLX", 35.3333, -97.2778, 389};
 
-// Echo in the eastern half, changing from gate to gate.
+// Returns a volume with echo in its eastern half that changes from gate to gate.
 level2::Volume half_volume() {
     SweepPlan plan;
     plan.code = [](int radial, int gate) {
@@ -54,7 +54,7 @@ TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
         EXPECT_GE(column.ix, 98) << "there is no echo in the west";
     }
     EXPECT_EQ(draws, 3000);
-    // Weights are one over the sizes: columns of each size are as likely as their number.
+    // Weights are 1 / size, so the weighted share of each size must equal its share of columns.
     EXPECT_GT(columns, 0);
     const ColumnSample again = scene->draw(3000, 1);
     EXPECT_EQ(again.columns.size(), sample.columns.size()) << "the same seed, the same columns";
@@ -140,7 +140,7 @@ GridPlan planned_for(const level2::Volume& volume, const GridSpec& spec, const c
         .value();
 }
 
-// Thin echo: a column has few of the cells that it could have, so a bound needs many columns.
+// With thin echo, a column has few of the cells that it could have, so a bound needs many columns.
 TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     SweepPlan low;
     low.code = [](int radial, int gate) {
@@ -159,12 +159,12 @@ TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     EXPECT_EQ(planned.choice.method.cell, CellExtent::point);
 }
 
-// Nothing changes from place to place, so interpolation matters only at the edge of the echo.
+// Without changes from place to place, interpolation matters only at the edge of the echo.
 TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
     const level2::Volume volume = make_volume(plans_at({0.5, 1.5, 2.5}));
     const GridPlan planned = planned_for(volume, spec_of(60, 2000), "20 km, 1 dB");
     EXPECT_TRUE(planned.plan.meets_budget);
-    // Linear may cost no more than nearest.
+    // Linear may happen to cost no more than nearest.
     EXPECT_LE(planned.choice.method.interpolation, Interpolation::linear);
     EXPECT_EQ(planned.choice.method.cell, CellExtent::point);
     EXPECT_EQ(planned.choice.method.averaging, Averaging::in_db);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double reach_m = 500e3;
 
-// Returns the largest distance from exact geodesics, in meters, within reach.
+// Returns the largest distance from exact geodesics within reach, in meters.
 double greatest_error_m(const SitePosition& site, const GridSpec& spec) {
     const SiteColumns columns(site, spec, reach_m);
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);

@@ -1,4 +1,4 @@
-// Two radars look at the same simulated weather. One of them is made faulty, one fault at a time.
+// Tests that each fault is found: two radars see the same simulated weather, and one has a fault.
 #include "grid/judge/site_comparison.h"
 
 #include <chrono>
@@ -38,7 +38,7 @@ Radar radar_at(const char* station, double longitude_deg, unsigned seed) {
 
 struct Gridded {
     BrickGrid bricks;
-    Grid grid;  // for its details
+    Grid grid;  // the view's details point here
     SitePosition site;
 
     [[nodiscard]] SiteGrid as_site() const { return {bricks.view(), site, &grid.details}; }
@@ -64,7 +64,7 @@ Gridded gridded(const Radar& radar, const GridSpec& spec, UtcTime instant) {
     return {std::move(bricks), std::move(*grid), radar.site};
 }
 
-// Made once; the sites are 110 km apart.
+// Makes the weather once for all tests. The sites are 110 km apart.
 class SiteComparisonTest : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -98,7 +98,7 @@ class SiteComparisonTest : public ::testing::Test {
             of.b, of.a, text(of.bias_db), text(of.azimuth_deg), text(of.elevation_deg),
             text(of.time_s), of.cells, of.blocks, of.deviation_db);
     }
-    // Checks that the estimates are right within the accuracy that the header states.
+    // Checks the estimates within the accuracy that the header states.
     static void expect(const SiteComparison& found, double bias_db, double azimuth_deg,
                        double elevation_deg, double time_s) {
         EXPECT_NEAR(found.bias_db.value, bias_db, 0.4);
@@ -172,7 +172,7 @@ TEST_F(SiteComparisonTest, WithoutAMotionThereIsNoTime) {
         ElementsAre("XSYB against XSYA: time cannot be determined: the weather stands still"));
 }
 
-// The same echo, seen five minutes later and 8 km farther: no fault of the antenna.
+// The second site sees the same echo five minutes later and 8 km farther, without a fault.
 TEST_F(SiteComparisonTest, LooksMinutesApartWithoutAMotionTellNoAngles) {
     Radar b = *b_;
     change_radials(b.volume,
@@ -184,7 +184,7 @@ TEST_F(SiteComparisonTest, LooksMinutesApartWithoutAMotionTellNoAngles) {
     EXPECT_THAT(faults(found), IsEmpty());
 }
 
-// Other weather at the same places.
+// Shows the second site other weather at the same places.
 TEST_F(SiteComparisonTest, SitesThatHardlySeeTheSameTellNothing) {
     Radar b = *b_;
     turn_clockwise(b.volume, 40.0F);
@@ -213,7 +213,7 @@ TEST_F(SiteComparisonTest, WithoutEchoInCommonNothingIsTold) {
     EXPECT_THAT(untold(*few)[0], HasSubstr("too little echo in common"));
 }
 
-// A grid of its own projection and place, cells of another size: the same faults.
+// Finds the same faults in a grid with its own projection, center and size of cells.
 TEST_F(SiteComparisonTest, GridsNeedNotBeTheSame) {
     GridSpec spec = domain();
     spec.projection = Projection::lambert_conformal;

@@ -32,8 +32,7 @@ GridSpec spec_of(const Case& of) {
     return spec;
 }
 
-// Returns the error of the worst column in units of the accuracy stated in the header, over every
-// third column.
+// Returns the worst error over every third column, as a share of the accuracy in the header.
 double worst_of(const Case& of, std::size_t& nodes) {
     const GridSpec domain = spec_of(of);
     const SitePosition site{"TEST", of.site.latitude_deg, of.site.longitude_deg, 0};

@@ -27,8 +27,8 @@ TEST(SiteFrame, RoundTripsWithinTenNanometres) {
     }
 }
 
-// The worked example of Vincenty (1975) as published by Geoscience Australia: Flinders Peak to
-// Buninyong on GRS80, which WGS84 matches here to 0.1 mm.
+// Uses the worked example of Vincenty (1975) as published by Geoscience Australia: Flinders Peak to
+// Buninyong on GRS80, which differs from WGS84 by 0.1 mm here.
 TEST(SiteFrame, AgreesWithAPublishedLine) {
     const SiteFrame flinders_peak(-(37 + 57 / 60.0 + 3.72030 / 3600),
                                   144 + 25 / 60.0 + 29.52440 / 3600);

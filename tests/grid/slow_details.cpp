@@ -65,7 +65,7 @@ SlowColumn::SlowColumn(const level2::Volume& volume, const std::vector<ChosenSwe
                                              longitude_deg, arc_m, azimuth_deg, there_deg);
     for (const ChosenSweep& choice : chosen)
         add_sweep(volume.sweeps[choice.sweep_index], choice, {azimuth_deg, arc_m});
-    // A lost cut keeps its place: adjacent by places, not by beams.
+    // A lost cut keeps its position in the order, whatever beams are beside it.
     std::vector<bool> adjacent;
     for (const Beam& beam : beams_)
         adjacent.push_back(beam.adjacent_to_next);
@@ -80,7 +80,7 @@ SlowColumn::SlowColumn(const level2::Volume& volume, const std::vector<ChosenSwe
 std::optional<std::uint32_t> SlowColumn::nearest_radial(const level2::Sweep& sweep,
                                                         const ChosenSweep& chosen,
                                                         Real azimuth_deg) {
-    // The nearest radial on each side, its distance, and the nearest of all.
+    // The nearest radial on each side with its distance, and the nearest of both.
     Real left_deg = 1e9L;
     Real right_deg = 1e9L;
     std::uint32_t left = 0;
@@ -89,7 +89,7 @@ std::optional<std::uint32_t> SlowColumn::nearest_radial(const level2::Sweep& swe
     for (const std::uint32_t radial : chosen.radials) {
         azimuths_deg.push_back(*normal_azimuth(sweep.radials[radial].azimuth_deg));
         const Real turn_deg = turn_to(azimuth_deg, azimuths_deg.back());
-        // If azimuths are equal, the later radial counts.
+        // Of radials at equal azimuths, the later counts.
         if (turn_deg >= 0 && turn_deg <= right_deg) {
             right_deg = turn_deg;
             right = radial;
@@ -113,7 +113,7 @@ std::optional<std::uint32_t> SlowColumn::nearest_radial(const level2::Sweep& swe
 
 void SlowColumn::add_sweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
                            const Place& column) {
-    // The beam is at no height over this arc.
+    // The beam has no height over this arc.
     const Real angle = chosen.elevation_deg * degree + column.arc_m / radius_m_;
     if (!(angle < 89.9L * degree)) return;
     Beam beam;

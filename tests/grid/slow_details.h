@@ -1,6 +1,5 @@
-// tests/grid/slow_details.h -- the oracle of stormcellar/grid/cell_details.h for a point sample of
-// the nearest gates. It follows the definitions there, one column at a time, in long double,
-// without tables.
+// tests/grid/slow_details.h -- the oracle of stormcellar/grid/cell_details.h for point samples of
+// the nearest gates: one column at a time, in long double, without tables.
 #pragma once
 
 #include <optional>
@@ -14,8 +13,8 @@ namespace stormcellar::grid {
 struct SlowDetails {
     double seen = 0;
     std::optional<double> age_s, height_offset_m, distance_m;
-    std::vector<std::size_t> sweeps;  // that make up the cell
-    std::size_t nearest = 0;          // of those that see it
+    std::vector<std::size_t> sweeps;  // sweeps that make up the cell
+    std::size_t nearest = 0;          // nearest of the sweeps that see the cell
 };
 
 class SlowColumn {
@@ -23,15 +22,15 @@ class SlowColumn {
     struct Setting {
         level2::Moment moment = level2::Moment::ref;
         double beam_width_deg = 0.95;
-        bool nearest = false;  // Interpolation::nearest
+        bool nearest = false;  // true for Interpolation::nearest
         std::optional<UtcTime> frame_time;
     };
     SlowColumn(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                const Setting& setting, const SitePosition& site, const GridSpec& spec, int ix,
                int iy);
 
-    // Returns true if the choice of the nearest gate, radial or beam depends on less than the
-    // gridder's accuracy.
+    // Returns true if another gate, radial or beam may be the nearest within the gridder's
+    // accuracy.
     [[nodiscard]] bool is_doubtful() const { return doubtful_; }
     [[nodiscard]] SlowDetails at(double height_m) const;
 
@@ -43,7 +42,7 @@ class SlowColumn {
         bool adjacent_to_next = true;
         bool is_seen = false;
         std::optional<Real> age_s;
-        Real gate_height_m = 0, gate_off_m = 0;  // gate_off_m: in the plane about the site
+        Real gate_height_m = 0, gate_off_m = 0;  // gate_off_m: distance in the plane about the site
     };
     struct Place {
         Real azimuth_deg = 0, arc_m = 0;

@@ -25,7 +25,7 @@ long double limit_dbz(const SitePosition& site, long double arc_m, double level_
     return (tdwr ? -46.0L : -41.5L) + 20 * std::log10(range_km);
 }
 
-// The mixture of states of docs/geometry.md, with no unseen state among them.
+// Mixes states by the rule of docs/geometry.md; none of them is not seen.
 void mix(const std::vector<Seen>& seen, const MosaicOptions& options, SlowCell& cell) {
     long double v = 0, n = 0, f = 0, sum = 0, weight = 0;
     const bool in_z = options.averaging == Averaging::in_z;
@@ -86,7 +86,7 @@ void take_nearest(const std::vector<Seen>& seen, SlowCell& cell) {
     cell.value = nearest->value;
 }
 
-// The partials sorted by name: if two are equally near, the first counts.
+// Returns the partials sorted by name, because the first of two equally near ones counts.
 std::vector<const Partial*> by_name(std::span<const Partial> partials) {
     std::vector<const Partial*> sorted;
     for (const Partial& partial : partials)
@@ -100,7 +100,7 @@ std::vector<const Partial*> by_name(std::span<const Partial> partials) {
 
 namespace {
 
-// Returns what each site sees of a cell, without the sites that do not see it.
+// Returns the states that sites see in a cell, without sites that do not see it.
 std::vector<Seen> all_seen(const GridSpec& domain, const std::vector<const Partial*>& sorted,
                            const std::vector<long double>& arcs_m, const MosaicOptions& options,
                            int ix, int iy, int iz) {

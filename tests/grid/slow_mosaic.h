@@ -1,5 +1,5 @@
 // tests/grid/slow_mosaic.h -- the oracle of merging: one cell at a time, in long doubles, with a
-// geodesic for every site and column and a list of all that sites see of the cell.
+// geodesic for every site and column and a list of what each site sees of the cell.
 #pragma once
 
 #include <span>
@@ -14,11 +14,11 @@ struct SlowCell {
     long double value = 0;
     int count = 0;
     long double weight = 0;
-    // Two weights, or two distances, that decide the state are nearly equal.
+    // True if two weights, or two distances, that decide the state are nearly equal.
     bool is_close = false;
 };
 
-// For every cell, by the index of the domain's spec.
+// Returns every cell, by the index of the domain's spec.
 [[nodiscard]] std::vector<SlowCell> slow_mosaic(const GridSpec& domain,
                                                 std::span<const Partial> partials,
                                                 const MosaicOptions& options);

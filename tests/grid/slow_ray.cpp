@@ -20,13 +20,14 @@ class Walk {
         const Quad elevation = Quad{options.elevation_deg} * acosq(-1) / 180;
         constant_ = n_r(height_, profile.layer_index(options.antenna_altitude_m)) * cosq(elevation);
         upwards_ = options.elevation_deg > 0;
-        if (options.elevation_deg == 0) {  // upward unless n r falls with height
+        if (options.elevation_deg == 0) {  // upward, unless n r falls with height
             const std::size_t layer = profile.layer_index(options.antenna_altitude_m);
             upwards_ = n_r(height_ + Quad{1e-3}, layer) > n_r(height_, layer);
         }
     }
 
-    // Goes to the height, or to the next turning point if that comes first; then returns false.
+    // Goes to the height, or to the next turning point if that comes first. Returns false in that
+    // case.
     bool go_towards(Quad goal);
     // Goes to the next turning point. Returns false if there is none.
     bool go_to_turn() { return !go_towards(upwards_ ? greatest_height_m : least_height_m); }
@@ -52,10 +53,10 @@ class Walk {
     const RayOptions& options_;
     Quad constant_ = 0, height_ = 0, range_ = 0, angle_ = 0;
     bool upwards_ = true;
-    bool just_turned_ = true;  // or just begun, perhaps horizontally
+    bool just_turned_ = true;  // just turned or begun, so the ray may be level
 };
 
-// The first place from `from` to `to` where n r falls below the constant.
+// Finds the first height on the way from `from` to `to` where n r is below the constant.
 bool Walk::find_turn(Quad from, Quad to, std::size_t layer, Quad& turn) const {
     constexpr int pieces = 100;
     Quad good = from;
@@ -76,7 +77,7 @@ bool Walk::find_turn(Quad from, Quad to, std::size_t layer, Quad& turn) const {
     return false;
 }
 
-// The tanh-sinh rule: its nodes concentrate at the ends, where the integrand may behave as 1 /
+// Uses the tanh-sinh rule, whose nodes are dense at the ends, where the integrand may grow as 1 /
 // sqrt.
 void Walk::integrate(Quad from, Quad to, std::size_t layer) {
     constexpr int halves = 64;
@@ -112,7 +113,7 @@ bool Walk::go_towards(Quad goal) {
         Quad turn = 0;
         const bool turns = find_turn(height_, end, layer, turn);
         if (turns) end = turn;
-        for (Quad from = height_; from != end;) {  // pieces in which N changes little
+        for (Quad from = height_; from != end;) {  // in pieces in which N changes little
             Quad to = upwards_ ? std::min(end, from + 30000) : std::max(end, from - 30000);
             integrate(from, to, layer);
             from = to;

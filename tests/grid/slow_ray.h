@@ -1,8 +1,8 @@
 // tests/grid/slow_ray.h -- a ray through spherical layers, by quadrature of Bouguer's law.
 //
-// n r cos(elevation) = C gives range and arc between two heights as integrals over height, taken
-// layer by layer between turning points by the tanh-sinh rule in 113-bit floats. Nothing is stepped
-// along the ray.
+// n r cos(elevation) = C makes range and arc between two heights integrals over height. They are
+// computed layer by layer between turning points, by the tanh-sinh rule in 113-bit floats, without
+// stepping along the ray.
 #pragma once
 
 #include "stormcellar/grid/ray_tracer.h"
@@ -14,8 +14,8 @@ struct SlowRay {
     double arc_m = 0;
 };
 
-// Returns where a ray that has passed `turns` turning points reaches a height; NaN if it never
-// does. Uses radius, altitude, elevation and kind of range of the options.
+// Returns the point where a ray that has passed `turns` turning points reaches a height; NaN if it
+// never does. Uses the options' radius, altitude, elevation and kind of range.
 [[nodiscard]] SlowRay slow_ray(const RefractivityProfile& profile, const RayOptions& options,
                                int turns, double height_m);
 

@@ -1,5 +1,5 @@
-// Tests soundings: the formula of refractivity against the form in the Recommendation, the format,
-// and the message for each way in which a file can be wrong.
+// Tests soundings: refractivity against the formula of the Recommendation, the format, and the
+// message for each kind of wrong file.
 #include "grid/beam/sounding.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ std::string refusal(const std::string& text) {
     return profile ? "" : profile.error().message;
 }
 
-// The wet and the dry term as ITU-R P.453 gives them now: 77.6 Pd / T + 72 e / T + 3.75e5 e / T^2.
+// The current ITU-R P.453 has 77.6 Pd / T + 72 e / T + 3.75e5 e / T^2, for the dry and the wet air.
 TEST(Sounding, RefractivityIsThatOfTheRecommendation) {
     for (const double temperature_c : {-60.0, -20.0, 0.0, 15.0, 30.0, 40.0}) {
         for (const double below_c : {0.0, 3.0, 20.0}) {
@@ -35,11 +35,11 @@ TEST(Sounding, RefractivityIsThatOfTheRecommendation) {
             EXPECT_NEAR(ours, full, 0.001 * full) << temperature_c << ' ' << below_c;
         }
     }
-    // Dry air of the standard atmosphere at sea level: 77.6 * 1013.25 / 288.15.
+    // For dry air of the standard atmosphere at sea level, 77.6 * 1013.25 / 288.15.
     EXPECT_NEAR(refractivity(1013.25, 15, -150), 272.9, 0.05);
 }
 
-// Goff and Gratch: 6.11 hPa at 0, 23.37 at 20, 1.2540 (over water) at -20, 73.78 at 40 degrees.
+// Goff and Gratch give 6.11 hPa at 0, 23.37 at 20, 1.2540 (over water) at -20, 73.78 at 40 degrees.
 TEST(Sounding, SaturationPressureIsThatOfTheTables) {
     EXPECT_NEAR(saturation_pressure_hpa(0), 6.11, 0.01);
     EXPECT_NEAR(saturation_pressure_hpa(20), 23.37, 0.05);
@@ -74,7 +74,7 @@ TEST(Sounding, ReadsRefractivityAndRelativeHumidity) {
     EXPECT_NEAR(humid->at(1000).n_units, 77.6 * 900 / 288.15, 1e-9);
 }
 
-// 2026-11-21: the byte order mark that some editors write hid the first column.
+// Regression of 2026-11-21: a byte order mark, which some editors write, hid the first column.
 TEST(Sounding, AByteOrderMarkIsNoPartOfTheFirstColumn) {
     const std::string text = "height_m,refractivity\n0,320\n1000,280\n";
     const auto marked = parse_sounding("\xEF\xBB\xBF" + text, "n");
@@ -157,7 +157,7 @@ TEST(Sounding, ReadsAFileAndSaysWhichIsMissing) {
     EXPECT_EQ(missing.error().code, ErrorCode::not_found);
 }
 
-// Any bytes give a finite profile, or a message of one line that names the file.
+// Any bytes must yield a finite profile, or a message of one line that names the file.
 TEST(Sounding, SurvivesMutations) {
     std::mt19937_64 random(20261121);
     const std::string seed = head + "0,1000,20,10\n500,945,17,9\n1500,845,12,1\n9000,308,-42,-55\n";
@@ -166,7 +166,8 @@ TEST(Sounding, SurvivesMutations) {
     for (int i = 0; i < 20'000; ++i) {
         std::string text = seed;
         for (int edits = static_cast<int>(random() % 3) + 1; edits > 0; --edits) {
-            // Mostly in the numbers, because without its columns nothing can be read.
+            // Change mostly the numbers, because nothing can be read without the names of the
+            // columns.
             const std::size_t first =
                 random() % 5 > 0 && text.size() > head.size() ? head.size() : 0;
             const std::size_t at = first + random() % (text.size() - first);

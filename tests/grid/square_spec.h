@@ -1,4 +1,4 @@
-// tests/grid/square_spec.h -- the spec of a grid over a square.
+// tests/grid/square_spec.h -- makes the spec of a square grid.
 #pragma once
 
 #include "stormcellar/grid/grid_spec.h"

@@ -59,7 +59,7 @@ TEST(ChooseSweeps, OfRepeatedCutsTheNearestInTimeCountsWhereATimeIsGiven) {
     auto volume = make_volume({plan(0.5), plan(1.4), plan(0.5), plan(2.4), plan(0.49)});
     for (std::size_t i = 0; i < volume.sweeps.size(); ++i) {
         for (level2::Radial& radial : volume.sweeps[i].radials)
-            radial.time += std::chrono::seconds(20 * i);  // medians at 29, 49, 69, 89, 109 s
+            radial.time += std::chrono::seconds(20 * i);  // medians at 29, 49, 69, 89 and 109 s
     }
     const auto at = [&](double seconds) {
         return choose_sweeps(volume, level2::Moment::ref, 0.475, at_s(seconds));
@@ -90,8 +90,8 @@ TEST(ChooseSweeps, TheNearestInTimeMustBeFitToo) {
     EXPECT_EQ(chosen[0].repeats, 1U);
 }
 
-// 2026-11-21: where gates end at a ceiling, a Doppler sweep reaches 90 % as far as its surveillance
-// sweep (KDMX and KCCX at 2.5 degrees) and was taken for reflectivity.
+// Regression of 2026-11-21: where gates end at a ceiling, a Doppler sweep that reaches 90 % as far
+// as its surveillance sweep (KDMX and KCCX at 2.5 degrees) was chosen for reflectivity.
 TEST(ChooseSweeps, ASplitCutGivesTheSurveillanceSweepThatReachesHardlyFarther) {
     auto volume = make_volume({plan(2.5, 330), plan(2.5, 298)});
     for (level2::Radial& radial : volume.sweeps[0].radials)
@@ -108,7 +108,8 @@ TEST(ChooseSweeps, ASplitCutGivesTheSurveillanceSweepThatReachesHardlyFarther) {
     EXPECT_EQ(indices(velocity), (std::vector<std::size_t>{1})) << "short by nature: the newest";
 }
 
-// Each elevation's sweep for a moment, and whether it is a surveillance sweep, which has no VEL.
+// The sweep chosen at each elevation for a moment, and whether it is a surveillance sweep (without
+// VEL).
 struct RealChoice {
     std::vector<std::size_t> sweeps;
     std::vector<bool> surveillance;
@@ -146,7 +147,7 @@ TEST(ChooseSweeps, EachMomentOfRealSplitCutsComesFromItsSweep) {
     }
 }
 
-// VCP 212 with MRLE: 0.5 and 0.9 degrees again in the middle of the volume.
+// VCP 212 with MRLE repeats 0.5 and 0.9 degrees in the middle of the volume.
 TEST(ChooseSweeps, RepeatedCutsOfARealVolume) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume("chunks/L2D_230");
@@ -162,8 +163,8 @@ TEST(ChooseSweeps, RepeatedCutsOfARealVolume) {
     ASSERT_TRUE(start);
     EXPECT_EQ(first(choose_of(volume, Moment::ref, start).sweeps), (Sweeps{0, 2, 4}));
     EXPECT_EQ(first(choose_of(volume, Moment::vel, start).sweeps), (Sweeps{1, 3, 5}));
-    // Midway between the two medians of each pair, the two sides of the border choose different
-    // sweeps.
+    // Just before and just after the middle between the two medians of a pair, different sweeps are
+    // chosen.
     const auto pair = choose_sweeps(volume, Moment::ref, 0.475, start);
     const auto later = choose_sweeps(volume, Moment::ref, 0.475);
     EXPECT_EQ(pair[0].repeats, 2U);
@@ -187,7 +188,7 @@ TEST(ChooseSweeps, TheVcpsAngleTellsCutsApartWhenTheAntennaIsOff) {
     volume.sweeps[0].vcp_elevation_deg = 0.48F;
     volume.sweeps[1].vcp_elevation_deg = 0.88F;
     EXPECT_EQ(choose(volume).size(), 2U);
-    volume.sweeps[1].vcp_elevation_deg = 19.5F;  // contradicts what was measured
+    volume.sweeps[1].vcp_elevation_deg = 19.5F;  // contradicts the measured elevations
     EXPECT_EQ(choose(volume).size(), 1U);
 }
 

@@ -1,4 +1,4 @@
-// Tests that the time of a cell is recovered from one line for each sweep.
+// Tests that one SweepTime for each sweep suffices to find the time of a cell.
 #include "grid/sweep/sweep_clock.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// grid/sweep/sweep_clock.h, at the 95th percentile.
+// as in grid/sweep/sweep_clock.h, at the 95th percentile of cells
 constexpr double accuracy_s = 2;
 constexpr double accuracy_of_step = 0.06;
 
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Volumes, RealClock,
                                            "mosaic-northeast/KOKX20100911_011047_V03.gz"));
 
 TEST(SweepTimes, AreThoseOfTheRadials) {
-    // The sweeps begin 20 s after each other; a radial of one degree takes 50 ms
+    // The sweeps begin 20 s apart, and a radial of one degree takes 50 ms
     // (tests/grid/volume_maker.h).
     const level2::Volume volume =
         make_volume({{.elevation_deg = 0.5, .cut = 1},
@@ -93,7 +93,7 @@ TEST(SweepTimes, AreThoseOfTheRadials) {
     clock.read(azimuth_deg, arc_m, levels, seconds);
     const BeamGeometry beam(35, 300);
     const double low_m = beam.over(arc_m, 0.5).height_m, high_m = beam.over(arc_m, 2.4).height_m;
-    const double low_s = 4.5, high_s = 20 + 13.5;  // 90 and 270 degrees at 20 a second
+    const double low_s = 4.5, high_s = 20 + 13.5;  // 90 and 270 degrees at 20 degrees per second
     EXPECT_NEAR(seconds[0], low_s, 1e-4);
     for (const std::size_t level : {1U, 2U}) {
         const double share = (levels[level] - low_m) / (high_m - low_m);
@@ -102,7 +102,8 @@ TEST(SweepTimes, AreThoseOfTheRadials) {
     EXPECT_NEAR(seconds[3], high_s, 1e-4);
 }
 
-// 2026-11-28: half a volume with the date of another year moved echo by 8.7 GB of columns.
+// Regression of 2026-11-28: half a volume had the date of another year, so its echo moved so far
+// that the columns took 8.7 GB.
 TEST(SweepTimes, OfAnotherDayAreNone) {
     level2::Volume volume =
         make_volume({{.elevation_deg = 0.5, .cut = 1}, {.elevation_deg = 2.4, .cut = 2}});

@@ -43,8 +43,8 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// The slow and obvious form: every radial and every gate is asked. It shares with the lookup the
-// decoded volume and the formula of the beam.
+// The slow and obvious form, which searches every radial and every gate. Shares only the decoded
+// volume and the formula of the beam with the lookup.
 class SlowSweep {
   public:
     SlowSweep(const level2::Sweep& sweep, Moment moment, const SitePosition& site)
@@ -79,7 +79,7 @@ class SlowSweep {
 
     [[nodiscard]] Answer at(PolarPoint place) const {
         Answer answer;
-        // The nearest radial on either side.
+        // The nearest radial on each side.
         double before = -400;
         double after = 400;
         std::size_t nearest = used_.front();
@@ -90,7 +90,7 @@ class SlowSweep {
             if (turn > 0) after = std::min(after, turn);
             const double best = turn_deg(place.azimuth_deg,
                                          static_cast<double>(sweep_.radials[nearest].azimuth_deg));
-            // If two are at one azimuth, the later one counts.
+            // Of radials at one azimuth, the later counts.
             if (std::abs(turn) <= std::abs(best)) nearest = i;
         }
         const double off = std::min(after, -before);
@@ -100,7 +100,7 @@ class SlowSweep {
         if (is_gap && off > spacing_deg_ / 2) return answer;
         const level2::SweepMoment& kind = *kind_of(nearest);
         for (std::int32_t gate = 0; gate < kind.gate_counts[nearest]; ++gate) {
-            // Half of a gate before the antenna is not seen by it.
+            // A gate before the antenna is not seen, even if half of it is beyond.
             if (kind.range_m(gate) < 0) continue;
             const double from = arc_of(kind.range_m(gate) - 0.5 * kind.gate_spacing_m);
             const double to = arc_of(kind.range_m(gate) + 0.5 * kind.gate_spacing_m);
@@ -152,11 +152,11 @@ struct Case {
     const char* file;
     Moment moment;
     std::optional<double> elevation_deg;
-    std::size_t sweep;  // the one that is meant, by `stormcellar info`
+    std::size_t sweep;  // the expected sweep, by `stormcellar info`
 };
 
-// Message 1, with gates of 1 km and 250 m, and message 31, with radials of half a degree and of
-// one.
+// Returns cases of message 1, with gates of 1 km and 250 m, and of message 31, with radials of half
+// a degree and of one degree.
 const std::vector<Case>& cases() {
     static const std::vector<Case> all = {
         {"KTLX19990503_235621.gz", Moment::ref, std::nullopt, 0},
@@ -172,7 +172,7 @@ const std::vector<Case>& cases() {
 }
 
 struct Compared {
-    std::map<CellStatus, int> places;  // of each state
+    std::map<CellStatus, int> places;  // number of places with each state
     int skipped = 0;
 };
 
@@ -269,7 +269,7 @@ TEST(SweepLookup, FindsSweepsByNumberAngleAndTime) {
     EXPECT_THAT(elevations_deg(*real.volume, Moment::vel, half_beam_deg), ::testing::SizeIs(9));
 }
 
-// SAILS: the low sweep comes back later in the volume, and the newest is drawn.
+// With SAILS, the low sweep is repeated later in the volume, and the newest is found.
 TEST(SweepLookup, TakesTheNewestOfSeveralSweepsOfAnAngle) {
     STORMCELLAR_NEED_DATA();
     const RealVolume real = volume_of("KLBB20160601_150025_V06");
@@ -292,7 +292,7 @@ TEST(SweepLookup, TakesTheNewestOfSeveralSweepsOfAnAngle) {
         << "a sweep that comes back is no elevation of its own";
 }
 
-// A made sweep without the radials from 90 to 100 degrees: nothing was seen there.
+// Uses a sweep without the radials from 90 to 100 degrees, where nothing is seen.
 TEST(SweepLookup, MissingRadialsAreNotSeen) {
     STORMCELLAR_NEED_DATA();
     const RealVolume real = volume_of("KLBB20160601_150025_V06");

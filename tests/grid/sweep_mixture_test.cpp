@@ -41,8 +41,8 @@ TEST(ArcTable, ErrsByHalfTheSecondDerivativeTimes250MetresSquared) {
     EXPECT_GE(worst, 1e-6 * 250 * 250 - 1e-3);
 }
 
-// The largest distance of a gate from its place in the plane through the center of a cell, for
-// outlines of 20 km.
+// Returns the largest distance of a gate from its place in the plane through the center of a cell,
+// for outlines of 20 km.
 double worst_off_plane_m(double elevation_deg, double farthest_m, double latitude_deg,
                          double altitude_m) {
     SweepPlan plan{.elevation_deg = elevation_deg, .gate_spacing_m = 1000};
@@ -68,7 +68,7 @@ double worst_off_plane_m(double elevation_deg, double farthest_m, double latitud
     return worst_m;
 }
 
-// Looks to 470 km, or at least to where the beam is 21 km high (grid/sweep/sweep_mixture.h).
+// Tests ranges up to 470 km, or up to where the beam is 21 km high (grid/sweep/sweep_mixture.h).
 TEST(GatesInside, StandWhereThePlaneThroughTheCentreHasThem) {
     struct Place {
         double latitude_deg;

@@ -1,4 +1,4 @@
-// Tests grids for an instant against echoes that are known at any time.
+// Tests grids for an instant against echoes whose truth is known at any time.
 #include "grid/mosaic/time_interpolation.h"
 
 #include <cmath>
@@ -54,7 +54,7 @@ InstantOptions options_at(double seconds, TimeMethod method, const MotionField* 
     return InstantOptions{.instant = at_second(seconds), .method = method, .motion = motion};
 }
 
-// RMS of values where the truth is above 5 dBZ; cells without a value count as 0 dBZ.
+// Returns the RMS error where the truth is above 5 dBZ. Cells without a value count as 0 dBZ.
 double rms_error(const Pair& pair, const Grid& grid, double t_s) {
     double sum = 0;
     int count = 0;
@@ -81,7 +81,7 @@ TEST(GridAt, AdvectedIsTheTruthOfWhatDrifts) {
     const MotionField motion({0.02F, 0.01F});
     for (const double t_s : {0.0, 60.0, 150.0, 222.0, 300.0}) {
         const Grid grid = pair.at(options_at(t_s, TimeMethod::advected, &motion));
-        // A step of 0.5 dB at either end, and what linear interpolation cuts off the peaks.
+        // Both ends are rounded to steps of 0.5 dB, and linear interpolation lowers the peaks.
         EXPECT_LT(rms_error(pair, grid, t_s), 0.35) << t_s;
     }
 }
@@ -119,7 +119,7 @@ TEST(GridAt, BlendAtEitherEndIsThatVolume) {
 
 TEST(GridAt, ACellThatOneEndHasNotSeenIsTheOtherOnes) {
     const Pair all(moving);
-    const Pair part(moving, spec_of(), 40);  // sees 40 km
+    const Pair part(moving, spec_of(), 40);  // the radar sees 40 km
     InstantOptions options = options_at(100, TimeMethod::blend);
     const auto made = grid_at(all.early(), part.late(), *all.geometry, options);
     ASSERT_TRUE(made);
@@ -144,7 +144,7 @@ TEST(GridAt, WhatComesFromBeyondTheEdgeIsNotSeen) {
     EXPECT_EQ(grid.status[pair.spec.index(119, 60, 0)], CellStatus::no_echo);
 }
 
-// The storm of the lower sweep was seen at 0 s, that of the upper one 200 s later.
+// The lower sweep sees its storm at 0 s, the upper sweep sees its storm at 200 s.
 TEST(GridAt, EachSweepIsMovedFromItsOwnTime) {
     const GridSpec spec = spec_of();
     const std::vector<Blob>& blobs = moving;

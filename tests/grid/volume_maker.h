@@ -1,4 +1,4 @@
-// tests/grid/volume_maker.h -- small volumes in which every gate is known.
+// tests/grid/volume_maker.h -- makes small volumes in which every gate is known.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace stormcellar::grid {
 
-// Codes of reflectivity at scale 2, offset 66: code 66 is 0 dBZ.
+// Codes of reflectivity have scale 2 and offset 66, so code 66 is 0 dBZ.
 inline constexpr std::uint16_t below_threshold = 0;
 inline constexpr std::uint16_t range_folded = 1;
 [[nodiscard]] constexpr std::uint16_t ref_code(double dbz) {
@@ -27,11 +27,11 @@ struct SweepPlan {
     int gate_spacing_m = 1000;
     level2::Moment moment = level2::Moment::ref;
     int word_size_bits = 8;
-    // The code of a gate.
+    // Returns the code of a gate.
     std::function<std::uint16_t(int radial, int gate)> code = [](int, int) { return ref_code(20); };
 };
 
-// Returns plans like this one at each of the elevations, for cuts 1, 2, 3 ...
+// Returns copies of a plan at each of the elevations, as cuts 1, 2, 3 ...
 [[nodiscard]] inline std::vector<SweepPlan> plans_at(const std::vector<double>& elevations_deg,
                                                      SweepPlan like = {}) {
     std::vector<SweepPlan> plans;
