@@ -1,6 +1,6 @@
 // grid/cells/level_table.h -- the levels of a grid, and the place of a height among them.
 //
-// A lookup is exact: a table of equal steps gives a start, and the search ends on the levels.
+// A lookup is exact: it starts from a table of equal steps and searches on along the levels.
 //
 // Threads   Immutable.
 #pragma once

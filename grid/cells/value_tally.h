@@ -8,10 +8,8 @@
 // Range     2^32 grids.
 // Threads   Plain data; one thread at a time changes it.
 // Accuracy  A quantile is the middle of a bin of 5 dBZ, so it is within 2.5 dBZ, except in the
-// first
-//           and the last bin. Means and maxima are exact for the codes. A sum of Z rounds each
-//           value
-//           to 0.001 mm^6/m^3.
+//           first and the last bin. Means and maxima are exact for the codes. A sum of Z rounds
+//           each value to 0.001 mm^6/m^3.
 #pragma once
 
 #include <algorithm>

@@ -8,10 +8,10 @@
 // with its own gates.
 //
 // Grid      Between cells the grid is trilinear, by the status rule of docs/geometry.md over the
-// eight
-//           cells around the gate, because the nearest cell may be up to 0.9 km away in a grid of 1
-//           km. Values are in the unit of the moment (REF always in dB, with no echo at the gate's
-//           detection limit). Values of VEL and PHI differ by the shorter way around their circle.
+//           eight cells around the gate, because the nearest cell may be up to 0.9 km away in a
+//           grid of 1 km. Values are in the unit of the moment (REF always in dB, with no echo at
+//           the gate's detection limit). Values of VEL and PHI differ by the shorter way around
+//           their circle.
 // Gates     Every n-th radial and every n-th gate, from the first; the steps determine n. The gates
 //           are the same for any number of threads. Gates beyond the centers of the outermost cells
 //           are not used.
@@ -21,10 +21,8 @@
 //           no bound: the grid smooths gates between levels and columns, including their noise, and
 //           neighboring gates of a radar differ by 2.6 dB.
 // Cost      Half the time of gridding, in proportion to the number of gates. For 460 x 460 x 32
-// cells
-//           with one thread of a busy machine, 19 to 29 ms about the site, and 24 to 39 ms away
-//           from
-//           the site.
+//           cells with one thread of a busy machine, 19 to 29 ms about the site, and 24 to 39 ms
+//           away from the site.
 // Threads   A pure function, with the same bits for any number of threads.
 #pragma once
 

@@ -12,24 +12,20 @@
 // both faulty pairs.
 //
 // Method    Least squares of A's cells minus B, where B is read (trilinear) at the places to which
-// the
-//           faults move the cells, over the derivatives of the cells by each fault. Gauss and
-//           Newton
-//           with B evaluated anew in each step, Huber's weights, and the jackknife over blocks of
-//           24
-//           km (grid/judge/robust_fit.h). docs/geometry.md has the formulas.
+//           the faults move the cells, over the derivatives of the cells by each fault. Gauss and
+//           Newton with B evaluated anew in each step, Huber's weights, and the jackknife over
+//           blocks of 24 km (grid/judge/robust_fit.h). docs/geometry.md has the formulas.
 // Cells     Every n-th column, at all levels, from `least_range_m` (clutter) to `greatest_range_m`
-// of
-//           both sites. A cell counts if A has a value there and B has values in it and in its six
-//           neighbors. The mean of A and B must be at least `least_dbz`, so that no detection limit
-//           selects for one site.
+//           of both sites. A cell counts if A has a value there and B has values in it and in its
+//           six neighbors. The mean of A and B must be at least `least_dbz`, so that no detection
+//           limit selects for one site.
 // Untold    A fault that the cells do not determine has no estimate: if there are too few cells, if
 //           the sites hardly see the same (correlation), or if faults have the same effect there.
 //           Without a motion, this is the case for the time, and also for azimuth and elevation if
 //           the sites looked minutes apart.
 // Grids     The grids may be windows of one domain or differ altogether, because places are
-// compared
-//           through the earth and columns through each grid's projection. Reflectivity only.
+//           compared through the earth and columns through each grid's projection. Reflectivity
+//           only.
 // Limits    Finds only faults that displace the echo by up to about 2 km.
 // Accuracy  Enforced by tests/grid/site_comparison_test.cpp (synthetic weather seen by two sites
 //           110 km apart, noise of 1 dB, storms at 25 m/s): 0.4 dB, 0.12 degrees of azimuth, 0.15

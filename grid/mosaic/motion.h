@@ -1,8 +1,7 @@
 // grid/mosaic/motion.h -- estimates how echo moved from one grid to a later one.
 //
 // Model     Echo moves in the plane of the grid, with the same motion at all heights; it may grow
-// and
-//           decay. The estimate is the motion that makes parts of the two column-maximum images
+//           and decay. The estimate is the motion that makes parts of the two column-maximum images
 //           (grid/mosaic/echo_image.h) correlate best: first for the whole image, then for
 //           overlapping blocks, near the motion of the whole. Each block counts by its correlation.
 //           The field of motions is smoothed. Where there is no echo, the motion of the whole

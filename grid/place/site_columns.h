@@ -10,8 +10,7 @@
 // Accuracy  For a grid about the site itself: 1e-6 m. Otherwise, within `reach_m` and against exact
 //           geodesics: 5 m for plane projections with a center up to 1500 km away, 30 m for
 //           latitude_longitude up to 60 degrees and 90 m up to 75 degrees. For latitude_longitude
-//           at
-//           sites beyond 75 degrees, or around the whole earth, each place is solved exactly.
+//           at sites beyond 75 degrees, or around the whole earth, each place is solved exactly.
 //           Enforced by tests/grid/site_columns_test.cpp.
 // Threads   Immutable.
 #pragma once

@@ -10,10 +10,9 @@
 // extent do not add up, so every pair of them is timed (accuracy::JointCost).
 //
 // Accuracy  The aim is a factor of 1.5 of the actual time. bench/bench_plan.cpp measures it over
-// real
-//           volumes (docs/performance.md). No test enforces it, because it depends on a clock. For
-//           one thread the prediction is processor time, which equals elapsed time if the processor
-//           is free.
+//           real volumes (docs/performance.md). No test enforces it, because it depends on a clock.
+//           For one thread the prediction is processor time, which equals elapsed time if the
+//           processor is free.
 // Threads   As for the scene (grid/plan/grid_scene.h).
 #pragma once
 

@@ -54,7 +54,7 @@ inline constexpr std::string_view circle = "circle";
 // second.
 [[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
 
-// Returns the choice with the table in place of geodesics, as it is measured.
+// Returns the choice to measure instead: the same, but the table in place of geodesics.
 [[nodiscard]] SceneChoice as_measured(SceneChoice choice);
 
 // Returns the extra effort (stormcellar/accuracy/effect.h) of these two rungs together, beyond the

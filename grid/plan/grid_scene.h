@@ -81,8 +81,8 @@ struct SampledErrors {
 
 class GridScene {
   public:
-    // Makes a scene. The volume must outlive it. Errors: those of make_grid() and
-    // make_column_geometry().
+    // Makes a scene. The volume must outlive it. Errors: the errors of make_grid()
+    // and make_column_geometry().
     [[nodiscard]] static Result<GridScene> make(const level2::Volume& volume,
                                                 const SitePosition& site, const GridSpec& spec,
                                                 const SceneOptions& options);

@@ -6,8 +6,8 @@
 // not extend across gaps. If radials have the same azimuth, the later one in the given order
 // counts. Radials may be in any order and number, and may wrap around north.
 //
-// A lookup is exact: a table of quarter degrees gives a start, and a step or two along sorted
-// boundaries gives the sector.
+// A lookup is exact: it starts from a table of quarter degrees and takes a step or two along
+// sorted boundaries.
 //
 // Units     Degrees, clockwise from north.
 // Threads   Immutable.

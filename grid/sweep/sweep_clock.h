@@ -4,8 +4,7 @@
 // keeps a SweepTime for each sweep, from which the clock computes the time of any cell.
 //
 // Model     The antenna turns clockwise at constant speed. The time of a cell is the mean of the
-// two
-//           sweeps whose beams (4/3 earth) pass next below and above it, with weights linear in
+//           two sweeps whose beams (4/3 earth) pass next below and above it, with weights linear in
 //           height. Above and below all beams, only the nearest sweep counts.
 // Accuracy  For real volumes, the 95th percentile over cells: the larger of 2 s and 6 % of the
 //           longest time from one sweep to the next, against the mean time of the cell's gates

@@ -1,8 +1,7 @@
 // Checks the promises of the planner over real volumes of every kind:
 // - If an effect that the plan left off is forced on, the grid changes by less than the budget.
-// - For each effect there is a scene whose plan has it on, and in which the grid changes by more
-// than
-//   a tenth of the budget if the effect is forced off.
+// - If an effect that plans turned on for its size is forced off, the grid changes by more than a
+//   tenth of the budget in at least one scene.
 // - The planned grid differs from the oracle's grid by at most the budget.
 #include <algorithm>
 #include <cmath>

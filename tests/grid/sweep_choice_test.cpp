@@ -108,8 +108,7 @@ TEST(ChooseSweeps, ASplitCutGivesTheSurveillanceSweepThatReachesHardlyFarther) {
     EXPECT_EQ(indices(velocity), (std::vector<std::size_t>{1})) << "short by nature: the newest";
 }
 
-// The sweep chosen at each elevation for a moment, and whether it is a surveillance sweep (without
-// VEL).
+// The sweep chosen at each elevation for a moment. `surveillance` is true for sweeps without VEL.
 struct RealChoice {
     std::vector<std::size_t> sweeps;
     std::vector<bool> surveillance;

@@ -12,7 +12,7 @@
 //
 // Units     Each member names its unit; `value` is in `value_unit`.
 // Threads   Budgets are plain values and all functions are pure, so any thread may use them.
-// Errors    parse_budget() returns bad_argument; the message says what is wrong.
+// Errors    parse_budget() returns bad_argument; the message names the mistake.
 #pragma once
 
 #include <optional>

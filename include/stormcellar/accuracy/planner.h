@@ -15,8 +15,8 @@
 //
 // Units     As in stormcellar/accuracy/budget.h and chain.h.
 // Threads   Pure functions.
-// Errors    The errors of list_candidates(); bad_argument for a budget without any limit, or with
-//           a value in another unit than the chain's.
+// Errors    The errors of list_candidates(); bad_argument for a budget without any limit, or with a
+//           value in another unit than the chain's.
 #pragma once
 
 #include "stormcellar/accuracy/plan.h"

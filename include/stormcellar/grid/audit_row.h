@@ -23,9 +23,9 @@ struct AuditRow {
     float elevation_deg = 0;        // the measured elevation of the sweep
     float range_from_m = 0;         // gates from this slant range on,
     float range_to_m = 0;           // and below this slant range; infinite in the last class
-    std::uint32_t sampled = 0;      // gates that lie within the grid
+    std::uint32_t sampled = 0;      // gates within the grid
     std::uint32_t same_status = 0;  // of these, gates whose cell has the same status
-    std::uint32_t count = 0;        // of these, gates that have a value, as has their cell
+    std::uint32_t count = 0;        // of these, gates with a value whose cell also has a value
     float rms = 0;                  // of cell minus gate, over `count`; 0 if `count` is 0
     float mean = 0;
 

@@ -25,7 +25,7 @@ inline constexpr double wgs84_flattening = 1 / 298.257223563;
 // Returns sqrt(M N), the radius of the sphere that fits the ellipsoid best at a latitude.
 [[nodiscard]] double gaussian_radius_m(double latitude_deg) noexcept;
 
-// A point as the antenna sees it. A negative range lies behind the antenna, on the same line.
+// A point as the antenna sees it. A negative range is behind the antenna, on the same line.
 struct AntennaPoint {
     double range_m = 0;
     double elevation_deg = 0;

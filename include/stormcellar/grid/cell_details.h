@@ -73,7 +73,7 @@ class CellDetails {
     CellDetails(DetailSet set, std::size_t cells);
 
     [[nodiscard]] DetailSet set() const { return set_; }
-    // Returns a detail, or none if it is not known or was not asked for.
+    // Returns a detail; none if it is unknown or not in the set.
     [[nodiscard]] std::optional<float> at(Detail detail, std::size_t cell) const;
     // Returns the number of cells with room for details; 0 if the set is empty.
     [[nodiscard]] std::size_t size() const { return known_.size(); }

@@ -22,7 +22,7 @@ namespace stormcellar::grid {
 // of a WSR-88D.
 inline constexpr double site_reach_m = 460000;
 
-// Returns the spec of a window. The window must lie within the domain, which may itself be a window
+// Returns the spec of a window. The window must be within the domain, which may itself be a window
 // of another domain.
 [[nodiscard]] GridSpec window_spec(const GridSpec& domain, const GridWindow& window);
 

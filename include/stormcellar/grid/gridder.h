@@ -17,10 +17,8 @@
 //           bits for any number of threads.
 // Errors    See make_grid().
 // Accuracy  For the gate of a cell, the range is within 0.15 m of the model. The weights of a cell
-//           equal the model's weights for a beam up to 0.25 m higher or lower, with edges up to 1
-//           m
-//           higher or lower (grid/sweep/polar_sweep.h). tests/grid/gridder_oracle_test.cpp
-//           enforces
+//           equal the model's weights for a beam up to 0.25 m higher or lower, with edges up to 1 m
+//           higher or lower (grid/sweep/polar_sweep.h). tests/grid/gridder_oracle_test.cpp enforces
 //           both for whole grids. docs/geometry.md has the error of the model itself.
 #pragma once
 

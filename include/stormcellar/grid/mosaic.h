@@ -32,8 +32,7 @@
 //           order of ICAO, then position).
 // Errors    See each function.
 // Accuracy  Enforced by tests/grid/mosaic_test.cpp with 1- and 2-byte codes. A merged value is
-//           within 0.51 steps of the codes of the exact rule applied to the values in the
-//           partials.
+//           within 0.51 steps of the codes of the exact rule applied to the values in the partials.
 //           If the exact result is below the least code (in a mean with detection limits), the
 //           merged value is the least code. The state equals the exact rule's state, except where
 //           two weights differ by less than 1e-5 of themselves. The partials' own errors add to
@@ -119,8 +118,8 @@ struct Mosaic {
 // the windows of every partial that was added, removed or replaced since `previous` was made with
 // the same options. All other bricks are copied from `previous`.
 //
-// Errors: those of merge(); bad_argument if `previous` is incomplete or lacks the counts or weights
-// that the options ask for.
+// Errors: the errors of merge(); bad_argument if `previous` is incomplete or lacks the counts or
+// weights that the options ask for.
 [[nodiscard]] Result<Mosaic> update(const MosaicView& previous, std::span<const Partial> partials,
                                     std::span<const GridWindow> changed,
                                     const MosaicOptions& options);
@@ -130,7 +129,7 @@ struct Mosaic {
 // touch `changed`. A mosaic too large for all partials at once can be made stripe by stripe from an
 // empty one, which merge() of no partials returns.
 //
-// No view of the mosaic may be in use. Errors: those of update(), before anything changes.
+// No view of the mosaic may be in use. Errors: the same as update(), before anything changes.
 [[nodiscard]] Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
                                      std::span<const GridWindow> changed,
                                      const MosaicOptions& options);

@@ -1,16 +1,15 @@
 // stormcellar/grid/ray_tracer.h -- the path of a radar beam's axis through spherical layers of air.
 //
 // Units     Meters; heights are above mean sea level; the arc is along the sphere at sea level.
-// Model     A ray over the sphere of stormcellar/grid/beam_geometry.h, bent by Bouguer's law:
-//           n r cos(elevation) is the same everywhere along the ray.
+// Model     A ray over the sphere of stormcellar/grid/beam_geometry.h, bent by Bouguer's law: n r
+//           cos(elevation) is the same everywhere along the ray.
 // Range     The optical path. The radar measures time and multiplies it by the speed of light in
 //           vacuum, so its range is the integral of n along the ray. That is longer than the
-//           geometric path: by 56 m at 230 km and 75 m at 460 km, at 0.5 degrees in the
-//           exponential
+//           geometric path: by 56 m at 230 km and 75 m at 460 km, at 0.5 degrees in the exponential
 //           reference atmosphere. RangeKind::geometric uses the geometric path, as textbooks do.
-// Method    Runge-Kutta of order 4 for the height, the sine of the elevation and the arc. Steps
-//           are at most 2 km and end at each border between layers and at each turning point.
-//           Hermite cubics interpolate between the ends of steps.
+// Method    Runge-Kutta of order 4 for the height, the sine of the elevation and the arc. Steps are
+//           at most 2 km and end at each border between layers and at each turning point. Hermite
+//           cubics interpolate between the ends of steps.
 // Ends      The ray ends at the farthest range asked for, or where it meets the floor.
 // Bounded   After 20,000 steps, steps no longer end exactly at borders and turning points.
 // Threads   A TracedRay is immutable, so any thread may use it.

@@ -15,10 +15,9 @@
 // Threads   Immutable; any thread may use it.
 // Errors    None; the constructor states what it requires.
 // Accuracy  Enforced by tests/grid/site_distance_test.cpp for windows that site_window() returns,
-// in
-//           all projections, from pole to pole, with cells of 100 m to 50 km: the square of an arc
-//           `a` of up to 500 km is off by at most 0.2 m times the larger of `a` and 100 km. An arc
-//           beyond 100 km is therefore off by at most 0.1 m.
+//           in all projections, from pole to pole, with cells of 100 m to 50 km: the square of an
+//           arc `a` of up to 500 km is off by at most 0.2 m times the larger of `a` and 100 km. An
+//           arc beyond 100 km is therefore off by at most 0.1 m.
 #pragma once
 
 #include <array>
