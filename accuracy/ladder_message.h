@@ -14,8 +14,7 @@ namespace stormcellar::accuracy {
 struct LadderMessage {
     std::string step;    // the step whose rungs are compared
     std::string buy;     // "eight-point costs 6 times the time of linear and halves the error"
-    std::string beyond;  // "beyond it, exact costs 40 times the time of that and leaves no error";
-                         // or empty
+    std::string beyond;  // "beyond it, exact costs 40 times the time of that ..."; or empty
 
     // Returns `buy` and `beyond`, separated by a semicolon; empty if `buy` is empty.
     [[nodiscard]] std::string sentence() const;

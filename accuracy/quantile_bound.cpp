@@ -29,8 +29,7 @@ bool sensible(const BoundRequest& request) {
 std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest& request) {
     const auto count = static_cast<double>(n);
     const double log_odds = std::log1p(-request.quantile) - std::log(request.quantile);
-    double log_probability = count * std::log(request.quantile);  // for exactly k errors; k is 0
-                                                                  // here
+    double log_probability = count * std::log(request.quantile);  // for exactly k errors
     double sum = std::exp(log_probability);
     if (sum > 1 - request.confidence) return std::nullopt;
     std::size_t k = 0;

@@ -18,8 +18,7 @@ namespace stormcellar::accuracy {
 struct Timing {
     double first_s = 0;   // the first run, which also makes everything that later runs reuse
     double least_s = 0;   // the fastest later run, or the first run if there is only one
-    double median_s = 0;  // the median of the same runs (for an even number, the mean of the middle
-                          // two)
+    double median_s = 0;  // median of the same runs; of an even number, the mean of the middle two
 };
 
 // Runs each piece of work `rounds` times (0 counts as 1). Each round runs every piece once, so that

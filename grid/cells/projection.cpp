@@ -15,8 +15,7 @@ namespace {
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 constexpr double rounding_deg = 1e-9;        // 0.1 mm: the error that sums of spacings may have
 constexpr double largest_parallel_deg = 89;  // for parallels and the center of a cone
-constexpr double flattest_cone_deg = 0.01;   // cones with a smaller mean parallel are treated as
-                                             // cylinders
+constexpr double flattest_cone_deg = 0.01;   // a smaller mean parallel makes a cylinder
 
 using Cone = GeographicLib::LambertConformalConic;
 

@@ -19,8 +19,7 @@ struct PlannedSweep {
     std::size_t index = 0;                     // index of the sweep
     bool sampled = true;                       // if false, `status` holds all over the tile
     CellStatus status = CellStatus::not_seen;  // only if not sampled
-    bool adjacent_to_next = true;              // true if no cut is missing before the next sweep of
-                                               // the plan
+    bool adjacent_to_next = true;              // no cut is missing before the next one
 };
 
 // How far samples reach beyond a column, and from how many sweeps above and below a cell takes

@@ -43,9 +43,8 @@ namespace stormcellar::grid {
 inline constexpr double audit_reach_m = 500e3;
 
 struct AuditOptions {
-    double azimuth_step_deg = 5;  // between sampled radials; a smaller step than the radials' takes
-                                  // all
-    double range_step_m = 1500;   // between sampled gates; a smaller step than the gates' takes all
+    double azimuth_step_deg = 5;  // between sampled radials; a very small step takes all
+    double range_step_m = 1500;   // between sampled gates; a very small step takes all
     int threads = 1;
     // Columns made for the site, the spec of the grid and audit_reach_m. If null, the call makes
     // them.

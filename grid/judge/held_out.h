@@ -23,10 +23,8 @@ struct HeldOutScore {
     TimeMethod method = TimeMethod::nearest;
     accuracy::ErrorSummary error;
     double mean_db = 0;        // reconstructed minus measured
-    double echo_missed = 0;    // share of cells measured at 20 dBZ or more and reconstructed below
-                               // 10
-    double echo_invented = 0;  // share of cells reconstructed at 20 dBZ or more and measured below
-                               // 10
+    double echo_missed = 0;    // share of cells measured at 20 dBZ or more, reconstructed below 10
+    double echo_invented = 0;  // share of cells reconstructed at 20 dBZ or more, measured below 10
     double seconds = 0;        // time of the reconstruction, including the motion
 };
 

@@ -30,8 +30,7 @@ struct FitRow {
 using FitChoice = std::array<bool, fit_size>;
 
 struct Fit {
-    std::array<double, fit_size> step{};  // add this to the numbers; 0 for a number that is not
-                                          // estimated
+    std::array<double, fit_size> step{};            // to add; 0 for a number that is not estimated
     std::array<double, fit_size> standard_error{};  // infinite if a block alone determines a number
     std::size_t blocks = 0;                         // the number of blocks with rows
     double deviation = 0;                           // 1.4826 * median magnitude of the residuals

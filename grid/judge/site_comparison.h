@@ -17,8 +17,8 @@
 //           blocks of 24 km (grid/judge/robust_fit.h). docs/geometry.md has the formulas.
 // Cells     Every n-th column, at all levels, from `least_range_m` (clutter) to `greatest_range_m`
 //           of both sites. A cell counts if A has a value there and B has values in it and in its
-//           six neighbors. The mean of A and B must be at least `least_dbz`, so that no detection
-//           limit selects for one site.
+//           six neighbors. The mean of A and B must be at least `least_dbz`, so that no site's
+//           detection limit decides which cells count.
 // Untold    A fault that the cells do not determine has no estimate: if there are too few cells, if
 //           the sites hardly see the same (correlation), or if faults have the same effect there.
 //           Without a motion, this is the case for the time, and also for azimuth and elevation if

@@ -42,8 +42,7 @@ enum class Blending {
 struct Sample {
     CellStatus status = CellStatus::not_seen;
     float value = 0;        // if the status is `value`
-    float limit = 0;        // if the status is `no_echo`: the detection limit, in the unit of
-                            // `value`
+    float limit = 0;        // if the status is `no_echo`: detection limit, in the unit of `value`
     float half_period = 0;  // for values that wrap; 0: unknown
 };
 

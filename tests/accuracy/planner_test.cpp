@@ -91,8 +91,7 @@ TEST(Planner, ErrorsAndATimeMustBothHold) {
 TEST(Planner, SettingsInTheWayAreNamed) {
     Chain chain = small_chain();
     chain.steps[1].effects[0].setting = Setting::off;
-    chain.steps[2].effects[0].setting = Setting::off;  // the averaging is set off; it has no
-                                                       // position error
+    chain.steps[2].effects[0].setting = Setting::off;  // has no position error
     const Plan far = plan_of(chain, "100 m");
     EXPECT_FALSE(far.meets_budget);
     EXPECT_EQ(far.choice.rungs, (Rungs{1, 0, 0}));

@@ -110,8 +110,7 @@ TEST(BrickGrid, BricksThatAreWrittenAgainInAnyOrderLeaveNoTrace) {
     const Quantization quantization{1, -32, 0.5F};
     const Grid before = mixed_grid(-32, 60);
     Grid after = before;
-    set_brick(after, 0, 0, 0, CellStatus::no_echo, CellStatus::range_folded);   // replaces a
-                                                                                // uniform brick
+    set_brick(after, 0, 0, 0, CellStatus::no_echo, CellStatus::range_folded);   // replaces uniform
     set_brick(after, 1, 0, 0, CellStatus::no_echo, CellStatus::range_folded);   // replaces states
     set_brick(after, 1, 1, 0, CellStatus::range_folded, CellStatus::not_seen);  // replaces states
     set_brick(after, 1, 1, 1, CellStatus::no_echo, CellStatus::no_echo);        // replaces states

@@ -48,8 +48,7 @@ void mark_pareto(std::span<LadderRow> rows, TimeKind kind = TimeKind::first);
 
 struct LadderField {
     std::string key;
-    std::variant<std::monostate, std::string, std::uint64_t, double, bool> value;  // null if
-                                                                                   // monostate
+    std::variant<std::monostate, std::string, std::uint64_t, double, bool> value;  // or null
 };
 // Returns the fields of a row: the same keys in the same order for every row.
 [[nodiscard]] std::vector<LadderField> fields(const LadderRow& row, ValueUnit unit);

@@ -26,8 +26,7 @@ struct Decision {
     bool is_asked = true;  // false for Setting::not_asked, which does not count as left off
     ErrorSize predicted;
     Evidence evidence = Evidence::sample;
-    // worst_share() of this effect alone, if it were off
-    double share = 0;
+    double share = 0;    // worst_share() of this effect alone, on or off
     std::string reason;  // plain words without a full stop
 };
 
