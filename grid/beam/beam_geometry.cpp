@@ -35,8 +35,8 @@ EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
     return {radius_m_ * std::atan2(along_m, antenna_m_ + up_m), altitude_m_ + above_antenna_m};
 }
 
-// As the antenna sees it, the point is (a + h) sin t away and (a + h) cos t - a up, where t is the
-// angle at the center. The height up also equals h - 2 (a + h) sin^2(t / 2).
+// From the antenna, the point is (a + h) sin t away and (a + h) cos t - a up, where t is the angle
+// at the center. The height up also equals h - 2 (a + h) sin^2(t / 2).
 AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     const double angle = point.arc_m / radius_m_;
     const double above_antenna_m = point.height_m - altitude_m_;

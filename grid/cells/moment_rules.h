@@ -15,7 +15,7 @@ namespace stormcellar::grid {
 
 struct MomentRules {
     level2::Moment moment = level2::Moment::ref;
-    // How values are stored. Steps are no coarser than the radar's own codes.
+    // The coding of stored values. Steps are no coarser than the radar's own codes.
     Quantization quantization = {};
     accuracy::ValueUnit value_unit = accuracy::ValueUnit::ratio;  // unit of errors
     // True if no echo enters a mean with the detection limit of its gate.

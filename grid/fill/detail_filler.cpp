@@ -14,7 +14,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// What the details need to know about a sweep besides its gates.
+// Facts about a sweep for the details, besides its gates.
 struct SweepFacts {
     std::vector<std::optional<double>> ages_s;  // by position of the radial
     // Places of the gates of each kind; empty unless the caller asks for distances.

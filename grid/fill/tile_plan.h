@@ -22,8 +22,8 @@ struct PlannedSweep {
     bool adjacent_to_next = true;              // no cut is missing before the next one
 };
 
-// How far samples reach beyond a column, and from how many sweeps above and below a cell takes
-// values.
+// The reach of samples beyond a column, and the number of sweeps above and below whose values
+// a cell may take.
 struct SampleReach {
     float azimuth_deg = 0;
     float arc_m = 0;

@@ -47,7 +47,7 @@ struct Finding {
     float difference = 0;  // grid minus gate; 0 unless both are values
 };
 
-// What mix() needs to know about a gate.
+// Facts about a gate for mix().
 struct Gate {
     float value = 0;
     float period = 0;

@@ -96,7 +96,7 @@ void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
     });
 }
 
-// What an update merges: the changed columns of bricks, and the sites whose windows touch them.
+// The input of an update: the changed columns of bricks, and the sites whose windows touch them.
 struct ChangedPart {
     std::vector<bool> columns;
     std::vector<PlacedSite> sites;

@@ -155,7 +155,7 @@ struct Columns {
             cluster.errors.push_back(-uniform(random));
         return cluster;
     }
-    // Of all cells, a share s is bad. Of all errors, a share s * 10 / t is above t, for t > 10.
+    // A share s of all cells is bad, so for t > 10 a share s * 10 / t of all errors is above t.
     [[nodiscard]] double truth(double quantile) const {
         const double cells_bad = bad * static_cast<double>(large);
         const double share = cells_bad / (cells_bad + (1 - bad) * static_cast<double>(small));

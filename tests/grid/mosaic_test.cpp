@@ -169,7 +169,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, nothing, weak), 10);
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, weak), 10);
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, nothing), no_echo);
-    // Of two sites that are equally near, the first by name counts.
+    // If two sites are equally near, the first by name counts.
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, weak, strong), 10);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, strong, weak), 40);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, folded, weak), range_folded);

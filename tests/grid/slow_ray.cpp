@@ -26,8 +26,8 @@ class Walk {
         }
     }
 
-    // Goes to the height, or to the next turning point if that comes first. Returns false in that
-    // case.
+    // Goes to the height, or to the next turning point if that comes first. Returns true at the
+    // height and false at the turning point.
     bool go_towards(Quad goal);
     // Goes to the next turning point. Returns false if there is none.
     bool go_to_turn() { return !go_towards(upwards_ ? greatest_height_m : least_height_m); }

@@ -40,7 +40,7 @@
 
 namespace stormcellar::grid {
 
-// Whether any details are computed: true if the caller asks for them.
+// True if the caller asks for any details.
 using ChosenDetails = Chosen<false, false>;
 
 enum class Detail : std::uint8_t { age, height_offset, distance, weight };

@@ -43,7 +43,7 @@ class GridSampler {
     [[nodiscard]] const BrickView& view() const { return view_; }
 
   private:
-    // What one cell adds to an address and to a brick number along one axis.
+    // The part of a cell's address and of its brick number that its place on one axis adds.
     struct Step {
         std::size_t offset = 0;
         std::size_t brick = 0;
