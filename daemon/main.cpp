@@ -54,8 +54,8 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-// Returns the part of a path that exists but is not a directory although it must be; empty if there
-// is none.
+// Returns the part of a path that should be a directory but is something else; empty if there is
+// none.
 std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     std::error_code error;
     while (!std::filesystem::exists(directory, error) && directory.has_relative_path())
@@ -182,7 +182,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
         case Stopped::cleanly:
             return EXIT_SUCCESS;
         case Stopped::with_jobs:
-            // Everything that jobs write appears whole or not at all, so this loses nothing.
+            // Jobs write files that appear whole or not at all, so ending the process here loses
+            // nothing.
             std::_Exit(exit_failed);
     }
     return exit_failed;

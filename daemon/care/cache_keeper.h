@@ -1,8 +1,9 @@
 // daemon/care/cache_keeper.h -- keeps the cache within its budgets while the service runs.
 //
-// The cache is rolled every 5 seconds, so that a file system that fills up is noticed within 10. A
-// roll may remove thousands of files, so it runs in a thread of its own. It logs what was removed
-// and what keeps the budgets from being met (at once, then every 10 minutes while it lasts).
+// It rolls the cache every 5 seconds, so that it notices a full file system within 10 seconds. A
+// roll may remove thousands of files, so it runs in a thread of its own. The log names the number
+// and the size of removed grids. If something keeps the cache over its budgets, the log says why,
+// at once and then every 10 minutes.
 //
 // Threads   One thread at a time. `wake` is called from the thread of the roll and must only
 //           signal.
@@ -27,11 +28,11 @@ class CacheKeeper {
 
     CacheKeeper(Sink& sink, std::function<void()> wake) : sink_(sink), wake_(std::move(wake)) {}
 
-    // Takes the result of a roll that has ended, and starts the next one if it is due. Returns what
-    // the cache holds if that has changed.
+    // Takes the result of the last roll if that roll has ended, and starts the next roll if it is
+    // due. Returns the contents of the cache if they have changed, else none.
     std::optional<cache::StoreUsage> poll(SteadyTime now, const cache::Budgets& budgets);
     void roll_soon() { next_ = {}; }  // call when the budgets have changed
-    // Returns when the next roll is due. A roll that takes longer delays it.
+    // Returns when poll() has something to do next. The end of a roll also calls `wake`.
     [[nodiscard]] SteadyTime next_time() const { return next_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread of the roll
 
@@ -44,7 +45,8 @@ class CacheKeeper {
     Pulse pulse_;
     SteadyTime next_{}, next_reminder_{};
     std::optional<cache::StoreUsage> known_;
-    // declared last, so that its destructor waits for the thread before the others are destroyed
+    // declared last, so that its destructor waits for the thread before the other members are
+    // destroyed
     std::future<CacheRolled> roll_;
 };
 

@@ -25,7 +25,8 @@ void log_problem(std::string_view what, const Error& error) {
                 printable(error.message));
 }
 
-// Returns true if the database cannot be used at all, which the service reports.
+// Returns true if the database cannot be used at all. The service reports this, so the caretaker
+// need not.
 bool is_in_trouble(const catalog::CatalogReader& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
     return std::any_of(troubles.begin(), troubles.end(),
@@ -115,7 +116,8 @@ void Caretaker::run() {
     pulse_.rest();
 }
 
-// Examines and repairs the databases. The service logs the repairs, and then scans for the files.
+// Examines and repairs the databases. The service logs the repairs, then scans the drop directory
+// for files whose rows were lost.
 void Caretaker::examine_databases() {
     const auto stations = of_.catalog.station_names();
     if (!stations) return log_problem("cannot examine the catalog", stations.error());

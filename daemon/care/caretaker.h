@@ -1,14 +1,15 @@
 // daemon/care/caretaker.h -- looks after stored data, in a thread of its own.
 //
-// At the start it examines every database, checks the header of every grid, and makes the newest
-// missing grids again. Then, while there is nothing else to do, it reads and verifies every grid,
-// one a second; an hour after the last one it starts again. It repairs damage
+// At the start it examines every database and checks the header of every grid. Then it works in
+// rounds: it makes the newest missing grids again, and reads and verifies every grid, one a second.
+// An hour after the last grid, the next round begins. It repairs damage
 // (pipeline/care/mend_cache.h) and logs it. Between grids it compares overlapping sites
-// (pipeline/mosaic/site_watch.h) as mosaics become complete. Files that arrive come first: nothing
-// begins here while jobs wait.
+// (pipeline/mosaic/site_watch.h) as mosaics become complete. Files that arrive come first: it
+// begins nothing while jobs wait.
 //
 // Threads   The functions of CareLinks are called from this object's thread and must be safe to
-//           call from it. The destructor waits for what has begun (one grid, one pair of sites).
+//           call from it. The destructor waits for the step that has begun (one grid or one pair of
+//           sites).
 #pragma once
 
 #include <chrono>
@@ -31,7 +32,7 @@ struct CareTimes {
     std::chrono::milliseconds between_looks{5000};
 };
 
-// The data that it looks after; all must outlive it.
+// The data that the caretaker looks after; all must outlive it.
 struct CareOf {
     catalog::CatalogWriter& catalog;
     const cache::StoreReader& store;
@@ -59,19 +60,19 @@ class Caretaker {
     bool look_at_all();
     bool round();
     void examine_databases();
-    // Checks the grids. Returns true if all were checked.
+    // Checks all grids that can be listed. Returns false if the thread must end.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);
     void refill();
     void refill_frames();
     void mend(const cache::StoreEntry& entry, pipeline::MendDepth depth);
-    // Compares the sites that are due, if it is time. Returns false if the thread must end.
+    // Compares the sites that are due, at most once in `between_looks`. Returns false if the thread
+    // must end.
     bool compare_sites();
-    // Waits this long, and then until there is nothing else to do. Returns false if the thread must
-    // end.
+    // Waits for `least`, and then until the service is idle. Returns false if the thread must end.
     bool pause(std::chrono::milliseconds least);
-    // Returns true as soon as the thread is to end.
+    // Waits for `time`. Returns true at once when the thread must end, else false.
     bool is_stopped_within(std::chrono::milliseconds time) STORMCELLAR_REQUIRES(mutex_);
-    // Does the same as pause() and compares sites meanwhile.
+    // Does the same as pause(), and compares sites in between.
     bool rest(std::chrono::milliseconds least);
 
     CareOf of_;

@@ -1,9 +1,9 @@
 // daemon/care/row_keeper.h -- keeps the rows of the catalog in step with the files on disk.
 //
 // After a scan it examines every file of the catalog, in a thread of its own, and marks missing
-// files as gone. If the rows exceed their limit, it deletes the oldest rows of gone files. Once an
-// hour it deletes rows of files that have been gone for long, if the configuration says so. The
-// work takes at most a tenth of the time, however often there are scans.
+// files as gone. If the rows exceed their limit, it deletes the oldest rows of gone files. If the
+// configuration limits how long rows of gone files are kept, it deletes older ones once an hour.
+// The work takes at most a tenth of the time, however often scans run.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -24,12 +24,12 @@ class RowKeeper {
     static constexpr int rest = 10;  // it rests this many times as long as it worked
     static constexpr std::chrono::hours between_deletions{1};
 
-    // The clock measures how long the work takes, in the thread that works.
+    // The worker thread reads `clock` to measure how long the work takes.
     explicit RowKeeper(Sink& sink, std::function<SteadyTime()> clock = steady_now)
         : sink_(sink), clock_(std::move(clock)) {}
 
-    // Starts the work, unless it is running or resting. Rows of files that are gone are kept for
-    // `gone_rows_kept_for` after their last registration; 0: forever.
+    // Call after each scan. Starts the work, unless it is running or resting. Rows of files that
+    // are gone are kept for `gone_rows_kept_for` after their last registration; 0: forever.
     void look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_for);
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread that works
 
@@ -43,7 +43,7 @@ class RowKeeper {
     Pulse pulse_;
     SteadyTime began_{}, rested_{}, next_deletion_{};
     // Returns how long the work took. Declared last, so that its destructor waits for the thread
-    // before the others are destroyed.
+    // before the other members are destroyed.
     std::future<SteadyTime::duration> work_;
 };
 

@@ -1,8 +1,8 @@
-// daemon/care/state_keeper.h -- makes the state directory with its catalog directory and holds its
-// lock, and makes them again if somebody deletes them while the service runs.
+// daemon/care/state_keeper.h -- makes the state directory and its catalog directory, and locks the
+// state. It makes them again if somebody deletes them while the service runs.
 //
-// The contents come back by themselves once the directories exist: the databases with the next
-// files, the status when it is next published, the socket within 15 s.
+// Once the directories exist, the rest of the service restores their contents: databases with the
+// next files, the status when it is next published, the socket within 15 s.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -19,13 +19,14 @@ class StateKeeper {
   public:
     explicit StateKeeper(std::filesystem::path state) : state_(std::move(state)) {}
 
-    // Makes the directories that are missing and takes the lock. The first call also removes the
-    // temporary files that a killed service left. Errors: those of making directories and of the
-    // lock (pipeline/keep/instance_lock.h).
+    // Makes the directories that are missing, and takes the lock unless it is held and its file
+    // exists. The first call also removes temporary files that a killed service left. Errors:
+    // permission or io if a directory cannot be made; errors of the lock
+    // (pipeline/keep/instance_lock.h).
     [[nodiscard]] Status hold();
-    // Returns none while everything exists, else the result of making it again. The lock is then a
-    // new one; if another service was started on the new directory in the meantime, that service
-    // holds it (bad_argument).
+    // Returns none while the catalog directory and the lock's file exist, else the result of
+    // hold(). If another service was started on a new state directory in the meantime, that service
+    // holds the lock (bad_argument).
     [[nodiscard]] std::optional<Status> look();
 
   private:

@@ -36,7 +36,8 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
     std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
     if (error) resolved = (base / path).lexically_normal();
-    // "a/" has an empty last part, which would hide that "a/b" lies within it.
+    // "a/" has an empty last part; with it, the comparison would not find that "a/b" is within
+    // "a/".
     if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
     return resolved;
 }
@@ -113,7 +114,7 @@ void read_size(TomlTable& ingest, GridConfig& config) {
     config.ny = counts[1];
 }
 
-// Reports here, with the line, what the grid room would refuse.
+// Checks the rules of the grid room here, so that the complaint has the line.
 void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.spacing_m;
@@ -142,7 +143,8 @@ void read_bunzip(TomlTable& ingest, IngestConfig& config) {
 }
 
 int processors() {
-    // Cached, because each turn of the service asks for it and hardware_concurrency() reads a file.
+    // Cache the number, because each turn of the service needs it and hardware_concurrency() reads
+    // a file.
     static const unsigned count = std::thread::hardware_concurrency();
     return std::max(1, static_cast<int>(count));
 }
@@ -241,7 +243,7 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
     }
 }
 
-// Returns why a directory cannot be a machine's; empty if it can.
+// Returns why the directory cannot be used for a machine's partials; empty if it can.
 std::string reason_against(const std::filesystem::path& directory, const FixedConfig& config) {
     const std::string name = directory.filename().native();
     if (!cache::is_domain_name(name) || cache::is_part(name)) {
@@ -353,7 +355,7 @@ int ReloadableConfig::worker_count() const {
 
 std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConfig& running) {
     std::vector<std::string> sentences;
-    // This does not compile when the configuration gets a new part, until the part has a sentence
+    // If the configuration gets a new part, this does not compile until the part has a sentence
     // below.
     const auto& [paths, grid, queue_limit, ingest, storage, status, partials] = fresh;
     if (paths != running.paths) {

@@ -1,7 +1,7 @@
 // daemon/config/config.h -- the contents of stormcellard.toml.
 //
 // The shipped file (daemon/stormcellard.toml) explains every key and holds every default; a test
-// compares the two.
+// compares it with this header.
 //
 // Units     Distances are kilometers in the file and meters here.
 // Threads   Plain data.
@@ -43,8 +43,8 @@ struct StatusConfig {
     bool operator==(const StatusConfig&) const = default;
 };
 
-// Returns status.sock in the first directory of systemd's $RUNTIME_DIRECTORY (null: not set), else
-// in the state directory.
+// Returns the path of status.sock: in the first directory of `runtime_directory` (the value of
+// systemd's $RUNTIME_DIRECTORY; null: not set), else in the state directory.
 [[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
                                                    const char* runtime_directory);
 
@@ -56,7 +56,7 @@ struct PathsConfig {
     bool operator==(const PathsConfig&) const = default;
 };
 
-// Grids to make, and the number of threads. The defaults are those of pipeline::IngestOptions.
+// Grids to make, and the number of threads, with the same defaults as pipeline::IngestOptions.
 struct GridConfig {
     std::vector<level2::Moment> moments = {level2::Moment::ref};
     double spacing_m = 1000;
@@ -127,23 +127,23 @@ struct ReloadableConfig {
     bool operator==(const ReloadableConfig&) const = default;
 };
 
-// The whole configuration. Every key is in one of these two parts. A reload compares the first part
-// and replaces the second, each as a whole.
+// The whole configuration. Every key is in one of these two parts. A reload replaces all of
+// `reloadable`, and reports the differences in `fixed`.
 struct Config {
     FixedConfig fixed;
     ReloadableConfig reloadable;
     bool operator==(const Config&) const = default;
 };
 
-// Returns a sentence, naming the keys, for each part of `fresh` that differs from `running`,
-// because a reload cannot apply it. Empty exactly when the two are equal.
+// Returns a sentence for each part of `fresh` that differs from `running`, because a reload cannot
+// apply it. The sentence names the keys. Returns none exactly if the two are equal.
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);
 
-// Loads the configuration. Relative paths start at the directory of the file. Nothing is created,
-// and directories need not exist; scenes of loops must exist only if that is requested. Errors:
+// Loads the configuration. Relative paths start at the directory of the file. Creates nothing;
+// directories need not exist. Scenes of loops must exist only if `scenes` is must_exist. Errors:
 // bad_argument, "FILE:LINE: [section] key: why", for unknown keys, wrong types, values out of range
-// and paths within one another.
+// and directories within one another.
 [[nodiscard]] Result<Config> load_config(const std::filesystem::path& file,
                                          SceneFiles scenes = SceneFiles::as_named);
 

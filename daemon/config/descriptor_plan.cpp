@@ -7,8 +7,8 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::uint64_t most_reserved = 256;       // connections to the status use up to 96 of them
-constexpr std::uint64_t most_databases = 288;      // the station table has about 210 stations
+constexpr std::uint64_t most_reserved = 256;   // connections to the status take up to 96 of these
+constexpr std::uint64_t most_databases = 288;  // the station table has about 210 stations
 constexpr std::uint64_t most_growing_files = 448;  // two for each station
 constexpr std::uint64_t least = 4;
 

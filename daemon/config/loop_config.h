@@ -1,9 +1,9 @@
 // daemon/config/loop_config.h -- the [[loop]] tables of stormcellard.toml: animations that are kept
 // up to date.
 //
-// What a loop shows is defined by a scene file of stormcellar (docs/rendering.md), which the daemon
-// does not read. The keys here are those that the service needs itself; they override the keys of
-// the scene file. daemon/stormcellard.toml explains them.
+// A scene file of stormcellar (docs/rendering.md) defines the pictures of a loop; the daemon does
+// not read it. The keys of [[loop]] override the same keys of the scene file.
+// daemon/stormcellard.toml explains them.
 //
 // Threads   Plain data and pure functions: may be called from any thread.
 #pragma once
@@ -25,7 +25,7 @@ struct LoopConfig {
     std::string domain;                // empty: the domain of the scene
     int last = 0;                      // grids; 0: as in the scene
     int seconds = 0;                   // display time of the newest frame; 0: as in the scene
-    std::vector<std::string> outputs;  // absolute paths; empty: those of the scene
+    std::vector<std::string> outputs;  // absolute paths; empty: as in the scene
 
     bool operator==(const LoopConfig&) const = default;
 };
@@ -37,16 +37,16 @@ struct LoopState {
     std::uint64_t restarts = 0, made = 0;  // since the daemon started
     std::optional<UtcTime> last_made;
     int frames = 0;            // of the last animation
-    std::string last_problem;  // why it ended or did not start; empty: it never did
+    std::string last_problem;  // why it last ended or did not start; empty: no problem yet
     bool operator==(const LoopState&) const = default;
 };
 
-// Tells if the file of a scene must exist. A running service accepts a missing file: only its loop
-// stops, and reports it.
+// Selects if the scene files of loops must exist. A running service accepts a missing file: only
+// the loop of that scene stops and reports a problem.
 enum class SceneFiles { as_named, must_exist };
 
-// Reads all [[loop]] tables. Invalid ones are reported and left out. Relative paths start at
-// `directory`; no output may be within one of the directories of `apart`.
+// Reads all [[loop]] tables. Invalid tables are reported and left out. Relative paths start at
+// `directory`; no output may be within a directory of `apart`.
 [[nodiscard]] std::vector<LoopConfig> read_loops(TomlTable& root,
                                                  const std::filesystem::path& directory,
                                                  const std::vector<std::filesystem::path>& apart,

@@ -11,7 +11,8 @@
 
 namespace stormcellar::daemon {
 
-// Reads "known", "any" or a list of stations; if missing: known. Invalid values are reported.
+// Reads "known", "any" or a list of stations. If the key is missing, the rule is "known". Invalid
+// values are reported.
 [[nodiscard]] StationRule read_station_rule(TomlTable& ingest);
 
 // Returns the name that the configuration uses: "known", "any" or "listed".

@@ -3,8 +3,8 @@
 // An entry is one datagram. A field is NAME=value and a newline; a value that contains a newline is
 // written as NAME, a newline, its length (8 bytes, little endian), the value and a newline. If an
 // entry is too long for a datagram, it is written to a sealed memory file whose descriptor is sent.
-// sd_journal_sendv() is not used, because it knows only one socket and reports success even if no
-// one listens there; the line must then go somewhere else.
+// We do not call sd_journal_sendv(), because it uses a fixed socket and reports success even if
+// nobody listens there; the caller must then write the line somewhere else.
 //
 // Threads   send() may be called from any thread.
 // Source    systemd.io/JOURNAL_NATIVE_PROTOCOL, sd_journal_send(3).
@@ -33,8 +33,8 @@ class Journal {
   public:
     explicit Journal(std::filesystem::path socket);
 
-    // Returns false if the entry is not accepted: there is no socket, or none that has room within
-    // a second.
+    // Returns false if the journal does not accept the entry, for example because its socket is
+    // missing or has no room within a second.
     [[nodiscard]] bool send(std::string_view entry) const;
 
   private:

@@ -3,8 +3,7 @@
 //
 // A kind is an event of one subject (a station or a loop). In addition, all subjects of an event
 // share a limit. Lines over a limit are counted, and the count is logged at the end of the minute.
-// Memory is bounded whatever is logged: beyond `most_subjects` only the shared limit applies, so
-// that invented names take no lines from other subjects.
+// Memory is bounded: beyond `most_subjects` only the shared limit applies to new subjects.
 //
 // Threads   Plain data: one thread at a time, or under a lock. The caller passes the current time.
 #pragma once
@@ -31,7 +30,7 @@ class LineLimiter {
     static constexpr std::chrono::seconds period{60};
     static constexpr std::size_t most_subjects = 512;  // of all events
     struct Most {
-        int of_one, of_all;  // lines per period: of one subject, of all subjects
+        int of_one, of_all;  // lines per period of one subject, and of all subjects together
     };
     // A healthy feed never reaches the limits: 160 sites send about 40 volumes a minute.
     [[nodiscard]] static Most most_of(Event event) {
@@ -47,7 +46,8 @@ class LineLimiter {
         LogLevel level;       // the most severe one
         std::uint64_t lines;
     };
-    // Returns the lines held back in minutes that are over.
+    // Returns the number of lines held back in minutes that are over, for each kind, and forgets
+    // them.
     std::vector<HeldBack> take_held_back(SteadyTime now);
     // Returns the number of remembered subjects.
     [[nodiscard]] std::size_t subjects() const { return each_.size(); }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* identifier = "stormcellard";
 
-// The log of the process.
+// The outlet of all log lines of the process.
 struct Outlet {
     std::unique_ptr<Journal> journal;
     Mutex mutex;

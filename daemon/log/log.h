@@ -1,5 +1,4 @@
-// daemon/log/log.h -- log lines: one for each event, with the objects that it concerns, and the
-// outlets of the lines.
+// daemon/log/log.h -- writes one log line for each event, with the objects that the event concerns.
 //
 // If stderr is the journal (JOURNAL_STREAM names it), lines go to the journal with these fields:
 //   MESSAGE, PRIORITY, SYSLOG_IDENTIFIER, STORMCELLAR_EVENT (log_event.h)
@@ -12,13 +11,15 @@
 //   STORMCELLAR_LOOP, STORMCELLAR_DOMAIN
 //   STORMCELLAR_REASON     the kind of an error, as in the metrics
 //   STORMCELLAR_HELD_BACK  number of lines that this line sums up
-// Otherwise they go to stderr: with time and level for people; or with the "<N>" level prefix of
-// syslog if stderr is the journal but its socket takes nothing.
+// Otherwise they go to stderr with time and level. If stderr is the journal but its socket accepts
+// nothing, they go to stderr with the "<N>" level prefix of syslog.
 //
 // Lines above debug are limited (line_limiter.h). The caller passes names from outside through
-// printable(); the members of About are escaped here where necessary.
+// printable() before it puts them into a message; members of About are escaped here where
+// necessary.
 //
-// Threads   Call set_up_logging() before other threads start; any thread may call the others.
+// Threads   Call set_up_logging() before other threads start. Any thread may call the other
+//           functions.
 #pragma once
 
 #include <cstdint>
@@ -43,13 +44,14 @@ struct LogOutlet {
     std::filesystem::path journal;      // the journal's socket; empty: lines go to stderr
     std::function<SteadyTime()> clock;  // empty: the steady clock
 };
-// `level` is one of debug, info, warning, error; set_log_level() of service/log.h changes it.
+// Sets the outlet and the level: debug, info, warning or error. set_log_level() of service/log.h
+// changes the level later.
 void set_up_logging(std::string_view level, LogOutlet outlet = {});
 
 // Returns the journal with its usual socket if stderr is the journal, else stderr.
 [[nodiscard]] LogOutlet usual_outlet();
 
-// The subject of a line. Empty members are left out.
+// The fields of a line. Empty members are left out.
 struct About {
     Event event;
     std::string station{};
@@ -77,8 +79,9 @@ inline constexpr LogAt<LogLevel::info> log_info;
 inline constexpr LogAt<LogLevel::warning> log_warning;
 inline constexpr LogAt<LogLevel::error> log_error;
 
-// For each kind with lines held back in a minute that is over, logs one line. Call it every few
-// seconds. At the end of the program it also covers the current minute.
+// log_held_back() logs one line for each kind whose lines were held back in a minute that is over;
+// call it every few seconds. log_all_held_back() includes the current minute; call it at the end of
+// the program.
 void log_held_back();
 void log_all_held_back();
 

@@ -1,7 +1,7 @@
 // daemon/log/log_event.h -- the kinds of log lines.
 //
-// Their names are an interface: the journal has them as STORMCELLAR_EVENT, and
-// docs/reference/log.md explains each (tests/repository/log_lines_test.cpp).
+// The names are an interface: the journal has them as STORMCELLAR_EVENT, and docs/reference/log.md
+// explains each name, as tests/repository/log_lines_test.cpp checks.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once

@@ -1,7 +1,7 @@
-// daemon/loops/loop_check.h -- checks whether `stormcellar loop` accepts a [[loop]] and its scene.
+// daemon/loops/loop_check.h -- checks that `stormcellar loop` accepts a [[loop]] and its scene.
 //
-// It runs the program itself, since the daemon reads no scenes and links no renderer. Nothing is
-// drawn or written, and neither the cache nor the directories of outputs need to exist.
+// It runs `stormcellar loop --check`, since the daemon reads no scenes and links no renderer. The
+// program draws and writes nothing; neither the cache nor the directories of outputs need to exist.
 //
 // Threads   Main thread only (service/child.h).
 #pragma once
@@ -16,17 +16,18 @@
 
 namespace stormcellar::daemon {
 
-// Checks the loops one after the other and returns the error of the first that is not accepted. An
-// empty `program` is the stormcellar beside this program or on PATH. Errors: bad_argument,
-// "[[loop]] NAME: why"; io if a check gives no answer within a minute; not_found if there are loops
-// but no program.
+// Checks the loops in order, and returns the error of the first loop that fails. An empty `program`
+// means the stormcellar beside this program or on PATH. Errors: bad_argument, "[[loop]] NAME: why";
+// io if the program does not start or end within a minute; not_found if there are loops but no
+// program.
 [[nodiscard]] Status check_loops(const std::vector<LoopConfig>& loops,
                                  const std::filesystem::path& cache,
                                  std::filesystem::path program = {});
 
-// Returns warnings about loops that are allowed but give no picture at present: the directory of an
-// output is missing, or a domain is neither a known station nor one of `domains`. Each is "[[loop]]
-// NAME: what", printable. Only the loop's own table is checked, not its scene.
+// Returns warnings about loops that are allowed but cannot be written or drawn at present: the
+// directory of an output is missing, or a domain is neither a known station nor one of `domains`.
+// Each warning is printable: "[[loop]] NAME: what". Looks only at the loop's own table, not at its
+// scene.
 [[nodiscard]] std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
                                                     const std::vector<pipeline::Domain>& domains);
 

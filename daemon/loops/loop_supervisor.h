@@ -2,12 +2,12 @@
 // --follow` for each of them.
 //
 // A loop runs as a separate program, so that a fault in drawing never stops ingest. If the program
-// ends by itself, its exit status and its last line on stderr are logged, and it is started again:
-// after 1 s at first, doubling up to 60 s; after a run of at least a minute, the delay starts at 1
-// s again. The programs end with the daemon, however the daemon ends. All of this happens in one
-// thread, which is started only if there are loops.
+// ends, the supervisor logs its exit status and its last line on stderr, and starts it again: after
+// 1 s at first, then after delays that double up to 60 s. After a run of at least a minute, the
+// delay is 1 s again. The programs end with the daemon, however the daemon ends. The supervisor has
+// one thread, and starts it only if there are loops.
 //
-// Threads   One thread at a time. `wake` is called from the keeper's own thread and must only
+// Threads   One thread at a time. `wake` is called from the supervisor's own thread and must only
 //           signal.
 #pragma once
 
@@ -41,11 +41,11 @@ class LoopSupervisor {
     // Sets the loops to run. A loop goes on undisturbed if neither it nor its scene file has
     // changed.
     void set(std::vector<LoopConfig> loops);
-    // Tells all programs to end and does not wait; the destructor or wait() waits, a few seconds at
-    // most.
+    // Tells all programs to end, and returns at once. wait() and the destructor wait for their end,
+    // for a few seconds at most.
     void stop();
     void wait();
-    // pulse of the keeper's thread; at rest if there is none
+    // pulse of the supervisor's thread; at rest if it has no thread
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }
     // Returns the states of all loops if they have changed since the last call, else none.
     std::optional<std::vector<LoopState>> news();

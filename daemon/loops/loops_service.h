@@ -2,15 +2,15 @@
 // --loops-only`.
 //
 // It runs beside a stormcellard that was started with --no-loops, with a lower priority and its own
-// limits. It does not read the drop directory, the catalog or grids itself. It keeps the loops
+// limits. It reads neither the drop directory nor the catalog nor grids. It runs the loops
 // (daemon/loops/loop_supervisor.h) and publishes their state:
 //   STATE/loops/status.json        {"state","pid","version","started","updated","loops"}, the
 //                                  fields as in daemon/status/status.h; written at most once a
 //                                  second, and at the end
 //   STATE/loops/stormcellard.lock  locked while it runs, so that a state directory has only one
 //                                  keeper of loops
-// SIGHUP reads the configuration again; only the [[loop]] tables and the log level are used. The
-// watchdog is fed as long as no turn of the thread that keeps the loops lasts too long.
+// On SIGHUP it reads the configuration again, and applies only the [[loop]] tables and the log
+// level. It feeds the watchdog as long as no turn of the supervisor's thread takes too long.
 //
 // Threads   run() once; request_stop() from any thread.
 #pragma once
@@ -32,7 +32,7 @@ namespace stormcellar::daemon {
 
 class LoopsService {
   public:
-    // All must outlive the service. Without signals, only request_stop() ends it.
+    // All must outlive the service. Without `signals`, only request_stop() ends the service.
     struct Parts {
         Notifier& notifier;
         FileSystem& file_system;
@@ -50,7 +50,7 @@ class LoopsService {
   private:
     void handle_signals();
     void reload();
-    // Publishes a change once a second, or at once if forced.
+    // Publishes changes at most once a second, or at once if `force` is set.
     void publish(const char* state, bool force);
     void wait(SteadyTime now);
 

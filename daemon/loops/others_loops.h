@@ -1,4 +1,4 @@
-// daemon/loops/others_loops.h -- the loops that another process keeps
+// daemon/loops/others_loops.h -- the state of loops that another process runs
 // (daemon/loops/loops_service.h), for the metrics.
 //
 // Threads   May be called from any thread.
@@ -12,13 +12,13 @@
 
 namespace stormcellar::daemon {
 
-// Returns the loops of a document that loops_json() wrote; none if it cannot be understood. If the
-// `state` of the document is not "running", no loop runs.
+// Returns the loops of a document that loops_json() wrote; none if the document is invalid. Unless
+// the `state` of the document is "running", all loops are returned as not running.
 [[nodiscard]] std::vector<LoopState> loops_of(std::string_view document);
 
-// Returns each configured loop with the state that STATE/loops/status.json gives. A loop that is
-// missing there does not run. No loop runs if the file does not exist or the process that wrote it
-// is gone.
+// Returns each configured loop with its state from STATE/loops/status.json. A loop that is missing
+// in the file is returned as not running. So are all loops if the file does not exist or if the
+// process that wrote it is gone.
 [[nodiscard]] std::vector<LoopState> others_loops(const std::filesystem::path& state,
                                                   const std::vector<LoopConfig>& configured);
 

@@ -1,8 +1,7 @@
 // daemon/partials/machine_directory.h -- watches for partials in the directory of one machine.
 //
-// The directory has the layout of a cache. Files with other names, for example those that rsync is
-// still writing, are ignored, and nothing is ever written here. A file is news again when it is
-// replaced.
+// The directory has the layout of a cache. Files with other names, for example temporary files of
+// rsync, are ignored. This class writes nothing into the directory. A replaced file is news again.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -28,21 +27,23 @@ class MachineDirectory final : public WatchListener {
     [[nodiscard]] std::string name() const { return directory_.filename().native(); }
     [[nodiscard]] int descriptor() const { return events_->descriptor(); }
     void read_events() { watcher_.read_events(); }
-    // Errors: the directory cannot be read.
+    // Reads the whole directory. Fails if it cannot be read.
     Status scan();
-    // Returns true once if events were lost, so that a scan is needed.
+    // Returns true if a scan is needed, because events were lost since the last call or directories
+    // were not read.
     bool take_lost() { return std::exchange(is_lost_, false); }
     [[nodiscard]] bool is_blind() const { return watcher_.is_blind(); }
 
-    // Removes and returns the newest partial that is news; none if there is none.
+    // Returns the newest partial that is news, which is then no longer news; none if there is no
+    // news.
     std::optional<cache::GridName> take_news();
-    // Offers a partial again at the next scan.
+    // Makes the next scan report the partial as news again.
     void forget(const cache::GridName& name) { seen_.erase(name); }
     // Ignores a partial until its file is replaced.
     void refuse(const cache::GridName& name);
     // Returns true if the machine has the partial, and it was not refused.
     [[nodiscard]] bool has(const cache::GridName& name) const;
-    // Returns the partials that were seen, are not news and were not refused.
+    // Returns the partials that were seen, without news and without refused ones.
     [[nodiscard]] std::vector<cache::GridName> known() const;
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::chrono::milliseconds longest_poll{1000};
 // An incomplete file may still be written to; complain only if it is older than this.
 constexpr std::chrono::seconds settled_after{30};
-// Pause after a failure to make a frame again, or a lack of memory.
+// Pause after a frame could not be made again, or after memory ran out.
 constexpr std::chrono::milliseconds pause_after_failure{5000};
 
 bool is_unsettled(const std::filesystem::path& file) {
@@ -123,7 +123,7 @@ void PartialsKeeper::scan(Machine& machine) {
     take_lost(machine);
 }
 
-// Treats partials that the cache lost, though it would keep them, as news again.
+// Makes the next scan report partials again that the cache would keep but has lost.
 void PartialsKeeper::take_lost(Machine& machine) {
     for (const cache::GridName& name : machine.directory->known()) {
         pulse_.beat();
@@ -135,7 +135,7 @@ void PartialsKeeper::take_lost(Machine& machine) {
     }
 }
 
-// Ingests the newest partial of all machines. Returns true if there was one.
+// Ingests the newest partial of each machine. Returns true if any machine had one.
 bool PartialsKeeper::take_one() {
     bool took = false;
     std::exception_ptr failure;
@@ -156,7 +156,7 @@ bool PartialsKeeper::take_one() {
     return took;
 }
 
-// Checks a frame that may lack a partial. Returns true if there was one.
+// Checks a frame that may lack a partial. Returns true if there was such a frame.
 bool PartialsKeeper::mend_one() {
     if (stopping_ || steady_now() < next_mending_) return false;
     pulse_.beat();
@@ -180,16 +180,15 @@ bool PartialsKeeper::mend_one() {
     return true;
 }
 
-// Returns true if the partial is of use: a machine may have domains that this one does not, and
-// grids older than this one keeps.
+// Returns true if this machine has the partial's domain and would keep its grid.
 bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
     return !of_.mosaics.is_idle() &&
            of_.mosaics.find(cache::group_of(name.domain), name.moment) != nullptr &&
            of_.store.would_keep(name.domain, name.moment, name.time);
 }
 
-// Checks the station. Each station of a mosaic takes a descriptor and time in all its frames, so a
-// machine must not invent one.
+// Checks that the machine may bring the station. Each station of a mosaic takes a descriptor, and
+// time in every frame, so a machine must not invent stations.
 Status PartialsKeeper::check_station(const Machine& machine, const cache::GridName& name,
                                      const std::string& station) const {
     if (!config_.may_bring(machine.facts.name, station))
@@ -243,8 +242,9 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
               name.domain, format_utc(name.time), kept->frames.size(), 1000 * seconds_since(start));
 }
 
-// Reports a rival. Machines with the same files bring the same partials, so two partials of a
-// complete volume differ only if the files do, or if a machine sends wrong data.
+// Reports that a partial of one machine replaced a partial of another machine. Machines with the
+// same files bring the same partials, so two partials of a complete volume differ only if the files
+// differ or a machine sends wrong data.
 void PartialsKeeper::note_rival(Machine& machine, const cache::GridName& name, bool won) {
     for (Machine& other : machines_) {
         if (&other == &machine || !other.directory->has(name)) continue;
@@ -273,7 +273,7 @@ void PartialsKeeper::refuse(Machine& machine, const cache::GridName& name, const
     log_warning(about, "partial of {}: {}", machine.facts.name, printable(why.message));
 }
 
-// Logs when a machine becomes late, and when it has caught up.
+// Updates which machines are late, and logs changes.
 void PartialsKeeper::judge() {
     std::optional<UtcTime> newest;
     for (Machine& machine : machines_) {
@@ -299,7 +299,8 @@ void PartialsKeeper::judge() {
                         machine.facts.name, why);
         if (!is_late && machine.facts.is_late)
             log_info({Event::machine_back}, "machine {} has caught up", machine.facts.name);
-        // The status need not change every second.
+        // `why` counts seconds, so update it only with is_late: the status need not change every
+        // second.
         if (is_late != machine.facts.is_late) machine.facts.why = why;
         machine.facts.is_late = is_late;
     }

@@ -1,25 +1,25 @@
 // daemon/partials/partials_keeper.h -- ingests partials of mosaics from the directories of other
 // machines, in a thread of its own.
 //
-// As soon as a partial is complete, it is copied into the cache and the frames that it changes are
-// made, the newest partial first. A damaged or truncated file is checked again when it changes, and
-// at each scan. A partial that the cache has lost is copied again. While no news wait, the frames
-// around partials that the cache already had are checked, and made again if they lack one.
+// As soon as a partial is complete, the keeper copies it into the cache and makes the frames that
+// the partial changes, the newest partial first. It checks a damaged or truncated file again when
+// the file changes; if the file was written less than 30 s ago, also at the next scan. It copies a
+// partial again if the cache has lost it. While no partials wait, it checks the frames around older
+// partials, and makes a frame again if the frame lacks one of its partials.
 //
-// Partials are accepted from stations that are known, as for raw files ([ingest] stations), or that
-// are listed for their machine or their mosaic. Stations that the configuration lists for a machine
-// ([partials.stations]) are accepted only from the machines that list them. For other stations, the
-// better of two different partials of a volume counts, whichever machine brought it, so that the
-// frames do not depend on their order. If a partial replaces that of another machine, the log and
-// the status say so.
+// A partial is accepted if its station is known, as for raw files ([ingest] stations), or is listed
+// for its machine or its mosaic. A station that [partials.stations] lists for some machines is
+// accepted only from those machines. If machines bring different partials of a volume, the better
+// one counts, so that the frames do not depend on the order of arrival. If a partial replaces a
+// partial of another machine, the log and the status say so.
 //
-// A machine is late while it has brought nothing for the allowed time, or while its newest volume
-// is that much older than the newest of any machine. This is reported in the log, the status and
-// the metrics; the frames decide separately for each instant (pipeline/options/partial_sources.h).
+// A machine is late while it has brought nothing for `late_after`, or while its newest volume is
+// older by `late_after` than the newest volume of any machine. The log, the status and the metrics
+// report this. The frames decide separately, for each instant, which machines are late
+// (pipeline/options/partial_sources.h).
 //
-// Threads   facts(), scans() and pulse() from any thread. The destructor waits for what has begun
-// (one
-//           partial with its frames).
+// Threads   facts(), scans() and pulse() from any thread. The destructor waits for the partial that
+//           is being taken, with its frames.
 #pragma once
 
 #include <atomic>
@@ -54,14 +54,16 @@ struct PartialsTimes {
 
 class PartialsKeeper {
   public:
-    // Without directories it has no thread. The objects that it refers to must outlive it.
+    // Starts the thread, unless there are no directories. The objects that `of` refers to must
+    // outlive the keeper.
     PartialsKeeper(PartialsConfig config, PartialsOf of, PartialsTimes times);
     PartialsKeeper(const PartialsKeeper&) = delete;
     PartialsKeeper& operator=(const PartialsKeeper&) = delete;
     ~PartialsKeeper();
 
     [[nodiscard]] std::vector<MachineFacts> facts() const;
-    // Returns how often each directory has been scanned, counted when the turn of a scan has ended.
+    // Returns how many scans every directory has had at least. A scan counts once the turn that
+    // made it has ended.
     [[nodiscard]] std::uint64_t scans() const { return published_scans_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 

@@ -1,5 +1,5 @@
-// daemon/process/main_loop.h -- what the main loops of the threads share: they sleep, take signals
-// and feed the watchdog.
+// daemon/process/main_loop.h -- the parts that main loops share: they sleep, take signals and feed
+// the watchdog.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -16,15 +16,16 @@
 
 namespace stormcellar::daemon {
 
-// Takes all pending signals and calls `reload` for each SIGHUP. Returns true if one of them asked
-// for the end, which is logged. With a null `signals` it does nothing.
+// Takes all pending signals and calls `reload` for each SIGHUP. Any other signal asks for the end:
+// logs it, and returns true. If `signals` is null, returns false.
 [[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
-// Sleeps until a descriptor is ready, at most until `until`. An interrupted sleep is only short;
-// negative descriptors are ignored.
+// Sleeps until a descriptor is ready, `until` has come, or a signal interrupts the sleep. Ignores
+// negative descriptors.
 void poll_until(std::span<pollfd> sources, SteadyTime now, SteadyTime until);
 
-// Feeds the watchdog if it is due, and logs a thread that hangs.
+// Feeds the watchdog if that is due, unless the oldest step has lasted too long. Logs once that the
+// step hangs.
 void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
           const std::optional<Step>& oldest);
 

@@ -1,10 +1,9 @@
-// daemon/process/readiness.h -- whether the service has everything that it needs, so that it may
-// report READY.
+// daemon/process/readiness.h -- checks that the service has everything it needs to report READY.
 //
 // Programs that wait for READY (systemd, or a script that starts LDM next) rely on this: the state
 // and the cache can be written, and the status is served. Until then the service works as far as it
-// can, reports what it waits for, and checks again every second. The drop directory belongs to LDM:
-// it may appear late, and nothing else on the machine waits for it.
+// can, reports what is missing, and checks again every second. READY does not wait for the drop
+// directory, which belongs to LDM and may appear late.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -19,12 +18,13 @@
 
 namespace stormcellar::daemon {
 
-// Returns ok if a file can be made in the directory; the file is removed again.
+// Makes a file in the directory and removes it again. Returns the first error.
 [[nodiscard]] Status can_write_in(FileSystem& files, const std::filesystem::path& directory);
 
 class Readiness {
   public:
-    // Waits are shorter at first, for example for a thread that has just begun to listen.
+    // Times between checks. The first ones are short, for example because a thread has only just
+    // begun to listen.
     static constexpr std::chrono::milliseconds first_wait{20}, longest_wait{1000};
 
     // Returns an error that says what is missing, or ok.
@@ -34,11 +34,12 @@ class Readiness {
     [[nodiscard]] bool is_ready() const { return is_ready_; }
     // Returns when to check again; none once everything is there.
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // Returns true if it was time to check. Calls each check; the first error becomes missing().
+    // If it is time, calls the checks up to the first error, whose message becomes missing(), and
+    // returns true. Otherwise returns false.
     bool look(SteadyTime now);
     [[nodiscard]] const std::string& missing() const { return missing_; }
-    // Returns true if missing() has changed since the last call, but not while the waits are still
-    // short and it may be resolved at once.
+    // Returns true if missing() has changed since this last returned true. Returns false while the
+    // waits are still short, because the problem may be over at once.
     [[nodiscard]] bool is_news();
 
   private:

@@ -1,13 +1,14 @@
 // daemon/process/silent_file_systems.h -- file systems whose directories can change without inotify
 // events.
 //
-// The kernel reports changes made on this machine. It does not see what other machines write to a
-// shared file system, or what a program behind FUSE does, so such directories must be polled. It
-// also does not report writes to the layers of an overlay that bypass the overlay. The type does
-// not show this, since most overlays are written to directly; rescans find such files.
+// The kernel reports changes made on this machine. It does not see writes of other machines to a
+// shared file system, or changes made by a program behind FUSE, so such directories must be polled.
+// It also does not report files that are written directly into a layer of an overlay, below the
+// mount. An overlay does not count as silent here, since most writers use its mount; rescans find
+// the other files.
 //
 // Threads   Pure: may be called from any thread.
-// Source    statfs(2), linux/magic.h, and the headers of the projects that are named in the table.
+// Source    statfs(2), linux/magic.h, and the headers of the projects in the table.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,10 @@
 
 namespace stormcellar::daemon {
 
-// Returns the name of a silent file system from the type that statfs(2) gives; none if changes are
-// reported.
+// Returns the name of a silent file system by its type from statfs(2); none if the file system is
+// not known to be silent.
 [[nodiscard]] std::optional<std::string_view> silent_file_system(std::uint32_t type);
-// Returns the same for the file system of a directory; none if it cannot be found out.
+// Returns the same for the file system of a directory; none also if statfs(2) fails.
 [[nodiscard]] std::optional<std::string_view> silent_file_system_of(
     const std::filesystem::path& directory);
 

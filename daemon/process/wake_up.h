@@ -1,4 +1,4 @@
-// daemon/process/wake_up.h -- an event that any thread can raise and one thread polls for
+// daemon/process/wake_up.h -- an event that any thread can raise, and for which one thread polls
 // (eventfd).
 #pragma once
 

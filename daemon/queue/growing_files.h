@@ -2,15 +2,17 @@
 //
 // There are two kinds. A NEW file was created and not closed (its writer keeps it open, or it is a
 // hard link), or a scan found it a moment after it was written. It is ingested once it has been
-// unchanged for `settle`, or after `busy` if it never rests. An INCOMPLETE file was ingested, but
-// its volume has not ended. It is ingested again when it has changed and settled, and finished as
-// it is when it has been quiet (no change of size, time or inode) for `quiet`.
+// unchanged for `settle`, or after `busy` even if it still changes; an empty file is ingested only
+// after `quiet`. An INCOMPLETE file was ingested, but its volume has not ended. If it has changed,
+// it is ingested again once it has been unchanged for `settle`, or after `quiet` even if it still
+// changes. If it has not changed for `quiet` (a followed file: `patience` times as long), its
+// volume is finished without its end.
 //
 // Changes are found by polling the stamps, which also works for files that are never closed and on
 // file systems without events. At most `limit` files are kept. At the limit, a new file takes the
-// place of a file of the station that has the most, if its own station has fewer; otherwise it is
-// left to the next scan. This is pure bookkeeping: the caller passes the time (of a monotonic
-// clock) and the stamps.
+// place of a file of the station with the most files, if its own station has at least two fewer;
+// otherwise the caller leaves it to the next scan. This class only keeps books: the caller passes
+// the time (of a monotonic clock) and the stamps.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -34,28 +36,29 @@ namespace stormcellar::daemon {
 class GrowingFiles {
   public:
     using Duration = SteadyTime::duration;
-    // also the period of reading stamps
+    // also the time between polls of all stamps
     static constexpr Duration settle = std::chrono::seconds{1};
-    // This many stamps are read in a second. If there are more files, each is polled less often.
+    // Stamps that are read in a second. If there are more files, each is polled less often.
     static constexpr std::size_t most_looks = 512;
     static constexpr std::size_t most_looks_at_once = 64;
-    // A file that is kept open and written fast must be followed soon. The price is that a large
-    // copy is ingested once in vain.
+    // If a writer keeps its file open and writes often, the file never settles, but its sweeps must
+    // be shown soon. The price: a large file that is being copied is ingested once in vain.
     static constexpr Duration busy = std::chrono::seconds{3};
-    // The sweeps of a followed file are shown anyway, and a file that is finished too early must be
-    // started anew when more comes. So it is given this many times `quiet`.
+    // A followed file is finished after this many times `quiet`. Its sweeps are shown anyway, and
+    // finishing it too early is expensive: if more data come, the whole file is read again.
     static constexpr int patience = 10;
 
     GrowingFiles(Duration quiet, std::size_t limit) : quiet_(quiet), limit_(limit) {}
 
     void set_quiet(Duration quiet) { quiet_ = quiet; }
-    // Returns false if there is no room left. A file that is already known keeps its times. All
-    // unknown stations share the empty `station`.
+    // Adds a new file, unless it is known already. Returns false if there is no room. All unknown
+    // stations share the empty `station`.
     bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                  const std::string& station = {});
-    // Adds a file. `stamp` is its stamp from before it was read; none if the file is gone. A gone
-    // file is still returned by polls, because the chunks of a volume wait under its name. Replaces
-    // earlier information about the path.
+    // Adds an incomplete file, and replaces earlier information about its path. Returns false if
+    // there is no room. `stamp` is the stamp from before the file was read, or FileStamp{} if the
+    // file is gone; polls still return a gone file, because chunks of its volume wait under its
+    // name.
     bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                         bool followed = false, const std::string& station = {});
     void forget(const std::filesystem::path& path);
@@ -69,14 +72,14 @@ class GrowingFiles {
         FileStamp stamp;
         bool finish_as_is = false;
     };
-    // Reads the stamps if a poll is due. A file that is returned is no longer kept. A file that
-    // vanished or became something else is forgotten; if it was incomplete, it is returned as due,
-    // since others may wait for it.
+    // If a poll is due, reads stamps and returns the files to ingest, which are then forgotten. A
+    // file that has vanished or become something else is forgotten, too; if it was incomplete, it
+    // is also returned, since chunks of its volume may wait for it.
     using Look = std::function<FileFound(const std::filesystem::path&)>;
     std::vector<Due> poll(SteadyTime now, const Look& look);
 
-    // Returns files whose volume has no end and to which nothing is added, with the time that
-    // remains until each is ingested as it is: at most `most`, the soonest first.
+    // Returns incomplete files that do not change, with the time that remains until each is
+    // finished without its end: at most `most` files, the soonest first.
     struct Wait {
         std::string file;
         Duration left{};
@@ -88,7 +91,7 @@ class GrowingFiles {
         return files_.contains(path.native());
     }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
-    // Returns when the file was last ingested and found incomplete; none for all others.
+    // Returns when the file was last ingested and found incomplete; none for any other file.
     [[nodiscard]] std::optional<SteadyTime> found_incomplete_at(
         const std::filesystem::path& path) const;
 
@@ -102,11 +105,11 @@ class GrowingFiles {
         bool followed = false;
         std::string station = {};
     };
-    // By their paths as text: comparing paths part by part takes ten times as long.
+    // The keys are paths as text, because comparing std::filesystem::path takes ten times as long.
     using Files = std::map<std::string, File>;
     bool has_room_for(const std::string& station);
     void add(const std::filesystem::path& path, File file, SteadyTime now);
-    // Checks a file whose turn it is, and returns the next one.
+    // Polls one file and returns the next entry.
     Files::iterator look_at(Files::iterator entry, SteadyTime now, const Look& look,
                             std::vector<Due>& due);
     Files::iterator erase(Files::iterator file);

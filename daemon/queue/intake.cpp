@@ -14,11 +14,11 @@ namespace ended = pipeline::ended;
 
 constexpr std::size_t most_growing = 4096;
 constexpr std::size_t most_going_on = 4096;
-// in one turn of the service; the next scan reports the rest
+// reported in one turn of the service; the next scan reports the rest
 constexpr std::size_t most_problems = 64;
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
-// files found that are younger than this are no backlog
+// a younger file that a scan finds is live
 constexpr std::int64_t live_ns = 600 * recent_ns;
 
 // Returns the same key for all files of one volume.
@@ -27,7 +27,7 @@ std::string volume_of(const std::filesystem::path& path) {
     return chunk ? std::move(chunk->key) : path.native();
 }
 
-// Returns true if something was gridded or shown. The station is the one in the file's name.
+// Returns true if the job gridded or registered a volume, or the volume shows sweeps and goes on.
 bool is_good(const Finished& finished) {
     if (!finished.taken) return false;
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
@@ -72,7 +72,7 @@ void Intake::leave_to_scan(const std::filesystem::path& path) {
     seen_.forget(path);
 }
 
-// Notes that a volume already has sweeps. Its jobs come before those of new volumes.
+// Notes if a volume that goes on already has sweeps. Its jobs then come before jobs of new volumes.
 void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
     if (!goes_on) {
         going_on_.erase(volume_of(path));
@@ -91,13 +91,13 @@ void Intake::note_displaced() {
     }
 }
 
-// Makes a job. A followed file has had its row since following began.
+// Makes a job. A followed file was registered in the catalog when following began.
 Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     Job job;
     job.path = path;
     const bool is_followed = followed_.contains(path);
     job.urgency = urgency;
-    // If a volume could not be followed, its grid waits for its last chunk.
+    // A last chunk is urgent: if the volume could not be followed, its grid waits for that chunk.
     const auto chunk = pipeline::ChunkPath::of(path);
     const bool is_end = chunk && chunk->name.kind == level2::ChunkKind::end;
     job.is_begun = is_end || going_on_.contains(volume_of(path));
@@ -166,7 +166,7 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
         seen_.found_again(path);
         return;
     }
-    // It was written at this very moment, so there is probably more to come.
+    // A file that was just written is probably still being written.
     const std::int64_t age_ns = clock_.wall_ns() - stamp.modified_ns;
     if (age_ns >= 0 && age_ns < recent_ns) {
         file_created(path, stamp);
@@ -179,9 +179,8 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
     }
 }
 
-// Queues the file, so that the sink finds it missing and marks its rows. This is not urgent and
-// comes after everything else. If it is refused, nothing is lost: the row is corrected when it is
-// next checked.
+// Queues the file, so that the sink finds it missing and marks its rows. The job is not urgent and
+// comes last. If the schedule refuses it, RowKeeper marks the rows later.
 void Intake::file_gone(const std::filesystem::path& path) {
     growing_.forget(path);
     followed_.erase(path);
@@ -191,8 +190,9 @@ void Intake::file_gone(const std::filesystem::path& path) {
     schedule_.offer(std::move(job), clock_.steady());
 }
 
-// Handles the loss of a directory; the kernel reports only the directory itself. If it was moved
-// away, its files go with it. Only their hashes are known, so a scan marks their rows.
+// Handles a directory that is gone. If it was moved away, the kernel does not report its files.
+// Followed files are known by path and handled here; other files are known only by hash, so a scan
+// must follow, after which RowKeeper marks their rows.
 void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
     std::vector<std::filesystem::path> gone;
     const auto is_below = [&](const std::filesystem::path& file) {
@@ -253,15 +253,15 @@ void Intake::poll_growing() {
     }
 }
 
-// Handles a job that was tried often enough and whose rejection could not even be stored. The cause
-// is a database; the next scan offers the file again.
+// Handles a job that failed: puts it back for another attempt. After the last attempt, or if too
+// many jobs wait for an attempt, leaves the file to the next scan.
 void Intake::job_failed(const Finished& finished) {
     const ErrorCode code = finished.taken.error().code;
     const bool was_last = finished.job.failures + 1 >= most_tries && !is_shortage(code);
     if (was_last) schedule_.finished(finished.job.path);
     if (was_last || !schedule_.retry(finished.job, finished.ended))
         leave_to_scan(finished.job.path);
-    // A full disk stops all jobs, so it is useless to decode the next one.
+    // A full disk makes all jobs fail, so do not decode the next one yet.
     if (code == ErrorCode::no_space) {
         schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
     }
@@ -276,9 +276,9 @@ void Intake::give_next_turn(const Finished& finished) {
     offer(std::move(job), finished.taken->stamp);
 }
 
-// Notes which chunk represents the volume. Two jobs may be collected in another order than that in
-// which they looked at their volume. If a chunk's job is collected after that of the chunk that
-// relieved it, the first chunk must not be polled.
+// Notes that the chunk `by` now represents the volume instead of `former`, which must no longer be
+// polled. Jobs may be collected in a different order than they ran: if the job of `former` is not
+// collected yet, relieved_ keeps job_ended() from adding it again.
 void Intake::note_represented(const std::filesystem::path& former,
                               const std::filesystem::path& by) {
     if (former.empty() || former == by) return;
@@ -315,8 +315,8 @@ void Intake::job_ended(const Finished& finished) {
     note_displaced();
 }
 
-// Notes a registered file. A file that could not be registered now is registered when it is
-// ingested.
+// Puts a job back after an attempt to register its file, or ends the job if the file is gone. If
+// the attempt failed, ingesting the file registers it.
 void Intake::registered(const Finished& noted) {
     if (noted.taken && std::holds_alternative<ended::Vanished>(noted.taken->ingest.ending)) {
         job_ended(noted);
@@ -343,7 +343,7 @@ void Intake::end_scan(bool whole) {
     if (!look_again_at_) looks_in_vain_ = 0;
     seen_.end_scan();
     told_.end_scan();
-    // Report followed files that are gone without an event: it was lost, or never sent.
+    // Handle followed files that are gone without an event.
     const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
     for (const std::filesystem::path& path : followed) {
         const Standing standing = look(path).standing;

@@ -1,7 +1,7 @@
 // daemon/queue/intake.h -- turns the watcher's reports into jobs that are due.
 //
-// It owns the memory of files already seen (seen_files.h), the files that are not complete yet
-// (growing_files.h) and the schedule, and keeps the three consistent. Nothing is lost if one of
+// It owns the list of files already seen (seen_files.h), the files that are not complete yet
+// (growing_files.h) and the schedule, and keeps the three consistent. No file is lost if one of
 // them is full: the file is forgotten, and needs_scan() says when a scan must find it again.
 //
 // Threads   One thread at a time.
@@ -28,7 +28,7 @@
 
 namespace stormcellar::daemon {
 
-// The clocks: steady for durations, wall for finding the newest file.
+// The steady clock measures durations; the wall clock orders files by age.
 struct Clock {
     std::function<SteadyTime()> steady;
     std::function<std::int64_t()> wall_ns;  // since the epoch
@@ -39,14 +39,14 @@ class Intake final : public WatchListener {
   public:
     Intake(const Config& config, Clock clock);
 
-    // A file that cannot be ingested is tried this often, over three minutes. If the system is
-    // short of disk, memory or descriptors, it is tried for as long as that lasts.
+    // Limit of the attempts to ingest a file, which take about two minutes. Attempts do not end
+    // while they fail because the system is short of disk, memory or descriptors.
     static constexpr int most_tries = 8;
 
-    // Delays files that were being ingested when the process last ended. They wait this long from
-    // now, and are then the last of the backlog.
+    // Delays files that were being ingested when the process last ended: each waits for the given
+    // time from now, and comes last in the backlog.
     void hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits);
-    // Sets new waiting times and another number of workers.
+    // Applies the waiting times and the number of workers of a reloaded configuration.
     void reload(const ReloadableConfig& config);
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
@@ -67,8 +67,8 @@ class Intake final : public WatchListener {
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
 
-    // Call when rows of ingested files may have been lost. The next scan, which is due now, offers
-    // all files again.
+    // Call when the catalog may have lost rows of ingested files. Makes a scan due, which then
+    // offers all files again.
     void forget_seen();
 
     // Offers the growing files that are due.
@@ -79,29 +79,33 @@ class Intake final : public WatchListener {
     void registered(const Finished& noted);
     void job_ended(const Finished& finished);
 
-    // These enclose a scan of the watcher. `whole` says that the drop directory could be read.
+    // Call begin_scan() before a scan of the watcher and end_scan() after it. `whole` says that the
+    // drop directory could be read.
     void begin_scan();
     void end_scan(bool whole);
-    // Returns true if events were lost, the drop directory vanished, there is room again for
-    // refused files, or it is time to retry entries that could not be examined.
+    // Returns true if events were lost, directories were left to a scan, the drop directory
+    // vanished, files were refused and the queue is less than half full now, or it is time to retry
+    // entries that could not be examined.
     [[nodiscard]] bool needs_scan() const;
-    // Returns the time of that retry: after a second, doubled after each failure, up to a minute.
+    // Returns when to retry entries that could not be examined: after a second, then after delays
+    // that double up to a minute; none if there are no such entries.
     [[nodiscard]] std::optional<SteadyTime> look_again_at() const { return look_again_at_; }
 
-    // Returns when there is something to do: growing files to poll and, if a job can start, a job.
+    // Returns when there is something to do: to poll growing files, to start a job if `can_start`,
+    // or to register a file if `can_register`.
     [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start, bool can_register) const;
     [[nodiscard]] Pending pending() const;
     [[nodiscard]] std::vector<GrowingFiles::Wait> growing_waits(std::size_t most) const {
         return growing_.waits(clock_.steady(), most);
     }
-    // Returns how long the job that has waited longest could already have run.
+    // Returns the longest wait of all jobs that may run now; 0 if there are none.
     [[nodiscard]] SteadyTime::duration longest_wait() const;
     // Returns how often the kernel dropped events since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
     // Returns how often an entry could not be examined since the last call.
     std::uint64_t take_unseen() { return std::exchange(unseen_, 0); }
-    // Returns problems of directories, and of entries that are not files (not_a_file). Each is
-    // returned once while scans find it.
+    // Returns problems of directories, and of entries that are not files (not_a_file). A problem is
+    // returned only once, as long as every scan finds it again.
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
@@ -114,7 +118,7 @@ class Intake final : public WatchListener {
     [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
     void job_failed(const Finished& finished);
     void give_next_turn(const Finished& finished);
-    // Notes files that lost their places; a scan finds them again.
+    // Leaves files that lost their places to the next scan.
     void note_displaced();
     void note_represented(const std::filesystem::path& former, const std::filesystem::path& by);
     void note_going_on(const std::filesystem::path& path, bool goes_on);
@@ -132,10 +136,9 @@ class Intake final : public WatchListener {
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;
-    // Growing files of which only new data are read. They need no wait.
+    // Growing files of which each job reads only the new data, so that it need not wait.
     std::set<std::filesystem::path> followed_;
-    // Chunks that another chunk has relieved while their jobs are not yet collected, with that
-    // other chunk.
+    // Chunks whose job is not collected yet, each with the chunk that now represents their volume.
     std::map<std::filesystem::path, std::filesystem::path> relieved_;
     // Volumes that have closed sweeps: paths of files, and keys of volumes in chunks
     // (pipeline/drop/chunk_path.h).
@@ -145,9 +148,9 @@ class Intake final : public WatchListener {
     std::uint64_t overflows_ = 0, unseen_ = 0;
     std::optional<SteadyTime> look_again_at_;
     int looks_in_vain_ = 0;
-    bool is_looking_again_ = false;  // the current scan is that retry
+    bool is_looking_again_ = false;  // the current scan retries entries that could not be examined
     std::vector<Error> problems_;
-    SeenFiles told_;                     // problems that were reported, by their text
+    SeenFiles told_;                     // reported problems, by their text
     std::int64_t newest_closed_ns_ = 0;  // as in Job
 };
 

@@ -1,4 +1,4 @@
-// daemon/queue/pending.h -- how many files are still to be ingested.
+// daemon/queue/pending.h -- the numbers of files that are still to be ingested.
 #pragma once
 
 #include <cstddef>

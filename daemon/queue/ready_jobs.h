@@ -1,21 +1,21 @@
-// daemon/queue/ready_jobs.h -- chooses the next of the jobs that may run.
+// daemon/queue/ready_jobs.h -- chooses which of the ready jobs runs next.
 //
 // A job is LIVE if its file changed while we watched, or less than ten minutes ago. All others are
-// the BACKLOG. Live jobs have four classes. In each round a class has this many turns:
+// the BACKLOG. Live jobs have four classes, each with this many turns in a round:
 //   going on   known station, a volume of which sweeps have closed       8
 //   fresh      other files of known stations, reported by an event       4
 //   found      other files of known stations, found by a scan or a poll  1
 //   others     no known station                                          1
-// The backlog is served when nothing live is waiting: first that of known stations, then the
-// others, each newest first. While live jobs wait, the backlog of known stations gets one turn in
+// The backlog is served when no live job may begin: first files of known stations, then other
+// files, each newest first. While live jobs wait, the backlog of known stations gets one turn in
 // seventeen. So a flood of new volumes does not delay a volume that is going on, unknown names do
-// not delay known stations, and every class makes progress.
+// not delay known stations, and every class of live jobs makes progress.
 //
-// Within a class, stations take turns: first the one that was served longest ago or has waited
-// longest. So no station can hold up another one, however much it sends. Jobs of one station that
-// are going on are served oldest first: the end of a volume comes before the sweeps of the next
-// volume, because it is little work and would otherwise wait as long as new chunks arrive. All
-// other jobs are served newest first. This is pure bookkeeping.
+// Within a class of live jobs, stations take turns; a station that is served goes to the end of the
+// line. So no station can hold up another station, however much it sends. In the class "going on",
+// jobs of a station are served oldest first, so that the end of a volume comes before sweeps of the
+// next volume: the end is little work, and would otherwise wait as long as new chunks arrive. All
+// other jobs are served newest first. This class only keeps books.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -37,20 +37,21 @@ class ReadyJobs {
   public:
     struct Key {
         Urgency urgency = Urgency::backlog;
-        bool is_begun = false;       // of a volume that is going on; only for live jobs
+        bool is_begun = false;       // class "going on"; only for live jobs
         std::int64_t newest_ns = 0;  // since the epoch
         std::uint64_t sequence = 0;  // different for all jobs; breaks ties
-        // the station whose turn it takes; empty: all unknown stations share one
+        // the station whose turn the job takes; all unknown stations share the empty name
         std::string station;
-        bool is_told = true;  // an event reported it; only for live jobs
+        bool is_told = true;  // an event reported the file; only for live jobs
     };
 
     void add(const Key& key, void* job);
-    // Replaces a key in one step, so that a station keeps its turn when its only job is merged.
+    // Replaces the key of a job in one step, so that a station keeps its turn even if this is its
+    // only job.
     void replace(const Key& old, const Key& key, void* job);
     void remove(const Key& key);
-    // Returns the next job of a station for which `may_begin` is true (null: any station), or null
-    // if there is none. At most most_looked_at jobs of the backlog are tried.
+    // Removes and returns the next job of a station for which `may_begin` is true (null: any
+    // station); null if there is none. Tries at most most_looked_at jobs of each backlog.
     using MayBegin = std::function<bool(const std::string& station)>;
     static constexpr int most_looked_at = 64;
     void* take_next(const MayBegin& may_begin = {});
@@ -58,11 +59,11 @@ class ReadyJobs {
     [[nodiscard]] std::size_t count() const { return count_; }
 
   private:
-    // Sort key: the smaller one comes first.
+    // Sort key; smaller ranks come first.
     struct Rank {
         std::int64_t order = 0;
         std::uint64_t sequence = 0;
-        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 mistakes a defaulted <=> for a null.
         auto operator<=>(const Rank&) const = default;
     };
     struct Station {
@@ -71,7 +72,7 @@ class ReadyJobs {
     };
     // The live jobs of one class.
     struct Turns {
-        std::unordered_map<std::string, Station> stations;  // those with jobs
+        std::unordered_map<std::string, Station> stations;  // stations that have jobs
         std::map<std::uint64_t, std::string> turns;
         int left = 0;  // turns in this round
     };
@@ -99,10 +100,10 @@ class ReadyJobs {
 
     static constexpr int live_between_old = 16;
     std::size_t count_ = 0;
-    int live_since_old_ = 0;  // live jobs taken while a backlog waited
+    int live_since_old_ = 0;  // live jobs taken in a row while the backlog waited
     std::uint64_t next_turn_ = 0;
     std::array<Turns, 4> live_;
-    Backlog backlog_, others_backlog_;  // of known stations, and of all others
+    Backlog backlog_, others_backlog_;  // of known stations, and of all other stations
 };
 
 }  // namespace stormcellar::daemon

@@ -6,7 +6,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Time to wait if all ready jobs are of stations that have used up their share of the workers.
+// Time to wait if all ready jobs are of stations that may not use another worker now.
 constexpr std::chrono::milliseconds look_at_shares{50};
 
 }  // namespace
@@ -29,7 +29,7 @@ ReadyJobs::Key Schedule::key_of(const Entry& entry) {
             entry.sequence,    entry.job.station,  entry.job.closed_at.has_value()};
 }
 
-// Queues a job. If it must wait for a time, it becomes ready at that time.
+// Queues a job. A job with a `not_before` becomes ready at that time.
 void Schedule::enqueue(Entry& entry) {
     entry.running = false;
     entry.sequence = next_sequence_++;
@@ -131,7 +131,8 @@ Offered Schedule::offer(Job job, SteadyTime now) {
     return Offered::queued;
 }
 
-// Sets the start of the job's wait, which is not the time of its first failure.
+// Sets the time since which a delayed job counts as waiting: when it may run, not when it was
+// offered.
 void Schedule::wait_since(Entry& entry, SteadyTime time) {
     const bool was_unregistered = unregistered_.erase(entry.place) > 0;
     waiting_.erase(entry.place);

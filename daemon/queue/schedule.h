@@ -1,20 +1,20 @@
 // daemon/queue/schedule.h -- decides which file is ingested next.
 //
 // There is one entry for each path. A file that is offered again while it waits is merged with its
-// entry; one that is offered again while it runs is ingested once more afterward. The order is
-// that of ready_jobs.h, so that a backlog never delays new files, nor one station another
-// (work_shares.h). A file that could not be stored waits outside the queue, longer after each
-// failure, so that it takes no place from files that arrive. A file that has waited for
-// `register_after` is to be registered in the catalog without being read (next_unregistered()), so
-// that the catalog lists everything that is there, however far ingest is behind.
+// entry; a file that is offered again while its job runs is ingested once more afterward.
+// ready_jobs.h defines the order and work_shares.h the limits of a station, so that no backlog
+// delays new files and no station delays other stations. A file that could not be stored waits
+// outside the queue, longer after each failure, so that it takes no place from files that arrive. A
+// file that has waited for `register_after` is registered in the catalog without being read
+// (next_unregistered()), so that the catalog lists every file, however far ingest is behind.
 //
-// Memory is bounded: at most `limit` entries, and a quarter as many files to be tried again. At the
-// limit, a new job takes the place of the least valuable job of the station that has the most, if
-// its own station has fewer, or of a less valuable job of its own station; otherwise it is refused.
-// The least valuable job is the one that would be served last: first the backlog, then files that a
-// scan found, then files that an event reported, then volumes that are going on, and within each
-// kind the oldest. Once there is room, the caller finds dropped files again by a scan. This class
-// only keeps books: the caller passes the current time.
+// Memory is bounded: at most `limit` entries, and a quarter as many files that wait for another
+// attempt. At the limit, a new job takes the place of the least valuable job of the station with
+// the most jobs, if its own station has at least two fewer. Otherwise it takes the place of a less
+// valuable job of its own station, or is refused. Jobs of the backlog are the least valuable; then
+// come files that a scan found, files that an event reported, and volumes that are going on. Within
+// each kind, the oldest is the least valuable. Once there is room, the caller finds dropped files
+// again by a scan. This class only keeps books: the caller passes the current time.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -41,17 +41,17 @@ namespace stormcellar::daemon {
 
 struct Job {
     std::filesystem::path path;
-    bool finish_as_is = false;  // the file was quiet for long enough
-    // the last close that an event reported; none: found by a scan
+    bool finish_as_is = false;  // the file was quiet: finish its volume without the end
+    // the last close that an event reported; none: a scan or a poll found the file
     std::optional<SteadyTime> closed_at;
     std::int64_t newest_ns = 0;  // since the epoch
     SteadyTime not_before{};
-    int failures = 0;  // how often it could not be read or stored
-    // its place among the others (ready_jobs.h)
+    int failures = 0;  // failed attempts to read or store the file
+    // the order among jobs (ready_jobs.h)
     Urgency urgency = Urgency::backlog;
     bool is_begun = false;
     std::string station;
-    bool is_registered = false;  // in the catalog with this state or an earlier one
+    bool is_registered = false;  // the catalog has this state of the file, or an earlier state
 };
 
 enum class Offered { queued, merged, refused };
@@ -62,22 +62,23 @@ class Schedule {
 
     explicit Schedule(std::size_t limit) : limit_(limit) {}
 
-    // Adds a job. In a merge the later close and time count, and finish_as_is is set only if both
-    // set it (a new close means that the file was not quiet).
+    // Adds a job. If the job is merged, the later close and the later time apply, and finish_as_is
+    // is set only if both jobs set it (a new close means that the file was not quiet).
     Offered offer(Job job, SteadyTime now = {});
-    // Returns the first job that may run now. It counts as running until finished() or retry().
+    // Returns the first job that may run now. The job counts as running until finished() or
+    // retry().
     std::optional<Job> next(SteadyTime now);
-    // Returns the job that has waited longest of those that are not registered and were offered
-    // long enough ago. It counts as running until registered().
+    // Returns the job that has waited longest without being registered, if it has waited for
+    // `register_after`. The job counts as running until registered().
     std::optional<Job> next_unregistered(SteadyTime now);
-    // Puts the job back to be run. It is not returned by next_unregistered() again, whether
-    // registering it succeeded or not.
+    // Puts the job back to be run. next_unregistered() does not return it again, even if the
+    // attempt to register it failed.
     void registered(const std::filesystem::path& path);
-    // Ends a job. If its file was offered again in the meantime, it waits once more and does not
-    // run before `again_not_before`.
+    // Ends a job. If its file was offered again in the meantime, the new job waits, at least until
+    // `again_not_before`.
     void finished(const std::filesystem::path& path, SteadyTime again_not_before = {});
-    // Puts a running job back, not to run before now + retry_delay(its failures). Returns false if
-    // too many wait already; the job is then forgotten.
+    // Puts a job back that has failed once more; it runs after retry_delay(). Returns false and
+    // forgets the job if too many jobs wait for another attempt already.
     [[nodiscard]] bool retry(Job job, SteadyTime now);
     // Returns true while a job of the file is with a worker, or has ended there and was not passed
     // to finished() or retry() yet.
@@ -85,8 +86,8 @@ class Schedule {
         const auto entry = entries_.find(path.native());
         return entry != entries_.end() && entry->second.has_worker;
     }
-    // The worker of a job that next() returned is free again. Call it before finished() or retry().
-    // `is_good`: something of its station was gridded or shown.
+    // Notes that the worker of a job that next() returned is free again. Call before finished() or
+    // retry(). `is_good`: the job gridded or showed data of its station.
     void worked(const std::filesystem::path& path, SteadyTime::duration took, SteadyTime now,
                 bool is_good = false);
     void set_workers(int workers) { shares_.set_workers(workers); }
@@ -94,7 +95,7 @@ class Schedule {
     [[nodiscard]] std::vector<std::filesystem::path> take_displaced() {
         return std::exchange(displaced_, {});
     }
-    // No job runs before this time. Used when the disk is full, which concerns all jobs.
+    // Starts no job before this time. Used when the disk is full, which concerns all jobs.
     void hold_until(SteadyTime time) { held_until_ = time; }
 
     // Returns when the next waiting job may run; none if nothing waits. The time may be in the
@@ -102,7 +103,8 @@ class Schedule {
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     // Returns when the next job is to be registered; none if all are registered.
     [[nodiscard]] std::optional<SteadyTime> next_unregistered_time() const;
-    // Returns since when the longest waiting job has been waiting, among jobs that may run.
+    // Returns when the first of the waiting jobs that may run now began to wait; none if there are
+    // none.
     [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
     [[nodiscard]] std::size_t waiting_count() const {
         return ready_.count() + delayed_.size() - retrying_;
@@ -124,14 +126,15 @@ class Schedule {
         bool running = false;
         bool has_worker = false;   // running, returned by next()
         bool is_retrying = false;  // failed, and waits for its time
-        std::optional<Job> again;  // offered while it ran
+        std::optional<Job> again;  // was offered while the job ran
         std::uint64_t sequence = 0;
         SteadyTime offered_at{}, again_at{};
-        std::uint64_t place = 0;  // its order among all that were offered
+        std::uint64_t place = 0;  // order of offers
     };
     using DelayedKey = std::pair<SteadyTime, std::uint64_t>;
 
-    // The value of a job within its station: the smallest gives up its place first.
+    // The value of a job within its station; the job with the smallest value gives up its place
+    // first.
     using Worth = std::tuple<int, std::int64_t, std::uint64_t>;
     static Worth worth_of(const Job& job, std::uint64_t place);
     static ReadyJobs::Key key_of(const Entry& entry);
@@ -141,7 +144,8 @@ class Schedule {
     void wait_since(Entry& entry, SteadyTime time);
     void claim(const Entry& entry);
     void unclaim(const Entry& entry);
-    // Returns false if no station has more jobs than that of `job`.
+    // Drops a waiting job that is worth less than `job`, as described above. Returns false if there
+    // is none.
     bool make_room_for(const Job& job);
     void drop_waiting(Entry& entry);
     static void merge(Job& into, const Job& job);
@@ -154,11 +158,11 @@ class Schedule {
     std::map<DelayedKey, Entry*> delayed_;
     std::map<std::uint64_t, Entry*> waiting_;       // all waiting entries, by place
     std::map<std::uint64_t, Entry*> unregistered_;  // the waiting entries that are not registered
-    // the waiting jobs of each station, without those to be tried again
+    // the waiting jobs of each station, without jobs that wait for another attempt
     std::unordered_map<std::string, std::set<Worth>> claims_;
     std::size_t retrying_ = 0;
     WorkShares shares_;
-    // no ready job may begin before this time, unless more arrives
+    // no ready job may begin before this time, unless the queue changes
     SteadyTime shares_looked_at_{};
     std::vector<std::filesystem::path> displaced_;
 };

@@ -1,9 +1,9 @@
-// daemon/queue/seen_files.h -- the files that were already ingested, so that a scan offers only new
-// and changed ones.
+// daemon/queue/seen_files.h -- remembers which files were already offered, so that a scan offers
+// only new and changed files.
 //
-// A file takes about 24 bytes: the hashes of its path and its stamp, not the name. Two paths with
-// the same 64-bit hash would hide each other; among a million files the odds of that are 1 in 37
-// million.
+// A file takes about 24 bytes, since only hashes of its path and its stamp are kept. Two paths with
+// the same 64-bit hash would hide each other; among a million files the odds of such a pair are 1
+// in 37 million.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -25,8 +25,8 @@ class SeenFiles {
     void forget_all() { files_.clear(); }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
 
-    // These enclose a whole scan: files that are neither found nor added between the two calls are
-    // forgotten.
+    // Call begin_scan() before a scan and end_scan() after a complete one. end_scan() forgets files
+    // that were neither found nor added in between.
     void begin_scan() { ++scan_; }
     void found_again(const std::filesystem::path& path);
     void end_scan();

@@ -1,6 +1,6 @@
-// daemon/queue/sink.h -- processes files for the service, as an interface, so that the service can
-// be tested without radar data. Thread contract: several workers call take() at once, but never for
-// the same path.
+// daemon/queue/sink.h -- the interface through which the service processes files, so that tests of
+// the service need no radar data. Thread contract: several workers call take() at once, but never
+// for the same path.
 #pragma once
 
 #include <chrono>
@@ -27,19 +27,19 @@ struct Taken {
 
 // The state of the catalog.
 struct CatalogState {
-    // Databases that cannot be used now, and why; for the database of files of no known station the
-    // station is empty.
+    // Stations whose databases cannot be used now, and why. The station is empty for the database
+    // of files of unknown stations.
     std::vector<std::pair<std::string, std::string>> troubles;
     std::string rule;                  // "known", "any" or "listed"
-    std::vector<std::string> further;  // stations that `any` accepted
-    std::size_t most_further = 0;
-    // Number of databases of unknown stations, and the first names.
+    std::vector<std::string> further;  // other stations that the rule "any" has accepted
+    std::size_t most_further = 0;      // limit of `further`
+    // Databases of stations that the rule does not accept: their number, and the first names.
     std::size_t left_alone = 0;
     std::vector<std::string> some_left_alone;
     bool operator==(const CatalogState&) const = default;
 };
 
-// The result of a roll of the cache, and the cache's contents; no usage if the cache has no limits.
+// The result of a roll of the cache, and the contents of the cache afterward, if they are known.
 struct CacheRolled {
     cache::RollReport report;
     std::optional<cache::StoreUsage> usage;
@@ -47,47 +47,51 @@ struct CacheRolled {
 
 class Sink : public Interface {
   public:
-    // Ingests a file. An error is never the file's fault (the catalog or the cache cannot be
-    // written); the file is tried again later. After the last try the file is rejected with the
-    // reason, if that can be stored.
+    // Ingests a file. A faulty file gives a rejected outcome. An error means that the file could
+    // not be ingested for another reason (for example, the catalog or the cache cannot be written),
+    // and should be tried again. If `tries` says that this is the last attempt, rejects the file
+    // instead where that can be stored.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) = 0;
-    // Returns the files that were being ingested when the process last ended, and how long each has
-    // to wait.
+    // Returns the files that were being ingested when the process last ended, and how long each
+    // must wait.
     [[nodiscard]] virtual std::map<std::filesystem::path, std::chrono::seconds> waits() const {
         return {};
     }
-    // Handles a file that must wait: writes it into the catalog unread (stands), or marks its rows
-    // if it is gone (gone; then nothing is left to do). May run beside take() for other paths.
+    // Handles a file that must wait, without reading it: registers it in the catalog, or marks its
+    // rows as gone if it does not exist. Returns `gone` if nothing is left to do, and `stands` if
+    // the file must still be ingested; that includes a missing file for which chunks of a volume
+    // wait. May run beside take() for other paths.
     virtual Result<pipeline::Noted> note(const std::filesystem::path& /*path*/) {
         return pipeline::Noted::stands;
     }
-    // Says whether more files wait than the workers can soon ingest; then optional work is left
-    // out.
+    // Call with true while more files wait than the workers can soon ingest, so that optional work
+    // is left out.
     virtual void set_pressed(bool /*pressed*/) {}
     // Long functions call this now and then, from the thread that runs them, to show progress.
     using OnStep = std::function<void()>;
     // Marks known files that no longer exist, after a scan. Returns how many. May run beside
     // take().
     virtual Result<int> mark_missing(const OnStep& step) = 0;
-    // Deletes rows of files that are gone and were last registered before that time. Returns how
+    // Deletes rows of files that are gone and were last registered before `before`. Returns how
     // many. May run beside take().
     virtual Result<int> forget_gone(UtcTime /*before*/, const OnStep& /*step*/) { return 0; }
-    // Deletes rows of files that are gone if the rows exceed their limit. Returns how many. May run
-    // beside take().
+    // Deletes the oldest rows of gone files if all rows exceed their limit. Returns how many. May
+    // run beside take().
     virtual Result<std::int64_t> roll_rows(const OnStep& /*step*/) { return 0; }
     // Returns the present state of the catalog. May be called beside the other functions.
     [[nodiscard]] virtual CatalogState catalog_state() { return {}; }
-    // Keeps the cache within these limits from now on. May run beside take(); one call at a time.
+    // Sets the budgets of the cache and brings the cache within them. May run beside take(); one
+    // call at a time.
     virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
         return {};
     }
     // Returns an error if the catalog or the cache cannot be written now. Called until it succeeds
     // once.
     [[nodiscard]] virtual Status can_store() { return {}; }
-    // Returns what was found damaged and repaired since the last call, one printable line each. The
-    // files of the drop directory must then be offered again. May be called beside the other
-    // functions.
+    // Returns one printable line for each damage that was found and repaired since the last call.
+    // If there are any, the files of the drop directory must be offered again. May be called beside
+    // the other functions.
     virtual std::vector<std::string> take_repairs() { return {}; }
 };
 

@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::uint64_t most_tried_bytes = std::uint64_t{1} << 20;
 
-// Files that ran together wait for each other, so that the one that ends the process is alone then.
+// Files that ran together are tried at different times, so that the file that ends the process runs
+// alone.
 constexpr std::chrono::seconds apart{10};
 
 // Reads a number and the blank behind it.
@@ -45,8 +46,8 @@ TriedFiles::TriedFiles(const std::filesystem::path& file) {
     write();
 }
 
-// Reads the list. Each entry is "ENDS RUNNING SIZE TIME PATH" and a zero; an empty entry ends the
-// list. Invalid entries are skipped.
+// Reads the list. Each entry is "ENDS RUNNING SIZE TIME PATH" and a zero byte; an empty entry ends
+// the list. Skips invalid entries and files that no longer exist.
 void TriedFiles::read(const std::string& text) {
     std::string_view rest = text;
     while (!rest.empty()) {
@@ -76,8 +77,8 @@ void TriedFiles::write() {
                             tried.stamp.size_bytes, tried.stamp.modified_ns, path);
         text += '\0';
     }
-    // End the list with a zero: if the process ends before the file is cut, the rest of an older,
-    // longer list follows.
+    // End the list with an empty entry: if the process ends before the file is truncated, the rest
+    // of an older, longer list follows.
     text += '\0';
     const ssize_t written = ::pwrite(file_.number(), text.data(), text.size(), 0);
     if (::ftruncate(file_.number(), std::max<ssize_t>(0, written)) != 0) file_ = Descriptor{};
@@ -86,7 +87,7 @@ void TriedFiles::write() {
 std::map<std::filesystem::path, std::chrono::seconds> TriedFiles::waits() const {
     const MutexLock lock(mutex_);
     std::map<std::filesystem::path, std::chrono::seconds> waits;
-    std::map<int, int> before;  // by the number of ends
+    std::map<int, int> before;  // earlier files in the loop, by number of ends
     for (const auto& [path, tried] : tried_) {
         if (tried.ends < most_ends)
             waits[path] = wait_after(tried.ends) + apart * before[tried.ends]++;

@@ -1,11 +1,11 @@
 // daemon/queue/tried_files.h -- remembers which files were being ingested when the process ended.
 //
-// A file that kills the process (it takes all memory, or finds a fault) would do so again at each
-// start, until systemd no longer starts the service. So a path is recorded before the file is
-// opened, and removed when that has ended. After a start, the paths that are still recorded wait,
-// longer after each consecutive end: 2 s, 8 s, 32 s and so on to 512 s. Files that ran together
-// wait 10 s more, one after the other. After `most_ends` ends the file is not opened again until it
-// has changed (its size or its time).
+// A file that kills the process (it takes all memory, or triggers a fault) would do so again at
+// each start, until systemd no longer starts the service. So a path is recorded before its file is
+// opened, and removed when the file has been processed. After a start, files that are still
+// recorded wait: 2 s after the first end of the process, then 8 s, 32 s and so on to 512 s. Files
+// with equally many ends wait 10 s more, one after the other. After `most_ends` ends a file is not
+// opened again until its size or its time has changed.
 //
 // The list need not survive a power cut, so no write waits for the disk. Each ingested file costs
 // two writes of some hundred bytes. If the list is missing, no file is held back.
@@ -32,13 +32,14 @@ class TriedFiles {
     // Reads the list of the last process. If the file cannot be written, the list has no effect.
     explicit TriedFiles(const std::filesystem::path& file);
 
-    // Returns how long each file must wait after the start. Files without an entry, and files that
-    // were given up, need not wait.
+    // Returns how long each file must wait after the start. Files that are missing in the result,
+    // including files that were given up, need not wait.
     [[nodiscard]] std::map<std::filesystem::path, std::chrono::seconds> waits() const;
-    // Returns true if the process ended too often while it ingested the file in this very state.
+    // Returns true if the process ended `most_ends` times while it ingested the file, and the file
+    // has not changed since.
     [[nodiscard]] bool is_given_up(const std::filesystem::path& path, const FileStamp& stamp) const;
 
-    // Call begin() and end() around ingesting the file.
+    // Call begin() before ingesting the file, and end() after it.
     void begin(const std::filesystem::path& path, const FileStamp& stamp);
     void end(const std::filesystem::path& path);
 

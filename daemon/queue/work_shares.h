@@ -1,14 +1,13 @@
-// daemon/queue/work_shares.h -- limits how many of the workers one station may use.
+// daemon/queue/work_shares.h -- limits how many workers a station may use.
 //
-// A file determines how long its job takes, and a job is not interrupted. So one worker is reserved
-// for light stations. A station is light if something good came from it within the last hour (one
-// of its files was gridded or showed a sweep) and it has not used too much time. The time of its
-// jobs is added to its debt, which decreases by a fifth of a second each second; a station that
-// owes more than two seconds is not light. All stations that are not light share all workers but
-// one. Each single station may also use at most all workers but one. If there is only one worker,
-// it serves every station. So slow files can never keep the last worker from other stations. A site
-// of a real feed takes half a second every five minutes. All unknown stations count as one station,
-// which is never light. This class only keeps books.
+// A job cannot be interrupted, and its file determines how long it takes. So that slow files cannot
+// occupy all workers, one worker is reserved for light stations. A station is light if one of its
+// files was gridded or showed a sweep within the last hour, and if it owes at most two seconds.
+// Each job adds the time that it took to the debt of its station; the debt decreases by a fifth of
+// a second each second. (A site of a real feed takes half a second every five minutes.) All other
+// stations together use at most all workers but one. A single light station also uses at most all
+// workers but one. If there is only one worker, it serves every station. All unknown stations count
+// as one station, which is never light. This class only keeps books.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -27,11 +26,11 @@ class WorkShares {
     static constexpr std::chrono::hours good_for{1};
 
     void set_workers(int workers) { workers_ = workers; }
-    // Returns true if a job of the station (empty: no known station) may begin now.
+    // Returns true if a job of the station (empty: an unknown station) may begin now.
     [[nodiscard]] bool may_begin(const std::string& station, Time now) const;
     void begun(const std::string& station, Time now);
-    // Notes that a job of the station has ended after `took`. `is_good`: something was gridded or
-    // shown.
+    // Notes that a job of the station has ended after `took`. `is_good`: the job gridded or showed
+    // data.
     void ended(const std::string& station, Time::duration took, bool is_good, Time now);
 
   private:

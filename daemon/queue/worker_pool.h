@@ -1,7 +1,7 @@
 // daemon/queue/worker_pool.h -- threads that ingest files or register them in the catalog.
 //
-// A job is handed over only when a worker is free, so no jobs queue up here. An exception that a
-// job throws becomes its error and does not end the worker.
+// The caller submits a job only if a worker is free, so no jobs queue up here. If a job throws an
+// exception, the job fails with that error, and its worker goes on.
 //
 // Threads   One thread owns the pool. `wake` is called from the workers and must only signal.
 #pragma once
@@ -36,7 +36,8 @@ class WorkerPool {
     WorkerPool& operator=(const WorkerPool&) = delete;
     ~WorkerPool();  // waits for the running jobs
 
-    // Additional threads start at once; surplus ones end after their current job.
+    // Changes the number of workers. Additional threads start at once; surplus threads end after
+    // their current job.
     void resize(int workers);
     [[nodiscard]] bool has_free_worker() const;
     void submit(Job job);  // call it only if a worker is free
@@ -48,7 +49,7 @@ class WorkerPool {
         SteadyTime since;
     };
     [[nodiscard]] std::optional<Oldest> oldest() const;
-    // Starts no more jobs. Returns true if the running ones ended within the time.
+    // Starts no more jobs. Returns true if the running jobs ended within `within`.
     bool drain(std::chrono::milliseconds within);
 
   private:
@@ -67,7 +68,7 @@ class WorkerPool {
     ConditionVariable changed_;
     std::deque<Job> inbox_ STORMCELLAR_GUARDED_BY(mutex_);
     std::vector<Finished> outbox_ STORMCELLAR_GUARDED_BY(mutex_);
-    // By the start of each.
+    // Files of running jobs, by the start of the job.
     std::multimap<SteadyTime, std::filesystem::path> running_ STORMCELLAR_GUARDED_BY(mutex_);
     int wanted_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
     int alive_ STORMCELLAR_GUARDED_BY(mutex_) = 0;

@@ -8,8 +8,8 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Returns true if the cache protects the newest grid of the group. Stations that `any` admitted are
-// not protected, because they may not be real.
+// Returns true if the cache must keep the newest grid of the group. It need not keep grids of
+// stations that the rule "any" accepted, because those may not be real.
 bool is_known_group(std::string_view group, const StationRule& stations) {
     if (cache::is_known_group(group)) return true;
     return stations.kind() == StationRule::Kind::listed && stations.knows(group);
@@ -66,7 +66,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.living.chunk_timeout = config.ingest.chunk_timeout;
     options.living.chunk_grace = config.ingest.chunk_grace;
     options.living.count = growing_;
-    // much less than the watchdog's limit for a hang
+    // much less than the time after which the watchdog takes a step for a hang
     options.archive_turn = std::chrono::seconds{20};
     options.living.has_time = [pressed = pressed_] { return !*pressed; };
     return options;

@@ -19,7 +19,7 @@ namespace stormcellar::daemon {
 
 class IngestSink final : public Sink {
   public:
-    // Opens state/catalog and the cache for writing, and makes them if they are missing.
+    // Opens STATE/catalog and the cache for writing, and makes them if they are missing.
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
@@ -43,7 +43,7 @@ class IngestSink final : public Sink {
     [[nodiscard]] Status can_store() override;
     std::vector<std::string> take_repairs() override;
 
-    // For the cache keeper, which works beside take().
+    // For the caretaker, which works beside take().
     [[nodiscard]] catalog::CatalogWriter& catalog() { return catalog_; }
     [[nodiscard]] const cache::StoreReader& store() const { return store_; }
     // For the keeper of partials.

@@ -1,7 +1,7 @@
 // daemon/service/scan_times.h -- decides when the drop directory is scanned.
 //
-// Scans take at most about a tenth of the time, however often one is requested. A regular scan
-// comes every rescan_seconds. If changes come without events, polls come in between. Thread
+// Scans take at most about a tenth of the time, however often they are requested. A regular scan
+// runs every rescan_seconds. If the watcher is blind, further scans (polls) run in between. Thread
 // contract: one thread.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace stormcellar::daemon {
 
 class ScanTimes {
   public:
-    // Returns true if a scan is due. `is_needed` requests one as soon as the rest after the last
+    // Returns true if a scan is due. `is_needed` requests a scan as soon as the rest after the last
     // scan is over.
     [[nodiscard]] bool is_due(SteadyTime now, bool is_needed) const {
         return now >= next_ || (is_needed && now >= rested_);
@@ -23,14 +23,15 @@ class ScanTimes {
     [[nodiscard]] SteadyTime next() const { return next_; }
     [[nodiscard]] SteadyTime rested() const { return rested_; }
 
-    // Notes when a scan began and ended; the next one comes after `gap`.
+    // Notes when a scan began and ended. The next scan is due after `gap`, but not before the rest
+    // is over.
     void scanned(SteadyTime began, SteadyTime ended, SteadyTime::duration gap) {
         const SteadyTime::duration rest = rest_factor * (ended - began);
         rested_ = ended + std::max<SteadyTime::duration>(least_gap, rest);
         next_ = std::max(ended + gap, rested_);
     }
     void set_next_regular(SteadyTime time) { next_regular_ = time; }
-    // Makes the next scan come at that time, if not sooner.
+    // Makes a scan due at `time`, or sooner if it was due sooner.
     void no_later_than(SteadyTime time) { next_ = std::min(next_, time); }
 
   private:

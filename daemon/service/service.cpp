@@ -22,8 +22,8 @@ constexpr std::chrono::milliseconds between_memory_looks{250};
 // Time between searches for a missing drop directory.
 constexpr std::chrono::seconds between_drop_looks{1};
 
-// Returns the limit of free memory; memory beyond it is returned to the system. Volumes that are
-// decoded one after the other leave less, which is reused at once.
+// Returns how much free memory the process keeps for reuse; it returns more to the system. Volumes
+// that are decoded one after another leave less free memory than this.
 constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
@@ -108,8 +108,9 @@ void Service::start() {
     if (parts_.runs_loops) loop_keeper_.set(config_.loops);
 }
 
-// Waits until the service is ready. Systemd ends the wait after TimeoutStartSec and starts the
-// service again, so the machine's boot does not wait forever for a disk that does not come.
+// Reports READY once the service is ready. If that takes longer than TimeoutStartSec, systemd
+// starts the service again, so the machine's boot does not wait forever for a disk that does not
+// come.
 void Service::get_ready() {
     if (!readiness_.look(parts_.clock.steady())) return;
     if (!readiness_.is_ready()) {
@@ -224,7 +225,7 @@ void Service::scan_if_due() {
     if (scan_times_.is_due(parts_.clock.steady(), intake_.needs_scan())) scan();
 }
 
-// Starts waiting jobs. Called between two parts of long work: a scan of many files takes seconds, a
+// Starts waiting jobs. Called now and then during long work: a scan of many files takes seconds, a
 // burst of events a tenth of a second.
 void Service::keep_workers_busy() {
     collect();
@@ -286,7 +287,7 @@ void Service::look_at_catalog(SteadyTime now) {
     if (catalog_trouble_.look(now, parts_.sink, status_)) status_file_.changed();
 }
 
-// Reports a job. Failures caused by a database in trouble are logged once, with the trouble.
+// Reports a job. If a job fails because a database is in trouble, only the trouble is logged, once.
 void Service::report(const Finished& finished) {
     if (!finished.taken) {
         catalog_trouble_.look_soon();

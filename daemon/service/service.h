@@ -1,18 +1,19 @@
 // daemon/service/service.h -- the main loop of the daemon.
 //
 // One thread does all the bookkeeping (events, schedule, logs, status); the workers only ingest
-// files. It polls for signals, directory events and ended jobs, and sleeps until something is due.
-//   start            scans the drop directory and queues the files there; reports READY once
-//                    state, cache and sockets answer (readiness.h). Until then it ingests what it
-//                    can. It does not wait for the drop directory: the status names that it is
-//                    missing, and it is looked for every second
+// files. The main thread polls for signals, directory events and ended jobs, and sleeps until
+// something is due.
+//   start            scans the drop directory and queues the files there; reports READY once state,
+//                    cache and sockets answer (readiness.h). Until then it ingests what it can. It
+//                    does not wait for the drop directory: if that is missing, the status reports
+//                    it, and the service looks for it every second
 //   SIGTERM, SIGINT  running jobs end, and the queue is dropped (the next start finds the files
 //                    again)
 //   SIGHUP           the configuration is read again; paths, grid and queue limit stay until a
 //                    restart
-// Loops are other programs, which end with the service (daemon/loops/loop_supervisor.h), unless a
-// service of their own keeps them. The cache is brought within its budgets every few seconds, in a
-// thread of its own.
+// Loops run as other programs, which end with the service (daemon/loops/loop_supervisor.h), unless
+// another process runs the loops. A thread of its own brings the cache within its budgets every few
+// seconds.
 //
 // Threads   run() once; request_stop(), is_idle() and sites_compared() from any thread.
 #pragma once
@@ -61,14 +62,15 @@ struct ServiceParts {
     bool runs_loops = true;  // false: another process runs them (daemon/loops/loops_service.h)
     StatusBoard* board = nullptr;       // null: the status is published only in its file
     StateKeeper* state = nullptr;       // null: a state directory that is deleted is not made again
-    std::filesystem::path socket = {};  // where the status is served, to be named in the status
-    // The machines that bring partials of mosaics; empty: there are none.
+    std::filesystem::path socket = {};  // the status socket; only reported in the status
+    // Returns the machines that bring partials of mosaics; empty: there are none.
     std::function<std::vector<MachineFacts>()> machines = {};
 };
 
 enum class Stopped {
     cleanly,
-    with_jobs,  // jobs did not end in time: end the process without waiting for them
+    with_jobs,  // jobs did not end in time; the caller must end the process without waiting for
+                // them
 };
 
 class Service {
@@ -76,19 +78,20 @@ class Service {
     // `config_file` is read again on SIGHUP.
     Service(const Config& config, std::filesystem::path config_file, ServiceParts parts);
 
-    // Notes a station of the catalog with its newest volume. Call it before run().
+    // Tells the status about a station of the catalog and its newest volume. Call before run().
     void know_station(const std::string& station, UtcTime newest_volume);
     Stopped run();
     void request_stop();
-    // Returns true if no file waits, so that other work may begin. May be called from any thread.
+    // Returns true if no job is ready to run, so that other work may begin. May be called from any
+    // thread.
     [[nodiscard]] bool is_idle() const { return idle_; }
     // Reports the differences between two sites to the log and the status. May be called from any
     // thread.
     void sites_compared(pipeline::PairReport report);
     // Adds a check that must succeed before READY. Call it before run().
     void need(Readiness::Check check) { readiness_.need(std::move(check)); }
-    // Adds a thread for the watchdog to check. Call it before run(); the pulse must exist until
-    // run() has returned.
+    // Adds a thread whose hang must stop the feeding of the watchdog. Call before run(); the pulse
+    // must exist until run() has returned.
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
@@ -143,7 +146,8 @@ class Service {
     SteadyTime next_held_back_{}, next_memory_look_{};
     WorkerPool pool_;  // near the end: its threads, and the registrar's, use the members above
     WorkerPool registrar_;
-    // The last members: their threads are waited for before the others are destroyed.
+    // The last members: their destructors wait for their threads before the other members are
+    // destroyed.
     RowKeeper row_keeper_;
     CacheKeeper cache_keeper_;
     LoopSupervisor loop_keeper_;

@@ -129,7 +129,8 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
     }
 }
 
-// Adds loops that another service runs to this service's metrics, because that one serves none.
+// Adds loops that another process runs to this process's status, because `stormcellard
+// --loops-only` serves no metrics.
 bool OthersLoops::look(SteadyTime now, const std::filesystem::path& state,
                        const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status) {
     if (now < next_) return false;

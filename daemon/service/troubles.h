@@ -1,8 +1,8 @@
-// daemon/service/troubles.h -- troubles that may last for a while. The log reports each once when
-// it begins and once when it is over; the status shows it as long as it lasts.
+// daemon/service/troubles.h -- troubles that may last for a while. The log reports most of them
+// when they begin and when they are over; the status shows a trouble as long as it lasts.
 //
-// Each class remembers whether the log has reported its trouble. The service may call look() at
-// every turn; each class limits how often it really checks. Thread contract: the service's thread.
+// Each class remembers if the log has reported its trouble. The service may call look() at every
+// turn; each class limits how often it really checks. Thread contract: the service's thread.
 #pragma once
 
 #include <chrono>
@@ -32,8 +32,7 @@ class DropTrouble {
 // The state directory was deleted and cannot be made again.
 class StateTrouble {
   public:
-    // Returns true if it was made again; files that could not be stored meanwhile are then tried
-    // again.
+    // Returns true if the directory was made again.
     bool look(SteadyTime now, StateKeeper& keeper, const std::filesystem::path& state);
 
   private:
@@ -63,10 +62,11 @@ class BacklogTrouble {
     bool is_behind_ = false;
 };
 
-// Two processes run the loops; or, if only another process runs them, what that process reports.
+// Two processes run the same loops. If only another process runs them, look() copies the state that
+// it reports into the status.
 class OthersLoops {
   public:
-    // `runs_loops`: this process runs them. Returns true if the status changed.
+    // `runs_loops`: this process runs loops. Returns true if the status changed.
     bool look(SteadyTime now, const std::filesystem::path& state,
               const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status);
 

@@ -12,7 +12,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// for the request line and all headers, and for the headers of the answer
+// memory for a request's line and headers, and for the headers of its answer
 constexpr std::size_t request_memory = 8192;
 
 // Checks every Host field, because a client that sends two may mean either.
@@ -101,8 +101,8 @@ std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
     return next;
 }
 
-// Makes room. Requests are answered at once, so the connections that have been open longest have no
-// request.
+// Closes the oldest connection if three quarters of the allowed connections are open. Requests are
+// answered at once, so the oldest connection has most likely sent none.
 void HttpListener::make_room() {
     const auto stands = [](const auto& one) { return !one.second.is_cut; };
     const auto standing = std::count_if(open_.begin(), open_.end(), stands);
@@ -118,14 +118,15 @@ void HttpListener::make_room() {
 }
 
 void HttpListener::turn(SteadyTime now) {
-    // Shut the connections down; libmicrohttpd notices their end and closes them.
+    // Shut down connections whose time is over; libmicrohttpd notices their end and closes them.
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.ends > now) continue;
         ::shutdown(open.descriptor, SHUT_RDWR);
         open.is_cut = true;
     }
-    // One run accepts few new connections, and none while their number is at the limit. Connections
-    // that end in a run make room only in the next one, and no descriptor signals that.
+    // A run of libmicrohttpd accepts few new connections, and none at the limit. Connections that
+    // end in a run make room only for the next run, and no descriptor signals that, so run it until
+    // nothing changes.
     is_behind_ = true;
     for (int round = 0; is_behind_ && round < most_rounds; ++round) {
         const std::uint64_t before = changes_;

@@ -28,14 +28,14 @@ class HttpListener {
     struct Request {
         const char* method;
         const char* url;
-        // True if, on a port, a Host field is not a name of a loopback address (base/host_field.h).
-        // A request without the field is accepted: HTTP/1.0 allows it, and browsers, against whose
-        // pages this check is made, always send it.
+        // True if the request came to a port and a Host field is not a name of a loopback address
+        // (base/host_field.h). A request without the field is accepted: HTTP/1.0 allows that, and
+        // web pages, against which this check protects, cannot make a browser leave it out.
         bool names_another_host;
     };
     // The answer to a request, and its HTTP status.
     struct Answer {
-        MHD_Response* response = nullptr;  // stays owned by the answerer; null ends the connection
+        MHD_Response* response = nullptr;  // owned by the answerer; null ends the connection
         unsigned status = 0;
     };
     using Answerer = std::function<Answer(const Request&)>;
@@ -60,7 +60,7 @@ class HttpListener {
     void turn(SteadyTime now);
 
   private:
-    // runs in one turn, so that a flood does not make it endless
+    // rounds in one turn, so that a flood does not make turn() endless
     static constexpr int most_rounds = 64;
     struct Callbacks;
     struct Open {
@@ -75,7 +75,7 @@ class HttpListener {
     Limits limits_;
     Answerer answerer_;
     std::map<MHD_Connection*, Open> open_;
-    std::uint64_t changes_ = 0;  // number of connections opened or closed
+    std::uint64_t changes_ = 0;  // how many connections were opened or closed
     bool is_behind_ = false;     // the last turn ended with work left
     MHD_Daemon* daemon_ = nullptr;
     int epoll_ = -1;

@@ -18,7 +18,7 @@ namespace {
 constexpr mode_t socket_mode = 0660;
 constexpr mode_t permissions = 07777;
 
-// Returns true if a program listens there.
+// Returns true if a program listens at the path, or if that cannot be determined.
 bool is_answered(const sockaddr_un& address) {
     const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     if (!socket.is_open()) return true;  // cannot be determined

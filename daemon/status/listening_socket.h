@@ -1,10 +1,10 @@
-// daemon/status/listening_socket.h -- the address at which the status is served: a Unix socket or a
-// loopback port, and never another address.
+// daemon/status/listening_socket.h -- a socket that serves the status: a Unix socket or a port of a
+// loopback address, never of another address.
 //
-// A Unix socket has mode 0660, minus the umask of the thread that opens it, from its creation on;
-// its mode is never changed by name, which could follow a link in its place. If a killed daemon
-// left a socket at the path, it is removed, but only if no program answers there; anything else at
-// the path is an error.
+// A Unix socket is created with mode 0660, minus the umask of the thread that opens it. The mode is
+// never changed by name, because that could follow a link that has replaced the socket. If a killed
+// daemon left a socket at the path, at_path() removes it, but only if no program answers there.
+// Anything else at the path is an error.
 //
 // Threads   One thread at a time.
 // Errors    bad_argument (a path of more than 107 bytes), permission, not_found (no such
@@ -24,7 +24,7 @@ namespace stormcellar::daemon {
 
 enum class Loopback { ipv4, ipv6 };
 
-// The destructor closes the socket and removes its path if it is still ours.
+// The destructor closes the socket and removes its path, unless another file is there now.
 class ListeningSocket {
   public:
     static Result<ListeningSocket> at_path(const std::filesystem::path& path);
@@ -39,7 +39,7 @@ class ListeningSocket {
     [[nodiscard]] int descriptor() const { return socket_.number(); }
     // none for a Unix socket
     [[nodiscard]] std::optional<int> port() const { return port_; }
-    // for a Unix socket: the permissions that it has
+    // for a Unix socket: its permissions
     [[nodiscard]] mode_t mode() const { return mode_; }
     // Returns false if the path was removed or replaced.
     [[nodiscard]] bool still_stands() const;

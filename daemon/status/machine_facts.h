@@ -19,10 +19,10 @@ struct MachineFacts {
     std::optional<UtcTime> arrived = {};  // when it last brought something
     std::uint64_t taken = 0;              // partials put into the cache since the start
     std::uint64_t refused = 0;            // files that are damaged or not a partial of a mosaic
-    std::uint64_t replaced = 0;           // partials of other machines that its own replaced
+    std::uint64_t replaced = 0;           // partials of other machines that its partials replaced
     bool is_late = false;
     std::string why = {};           // why it is late; empty: it is not
-    std::string last_problem = {};  // with its directory or a file; empty: none
+    std::string last_problem = {};  // names its directory or a file; empty: none
     bool operator==(const MachineFacts&) const = default;
 };
 

@@ -3,8 +3,9 @@
 // once.
 //
 // Two reasons are the same if the kind of error is the same and the texts differ only in their
-// numbers, which may be a growing size. At most `most` paths are remembered, as hashes of about 40
-// bytes each; beyond that the oldest are forgotten, and their next rejection counts as new.
+// digits, which may show a growing size. At most `most` paths are remembered, as hashes, in about
+// 40 bytes each. Beyond that the oldest paths are forgotten, and their next rejection counts as
+// new.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -31,7 +32,7 @@ class RejectedPaths {
   private:
     std::size_t most_;
     std::unordered_map<std::uint64_t, std::uint64_t> reasons_;  // by path
-    std::deque<std::uint64_t> order_;  // of the paths, oldest first; some may be forgotten already
+    std::deque<std::uint64_t> order_;  // hashes of paths, oldest first; some are forgotten
 };
 
 }  // namespace stormcellar::daemon

@@ -16,7 +16,7 @@ using pipeline::IngestResult;
 
 constexpr std::size_t longest_reason = 512;
 
-// Returns what the event is about: "KTLX 2022-03-17T00:08:42Z NAME".
+// Returns the subject of the line: "KTLX 2022-03-17T00:08:42Z NAME".
 std::string subject(const Finished& finished) {
     const IngestOutcome& outcome = finished.taken->ingest;
     return fmt::format("{} {} {}", outcome.station.empty() ? "????" : printable(outcome.station),
@@ -139,8 +139,8 @@ void Reporter::report_directory(const Error& error) {
         is_blind ? "; the service polls the drop directory instead ([watch] poll_seconds)" : "");
 }
 
-// Reports on two sites. In clear air nothing can be determined, which is not worth a line every
-// hour.
+// Reports the differences between two sites. In clear air nothing can be determined, which is not
+// worth a line every hour.
 void Reporter::report_sites(const pipeline::PairReport& report) {
     const About compared{
         .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};

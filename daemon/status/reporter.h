@@ -1,4 +1,4 @@
-// daemon/status/reporter.h -- one log line for each event, with station and volume.
+// daemon/status/reporter.h -- writes one log line for each event, with station and volume.
 //
 // The number of lines of a kind is limited by daemon/log/line_limiter.h.
 //
@@ -11,18 +11,18 @@
 
 namespace stormcellar::daemon {
 
-// Returns the line for a job that ended, with its subject and with names escaped; tests use it,
-// too.
+// Return the text and the fields of the log line for a job that ended. Names in the text are
+// escaped.
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
-// True if the failure of a job was logged already.
+// The failure of a job was logged before, or not yet.
 enum class Named : bool { not_yet, before };
 
 class Reporter {
   public:
     static void report(const Finished& finished, Named named = Named::not_yet);
-    // Reports a directory that cannot be watched or read.
+    // Reports a directory that cannot be watched or read, or an entry that is not a file.
     static void report_directory(const Error& error);
     // Reports the differences between two sites of a mosaic: a warning for each fault.
     static void report_sites(const pipeline::PairReport& report);

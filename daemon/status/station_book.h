@@ -1,17 +1,17 @@
 // daemon/status/station_book.h -- records for each station when data arrived, how fast, and what
 // was wrong.
 //
-// Times are of two clocks. The radar's clock gives the start of a volume and its newest radial;
+// Times come from two clocks. The radar's clock gives the start of a volume and its newest radial;
 // times more than 10 minutes ahead of this machine's clock do not count. This machine's clock gives
-// when data were last seen and when a volume was last put into the cache.
+// the times when data were last seen and when a volume was last put into the cache.
 //
 // antenna_to_cache is the time from the newest radial of a volume to its grids in the cache. Only
 // values that may be of live data (at most an hour old, not more than 10 minutes ahead) enter the
-// timings. Others, for example of old data that are replayed, are only counted, and the last value
-// is kept unchanged.
+// timings. Other values, for example of old data that are replayed, are only counted.
+// last_antenna_s is the last value of either kind.
 //
 // Memory is bounded however many stations the files claim: beyond `most_stations` a new station is
-// left out, and its files are counted.
+// left out, and only the number of such files is kept.
 //
 // Threads   Plain data; one thread changes it.
 #pragma once
@@ -34,16 +34,16 @@ namespace stormcellar::daemon {
 struct MissingChunks {
     std::optional<UtcTime> volume_time;
     std::optional<int> volume_number;  // 0 to 999
-    std::vector<int> numbers;          // the first 64 of them, counted from 1
-    std::size_t count = 0;             // number of all of them
+    std::vector<int> numbers;          // the first 64 missing chunks, counted from 1
+    std::size_t count = 0;             // of all missing chunks
 };
 
 struct StationState {
     std::optional<UtcTime> volume_time;    // start of the newest gridded volume
     std::optional<UtcTime> newest_radial;  // of the newest gridded volume
     std::optional<UtcTime> ingested_at;    // when a volume was last gridded
-    std::optional<UtcTime> data_at;        // when a file or a part of one was last seen
-    PerResult<std::uint64_t> results{};    // files
+    std::optional<UtcTime> data_at;        // when a file or a part of a file was last seen
+    PerResult<std::uint64_t> results{};    // numbers of files
     std::uint64_t partial = 0;             // gridded files whose volume was not complete
     Timings close_to_cache{128};
     std::uint64_t living = 0;      // grids of volumes that had not ended, counted each time
@@ -62,15 +62,15 @@ class StationBook {
     static constexpr std::chrono::hours most_live_age{1};
     static constexpr std::chrono::hours known_for{7 * 24};
 
-    // Adds an ingested file. `latency_s`: from the close of the file to the end; `at`: when the job
-    // ended, by our clock.
+    // Adds an ingested file. `latency_s`: from the close of the file to the end of its job, in
+    // seconds; `at`: when the job ended, by this machine's clock.
     void add(const pipeline::IngestOutcome& outcome, std::optional<double> latency_s, UtcTime at);
-    // For volumes in chunks: add_data() notes a chunk that arrived, add_missing_chunks() the chunks
-    // that never came, once the service gives up waiting for them.
+    // add_data() notes when data arrived. add_missing_chunks() notes the chunks of a volume that
+    // never came, once the service has given up waiting for them.
     void add_data(const std::string& station, UtcTime at);
     void add_missing_chunks(const std::string& station, MissingChunks missing);
-    // Adds a fact from before the start: the newest volume of the catalog. So a restart does not
-    // forget a silent station, unless it has been silent for more than a week.
+    // Adds a station with its newest volume in the catalog, so that a restart does not forget a
+    // silent station. Does nothing if the volume is older than a week.
     void add_known(const std::string& station, UtcTime newest_volume, UtcTime now);
 
     [[nodiscard]] const std::map<std::string, StationState>& stations() const { return stations_; }
@@ -86,7 +86,7 @@ class StationBook {
 // Returns the seconds from the newest radial of the volume to `at`; none if no radial has a time.
 [[nodiscard]] std::optional<double> antenna_latency_of(const pipeline::IngestOutcome& outcome,
                                                        UtcTime at);
-// Returns true if such a latency may be that of live data.
+// Returns true if data with this latency may be live.
 [[nodiscard]] bool is_live(double antenna_latency_s);
 
 }  // namespace stormcellar::daemon

@@ -82,7 +82,7 @@ void StatusBook::add(pipeline::PairReport report) {
 
 void StatusBook::add_ingested(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
-    // If the cache kept nothing of it, it does not count as gridded.
+    // A file does not count as gridded if the cache kept nothing of it.
     if (outcome.grids.empty() && outcome.partials.empty() && outcome.not_kept > 0) {
         ++facts_.not_kept;
         return;

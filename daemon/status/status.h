@@ -1,7 +1,7 @@
 // daemon/status/status.h -- the status of the daemon: counters, latencies, stations.
 //
-// It is written as JSON (status_json.h: state/status.json and the socket) and as Prometheus text
-// (metrics_text.h).
+// It is rendered as JSON (status_json.h) for STATE/status.json and the status server, and as
+// Prometheus text (metrics_text.h).
 //
 // Threads   One thread at a time; StatusFacts is plain data that may be copied to others.
 #pragma once
@@ -33,7 +33,7 @@
 
 namespace stormcellar::daemon {
 
-// Names and reasons in all of these are printable.
+// Names and reasons in the next three structures are printable.
 struct RecentVolume {
     std::string file, station, time;
     std::size_t grids = 0;
@@ -41,10 +41,10 @@ struct RecentVolume {
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
 };
 
-// A file whose volume has no end and that no longer grows.
+// A file that no longer grows, although its volume has no end.
 struct WaitingFile {
     std::string file;
-    double left_s = 0;  // until it is ingested as it is
+    double left_s = 0;  // until its volume is finished without its end
 };
 
 struct RejectedFile {
@@ -56,19 +56,19 @@ struct RejectedFile {
 struct StatusFacts {
     std::filesystem::path drop, cache, socket;  // socket: empty if there is none
     std::string drop_lost;  // why the drop directory cannot be read; empty: it can
-    Unreadable unreadable;  // directories below it
+    Unreadable unreadable;  // directories below `drop` that cannot be read
     int http_port = 0;      // 0: none
     UtcTime started = now_utc();
     std::string state = "starting";
     std::uint64_t ingested = 0, grids = 0, partial = 0, failures = 0;
     PerResult<std::uint64_t> results{};      // files
-    PerErrorCode<std::uint64_t> rejected{};  // of the rejected results: by the fault of the file
-    PerErrorCode<std::uint64_t> failed{};    // of failures: by their cause
+    PerErrorCode<std::uint64_t> rejected{};  // rejected files, by the fault of the file
+    PerErrorCode<std::uint64_t> failed{};    // failures, by their cause
     std::uint64_t overflows = 0, scans = 0;
-    std::uint64_t unseen = 0;  // entries that could not be looked at when an event reported them
+    std::uint64_t unseen = 0;  // entries that could not be examined
     std::size_t directories = 0;
-    double longest_wait_s = 0;               // of the waiting files
-    std::vector<WaitingFile> waiting_files;  // of the growing files, the soonest first
+    double longest_wait_s = 0;               // the longest wait of all waiting files
+    std::vector<WaitingFile> waiting_files;  // growing files, in the order of left_s
     std::uint64_t lone_chunks = 0;  // files that look like one chunk but are not named like one
     std::uint64_t not_kept = 0;     // files of which the cache keeps nothing, because of its limits
     std::uint64_t living_left_out = 0;  // living grids that were skipped because there was no time
@@ -77,17 +77,17 @@ struct StatusFacts {
     std::optional<cache::StoreUsage> usage;
     CatalogState catalog;
     std::vector<LoopState> loops;
-    std::vector<LoopState> others_loops;  // those that another process keeps (others_loops.h)
+    std::vector<LoopState> others_loops;  // loops that another process runs (others_loops.h)
     Timings close_to_cache{4096};
     std::uint64_t living = 0;          // grids of volumes that had not ended, counted each time
     Timings close_to_living{4096};     // from the close of the chunk that completed a sweep
     Timings antenna_to_cache{4096};    // of data that can be live
     std::uint64_t not_live = 0;        // volumes that antenna_to_cache leaves out
-    std::deque<RecentVolume> volumes;  // the last 64, oldest first, as in the next member
+    std::deque<RecentVolume> volumes;  // the last 64, oldest first; so is rejected_files
     std::deque<RejectedFile> rejected_files;  // each path once
     StationBook stations;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
-    std::vector<MachineFacts> machines;  // that bring partials of mosaics
+    std::vector<MachineFacts> machines;  // machines that bring partials of mosaics
 };
 
 class StatusBook {
@@ -106,7 +106,7 @@ class StatusBook {
     void count_scan() { ++facts_.scans; }
     void set_directories(std::size_t watched) { facts_.directories = watched; }
     void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }
-    // Returns true if they have changed.
+    // Returns true if the directories have changed.
     bool set_unreadable(const Unreadable& directories);
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);
@@ -116,14 +116,15 @@ class StatusBook {
     void set_catalog(CatalogState state) { facts_.catalog = std::move(state); }
     void set_machines(std::vector<MachineFacts> machines) { facts_.machines = std::move(machines); }
     void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
-    // For volumes in chunks (station_book.h), and stations known before the start.
+    // For stations of the catalog (StationBook::add_known()).
     [[nodiscard]] StationBook& stations() { return facts_.stations; }
 
     [[nodiscard]] const StatusFacts& facts() const { return facts_; }
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
     // Returns the text for STATUS=: "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1,
-    // waiting 3". It begins with "waiting for the drop directory DIR: WHY; " while the directory
-    // cannot be read, and with "cannot read N directories; " while some below it cannot.
+    // waiting 3, running 2, growing 0". The text begins with "waiting for the drop directory DIR:
+    // WHY; " if the drop directory cannot be read, else with "cannot read N directories; " if
+    // directories below it cannot be read.
     [[nodiscard]] std::string line(const Pending& pending) const;
     [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 
@@ -136,14 +137,14 @@ class StatusBook {
     RejectedPaths rejected_;
 };
 
-// Return the document and the STATUS= line of a process that only keeps loops
-// (daemon/loops/loops_service.h): "2 of 3 loops run, made 12".
+// loops_json() returns the status document of a process that only runs loops
+// (daemon/loops/loops_service.h), loops_line() its STATUS= line: "2 of 3 loops run, made 12".
 [[nodiscard]] std::string loops_json(const std::vector<LoopState>& loops, std::string_view state,
                                      UtcTime started, UtcTime now);
 [[nodiscard]] std::string loops_line(const std::vector<LoopState>& loops);
 
-// Returns the seconds from the file's last close that was seen to the end of the job; none if no
-// close was seen.
+// Returns the seconds from the last close of the file that an event reported to the end of the job;
+// none if no event reported a close.
 [[nodiscard]] std::optional<double> latency_of(const Finished& finished);
 
 }  // namespace stormcellar::daemon

@@ -25,7 +25,7 @@ class StatusBoard {
         const MutexLock lock(mutex_);
         latest_.swap(fresh);
     }
-    // Returns null before the first status was posted.
+    // Returns the last status that was posted; null: none yet.
     [[nodiscard]] std::shared_ptr<const StatusSnapshot> latest() const {
         const MutexLock lock(mutex_);
         return latest_;

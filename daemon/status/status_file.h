@@ -1,9 +1,9 @@
 // daemon/status/status_file.h -- publishes a status in a status.json and in the status line of the
 // service manager.
 //
-// It is written at most once a second, and only if something has changed. The file appears by
-// rename, so that a reader always sees a complete document. It is not synced, since it means
-// nothing after a crash.
+// The status is written at most once a second, and only if something has changed. The file appears
+// by rename, so that a reader always sees a complete document. It is not synced, since a status has
+// no meaning after a crash.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -21,7 +21,7 @@ namespace stormcellar::daemon {
 
 class StatusFile {
   public:
-    // `directory` is where status.json is written.
+    // Writes status.json into `directory`.
     StatusFile(FileSystem& file_system, const std::filesystem::path& directory, Notifier& notifier);
 
     struct Texts {
@@ -30,8 +30,8 @@ class StatusFile {
     };
 
     void changed() { changed_ = true; }
-    // Writes if something has changed and a second has passed, or at once if forced. Returns
-    // whether it was time to write; `make` is called only then.
+    // If something has changed and a second has passed, or if `force` is set, calls `make`,
+    // publishes its texts and returns true. Otherwise returns false.
     bool publish(const std::function<Texts()>& make, SteadyTime now, bool force);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
 
@@ -42,7 +42,7 @@ class StatusFile {
     std::filesystem::path path_, temporary_;
     Notifier& notifier_;
     bool changed_ = false;
-    bool failing_ = false;  // logged once, until it works again
+    bool failing_ = false;  // the last write failed, and the failure is logged
     SteadyTime next_{};
 };
 

@@ -6,14 +6,15 @@
 //   state          "starting" | "running" | "stopping" | "stopped"
 //   pid, version, started, updated
 //   drop, cache    the directories (bytes that are not UTF-8 are escaped)
-//   drop_lost      why the drop directory cannot be read (null: it can); it is tried again
+//   drop_lost      why the drop directory cannot be read (null: it can be read)
 //   unreadable     directories below it that cannot be read: {"count", "directories":
-//                  [{"directory", "reason"}] of the first 16}; the reason ends with what may help
+//                  [{"directory", "reason"}] of the first 16}; the reason ends with a possible
+//                  remedy
 //   listening      {"socket" (null: none), "http_port" (null: none)}: the configured addresses
 //   ingested       files whose volumes were gridded, counted each time
 //   grids          grids committed to the cache
-//   living_grids   grids of volumes that had not ended, counted each time a sweep was added to one
-//   partial        how many of `ingested` were of volumes that had not ended or were damaged
+//   living_grids   grids of volumes that had not ended; each update of such a grid counts
+//   partial        how many of `ingested` had volumes that had not ended or were damaged
 //   rejected, no_moment, no_position, unchanged, vanished
 //                  files with this result; a rejected file counts once for each reason, however
 //                  often it is ingested
@@ -25,20 +26,21 @@
 //                  volumes
 //   pending        {"waiting", "running", "growing"}: files; all zero when everything is done;
 //                  "waiting_files": [{"file", "left_s"}] of growing files whose volume has no end,
-//                  with the time until each is ingested as it is unless more arrives; the 5 soonest
+//                  with the time until each volume is finished without its end, unless more data
+//                  arrive; the 5 soonest
 //   overflows, unseen, scans, directories
-//                  event queues that overflowed; entries that could not be looked at when an event
-//                  reported them; scans of the drop directory; directories watched
-//   rolling        the account of the cache, null until it was first counted: {"grids", "pinned",
-//                  "bytes", "budget_bytes" (null: no limit), "evicted", "evicted_bytes",
-//                  "not_kept"}; the last three since the start; not_kept: grids older than what the
-//                  budgets keep
+//                  overflows of the event queue; entries that could not be examined; scans of the
+//                  drop directory; directories that are watched
+//   rolling        the contents of the cache, null until they were first counted: {"grids",
+//                  "pinned", "bytes", "budget_bytes" (null: no limit), "evicted", "evicted_bytes",
+//                  "not_kept"}; the last three count since the start; not_kept: grids that were not
+//                  stored, because they were older than the grids that the budgets keep
 //   latency_s      {"count", "median", "p95", "max"}: seconds from the close (or rename) of a file
 //                  to its grids in the cache, waiting included, over the last 4096 ingested files
 //                  whose close was seen; files found by a scan have none. The values are null if
 //                  count is 0
-//   sweep_latency_s  the same, from the close with which a sweep was complete to the living grid
-//                    that shows it
+//   sweep_latency_s  the same, from the close of the file that completed a sweep to the living grid
+//                    that shows the sweep
 //   antenna_to_cache_s  the same, from the newest radial of a volume to its grids in the cache, of
 //                       volumes that can be live (at most an hour old); "not_live": volumes that
 //                       are left out, for example old data that are replayed
@@ -61,13 +63,13 @@
 //                  the four values, of B relative to A (grid/judge/site_comparison.h), is {"value",
 //                  "standard_error"} or, if it could not be determined, {"untold"}; faults: one
 //                  text for each
-//   machines       those that bring partials of mosaics: {"name", "directory", "late", "why" (null:
-//                  not late), "newest", "newest_age_s", "arrived", "arrived_age_s", "taken",
+//   machines       machines that bring partials of mosaics: {"name", "directory", "late", "why"
+//                  (null: not late), "newest", "newest_age_s", "arrived", "arrived_age_s", "taken",
 //                  "refused", "last_problem" (null: none)}
 //   loops          {"running", "restarts", "made", "last_made" (null: none yet)} of all [[loop]]
 //                  tables; "each": [{"name", "running", "restarts", "made", "last_made", "frames",
-//                  "last_problem" (null: none)}]; "elsewhere": true if another process keeps them,
-//                  as it reported some seconds ago
+//                  "last_problem" (null: none)}]; "elsewhere": true if another process runs the
+//                  loops; the values are then from its last report, some seconds ago
 //
 // Threads   Pure: may be called from any thread.
 #pragma once

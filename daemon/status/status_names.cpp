@@ -11,8 +11,8 @@ std::string_view name_of(pipeline::IngestResult result) {
 }
 
 std::string_view name_of(ErrorCode code) {
-    // In the order of the enumeration. A bad argument of ingest is a file whose data about itself
-    // allow no grid.
+    // In the order of the enumeration. In ingest, bad_argument means that the data of a file allow
+    // no grid.
     constexpr PerErrorCode<std::string_view> names = {
         "contradictory", "not_found",  "empty",      "truncated", "corrupt", "unsupported",
         "not_level2",    "not_a_file", "io",         "exhausted", "busy",    "no_space",

@@ -39,7 +39,7 @@ using PerErrorCode = std::array<T, all_error_codes.size()>;
 }
 static_assert(all_error_codes.back() == ErrorCode::internal &&
                   index_of(ErrorCode::internal) + 1 == all_error_codes.size(),
-              "every code stands in the list, in the order of the enumeration");
+              "every code is in the list, in the order of the enumeration");
 
 [[nodiscard]] std::string_view name_of(pipeline::IngestResult result);
 [[nodiscard]] std::string_view name_of(ErrorCode code);

@@ -39,9 +39,9 @@ HttpResponse response_of(std::string_view text, const char* type) {
 
 constexpr const char* plain = "text/plain; charset=utf-8";
 
-// Gives this thread, which creates nothing else, its own umask. The service's umask is meant for
-// its files and would keep the group from the socket. If the system refuses, the socket is
-// restricted by the umask, and Worker::open() reports it.
+// Gives this thread, which creates only the socket, its own umask. The umask of the service is
+// meant for files and would keep the group from the socket. If the system refuses, the service's
+// umask applies, and Worker::open() reports a socket that the group cannot use.
 void take_own_umask() {
     if (::unshare(CLONE_FS) == 0) ::umask(0117);
 }
@@ -57,7 +57,7 @@ void warn_if_narrow(const std::string& name, mode_t mode) {
 
 }  // namespace
 
-// The state of the thread.
+// The members that only the server's thread uses.
 class StatusServer::Worker {
   public:
     Worker(StatusServerOptions options, Render render);
@@ -73,10 +73,10 @@ class StatusServer::Worker {
     struct Address {
         std::string name;
         std::function<Result<ListeningSocket>()> listen;
-        bool may_lack = false;  // not an error on a machine without IPv6
+        bool may_lack = false;  // a problem is not an error, for example on a machine without IPv6
         std::unique_ptr<HttpListener> listener = nullptr;
-        bool failing = false;   // logged once, until it works again
-        bool hopeless = false;  // not tried again
+        bool failing = false;   // the last attempt failed, and the failure is logged
+        bool hopeless = false;  // do not try again
         std::string problem = {};
     };
     struct Page {
@@ -219,10 +219,10 @@ StatusServer::~StatusServer() {
 }
 
 void StatusServer::run() {
-    // A client that is gone is an error of its connection only.
+    // Writing to a client that is gone must fail, not end the process.
     const BlockedSignals blocked({SIGPIPE});
-    // On Linux this applies to this thread alone. If it is not allowed, the priority stays as it
-    // is.
+    // On Linux this sets the priority of this thread only. If that is not allowed, keep the
+    // priority.
     (void)::setpriority(PRIO_PROCESS, 0, 10);
     take_own_umask();
     while (!stopping_) {

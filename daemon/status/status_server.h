@@ -1,21 +1,20 @@
-// daemon/status/status_server.h -- serves the status: HTTP on a Unix socket and, if it is switched
-// on, on a port of the loopback addresses.
+// daemon/status/status_server.h -- serves the status by HTTP: on a Unix socket and, if configured,
+// on a port of the loopback addresses.
 //
 //   GET /metrics       Prometheus text (metrics_text.h)
 //   GET /status.json   status_json.h
 // Everything else gives 404, 405 or 400. Each answer ends its connection. On a port, a request
 // whose Host is not a name of the loopback addresses gives 421 (http_listener.h); on the socket any
-// Host is accepted. Answers forbid caching and guessing of the content type. HTTP itself is done by
-// libmicrohttpd, which answers invalid HTTP (400, 413, 414, 431) with fixed texts of its own,
-// without these header fields.
+// Host is accepted. Answers forbid caching and guessing of the content type. libmicrohttpd answers
+// invalid HTTP (400, 413, 414, 431) itself, with fixed texts and without these header fields.
 //
 // The server has one thread with a lower priority. Hostile clients do no harm: the number of
-// connections is limited, they end after 10 seconds at the latest, sooner if more arrive, a request
-// has at most a few KiB, and a page is made at most five times a second. An address that cannot be
-// opened is logged once and tried again, and so is a socket whose path was removed. A path that is
-// too long for a socket is logged and not tried again.
+// connections is limited, a connection ends after 10 seconds at the latest (sooner if many more
+// arrive), a request has at most a few KiB, and a page is rendered at most five times a second. An
+// address that cannot be opened is logged once and tried again. A socket whose path was removed is
+// opened again. A path that is too long for a socket is logged and not tried again.
 //
-// Threads   Any one thread makes and destroys the server. `render` is called from the server's own
+// Threads   One thread makes and destroys the server. `render` is called from the server's own
 //           thread.
 #pragma once
 
@@ -48,7 +47,7 @@ enum class StatusPage { metrics, json };
 
 class StatusServer {
   public:
-    // Returns a page, or an empty string while there is none yet (503).
+    // Returns a page; while it is empty, the server answers 503.
     using Render = std::function<std::string(StatusPage)>;
 
     StatusServer(StatusServerOptions options, Render render);
@@ -56,8 +55,8 @@ class StatusServer {
     StatusServer& operator=(const StatusServer&) = delete;
     ~StatusServer();
 
-    // Returns ok if every address is served, apart from those that never can be; else the first
-    // problem. May be called from any thread.
+    // Returns ok if every address is served, else the first problem. Ignores [::1], which a machine
+    // may lack, and paths that are too long. May be called from any thread.
     [[nodiscard]] Status answers() const;
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 
@@ -76,7 +75,7 @@ class StatusServer {
     std::thread thread_;  // the last member: it uses the members above
 };
 
-// Returns a function that renders the pages of a board.
+// Returns a function that renders pages of the latest status on the board, which must outlive it.
 [[nodiscard]] StatusServer::Render pages_of(const StatusBoard& board);
 
 }  // namespace stormcellar::daemon

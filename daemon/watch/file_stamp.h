@@ -15,7 +15,8 @@ struct FileStamp {
     std::uint64_t inode = 0;
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;  // since the epoch
-    // last change of rights or owner, which shows that an unreadable file was repaired
+    // last change of permissions or owner, so that a file counts as changed when it becomes
+    // readable
     std::int64_t changed_ns = 0;
 
     bool operator==(const FileStamp&) const = default;
@@ -23,18 +24,18 @@ struct FileStamp {
 
 [[nodiscard]] FileStamp stamp_of(const struct stat& facts);
 
-// Kind of thing at a path. Symbolic links are never followed.
+// The kind of entry at a path. Symbolic links are not followed.
 enum class Standing { regular, directory, other, missing, unknown };
 struct FileFound {
     Standing standing = Standing::missing;
     FileStamp stamp;
     mode_t mode = 0;
 };
-// Returns what exists at the path. A path that may not be examined counts as missing. A path that
-// cannot be examined now, for example because descriptors have run out, is unknown.
+// Returns the entry at the path. A path that may not be examined counts as missing. A path that
+// cannot be examined now, for example because descriptors have run out, is `unknown`.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
-// Does the same below a directory: a path behind a symbolic link counts as missing, too
-// (base/beneath.h).
+// Does the same, but a path that leads through a symbolic link below the directory `beneath` counts
+// as missing (base/beneath.h).
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path,
                                 const std::filesystem::path& beneath);
 

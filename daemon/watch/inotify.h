@@ -27,21 +27,20 @@ class EventSource : public Interface {
     // readable when events are waiting; -1: nothing to poll
     [[nodiscard]] virtual int descriptor() const = 0;
     // Watches a directory and returns the number of the watch; a directory that is already watched
-    // keeps its number. "DIR/." may go through a link, DIR itself may not be one. Errors: no_space
-    // when the system's limit of watches is reached; not_found, permission, io.
+    // keeps its number. DIR may not be a link; to watch the target of a link, pass "DIR/.". Errors:
+    // no_space if the system's limit of watches is reached; not_found, permission, io.
     virtual Result<int> watch(const std::filesystem::path& directory) = 0;
     virtual void unwatch(int watch) = 0;
     // Returns why changes in the directory may come without events, so that it must be polled; none
-    // if all are reported. An empty text means that the reason was given before.
+    // if events report all changes. An empty text means that an earlier call gave the reason.
     virtual std::optional<std::string> silence(const std::filesystem::path& /*directory*/) {
         return std::nullopt;
     }
-    // Returns all events that are waiting, oldest first, at most about 64 KiB of them. Never
-    // blocks.
+    // Returns the waiting events, oldest first, at most about 64 KiB of them. Never blocks.
     virtual std::vector<DirectoryEvent> read() = 0;
 };
 
-// Fails if the system has no inotify instance left; the message names the sysctl.
+// Opens an inotify instance. Fails if the system has none left; the message names the sysctl.
 [[nodiscard]] Result<std::unique_ptr<EventSource>> open_inotify();
 
 // Returns a source without events: every directory is silent and must be polled. Used when

@@ -44,7 +44,7 @@ void report_too_deep(const std::filesystem::path& path, const WalkVisitor& visit
                                        path.native(), max_walk_depth)});
 }
 
-// Returns false if there was not even an entry for the directory itself.
+// Returns false if the directory returned no entries at all, not even ".".
 bool walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
                   const WalkVisitor& visitor);
 
@@ -69,7 +69,7 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     }
 }
 
-// Reports, once for a directory, why some of its names cannot be used.
+// Reports once for each directory why some of its names are not used.
 class NameProblem {
   public:
     NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)
@@ -125,7 +125,8 @@ bool walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
     }
 }
 
-// Returns true if the directory was deleted. A mount keeps it, but it then has no link.
+// Returns true if the directory was deleted: a mount may keep such a directory, but its link count
+// is 0.
 bool is_deleted(DIR* directory) {
     struct stat facts {};
     return ::fstat(::dirfd(directory), &facts) == 0 && facts.st_nlink == 0;

@@ -2,9 +2,9 @@
 //
 // The walk uses descriptors (openat) and follows no symbolic link, so that a directory that is
 // replaced by a link during the walk cannot lead it out of the tree. Files and directories with
-// temporary names are left out (pipeline/drop/drop_names.h). The depth is limited by
-// max_walk_depth, and so is the length of paths, because each path takes memory in the queue, the
-// watcher and the catalog.
+// temporary names are left out (pipeline/drop/drop_names.h). max_walk_depth limits the depth, and
+// most_path_bytes the length of paths, because each path takes memory in the queue, the watcher and
+// the catalog.
 //
 // Threads   Any thread; the callbacks are called from within walk().
 #pragma once
@@ -27,23 +27,24 @@ struct WalkVisitor {
     // Called before the entries of the directory are read, so that a watch set here misses nothing.
     std::function<void(const std::filesystem::path&)> directory;
     std::function<void(const std::filesystem::path&, const FileStamp&)> file;
-    // Reports a directory that cannot be read (permission, io), or names in it that are not used
-    // (unsupported: too deep, too long). The message is one line that names it. The walk goes on.
+    // Reports a directory that cannot be read (permission, io), or names in the directory that are
+    // not used (unsupported: too deep, too long). The message is one line that names the directory.
+    // The walk goes on.
     std::function<void(const std::filesystem::path&, const Error&)> problem;
     // Reports an entry that is neither file nor directory: a link, a FIFO, a device. May be empty.
     std::function<void(const std::filesystem::path&, mode_t mode)> other = {};
-    // Called in addition to `problem` if the system has no descriptors or memory left. May be
-    // empty.
+    // Called in addition to `problem` if a directory cannot be read because the system has no
+    // descriptors or memory left. May be empty.
     std::function<void()> unseen = {};
     // Called after every entries_a_step entries, so that the caller can do other things. May be
     // empty.
     std::function<void()> step = {};
 };
 
-// Walks a tree. `depth` is the depth of the root below the directory from which depth is counted; a
-// root of depth 0 may itself be a link. Errors: not_found, permission or io if the root cannot be
-// read; io also if it was deleted and only a mount keeps it, so that nothing will ever appear
-// there.
+// Walks a tree. `depth` is the depth of `root` below the drop directory, for max_walk_depth; a root
+// of depth 0 may itself be a link. Errors: not_found, permission or io if the root cannot be read;
+// io also if the root was deleted and only a mount keeps it, so that nothing will ever appear in
+// it.
 [[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor,
                           int depth = 0);
 

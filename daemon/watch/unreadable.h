@@ -16,7 +16,7 @@ namespace stormcellar::daemon {
 struct Unreadable {
     static constexpr std::size_t most_named = 16;
 
-    std::map<std::string, std::string> named;  // by path; the first ones that were found
+    std::map<std::string, std::string> named;  // reasons by path, of the directories found first
     std::uint64_t further = 0;
 
     void add(const std::filesystem::path& directory, const std::string& reason);
@@ -24,13 +24,13 @@ struct Unreadable {
     [[nodiscard]] bool operator==(const Unreadable&) const = default;
 };
 
-// Returns how to make a directory readable to the service, as the end of a sentence; empty if no
-// remedy is known. The first function is for the drop directory, which the unit may hide
-// (ProtectHome=); the second is for directories in it, for which a group is missing.
+// Return how to make a directory readable to the service, as the end of a sentence; empty if no
+// remedy is known. remedy_for() is for the drop directory, which the unit may hide (ProtectHome=);
+// remedy_below() is for directories below it, for which the service may lack a group.
 [[nodiscard]] std::string remedy_for(const std::filesystem::path& drop, ErrorCode code);
 [[nodiscard]] std::string remedy_below(ErrorCode code);
 
-// Returns true if units with ProtectHome= do not see the path.
+// Returns true if ProtectHome= hides the path.
 [[nodiscard]] bool is_below_home(const std::filesystem::path& path);
 
 }  // namespace stormcellar::daemon

@@ -17,9 +17,9 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr int events_a_step = 32;
-// Limit of the thread's time for directories that come or go; a tenth of real time is paid back.
-// Beyond the limit they are left to the next scan, which rests after each look for as long as the
-// look took.
+// Limit of the time that the thread owes for reading directories that come or go; the debt
+// decreases by a tenth of a second each second. Beyond the limit, directories are left to the next
+// scan.
 constexpr double most_owed_s = 0.2;
 constexpr double paid_back_each_second = 0.1;
 
@@ -95,15 +95,15 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
     // The drop directory itself may be a link.
     const Result<int> watch = events_.watch(directory == drop_ ? drop_ / "." : directory);
     if (!watch) {
-        // A directory that vanished in the meantime is not a problem, and the walk reports a
-        // directory that may not be read.
+        // A directory that has vanished is not a problem, and the walk reports a directory that may
+        // not be read.
         const ErrorCode code = watch.error().code;
         if (code == ErrorCode::not_found || code == ErrorCode::permission) return;
         ++unwatched_;
         if (!std::exchange(told_unwatched_, true)) listener_.directory_problem(watch.error());
         return;
     }
-    // A renamed directory keeps its watch, and a name may now belong to another directory.
+    // A renamed directory keeps its watch, and its old name may now belong to another directory.
     const std::string& path = directory.native();
     if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second.path != path) {
         watch_of_.erase(old->second.path);
@@ -173,7 +173,7 @@ void Watcher::handle(const DirectoryEvent& event) {
         return;
     }
     const auto found = path_of_.find(event.watch);
-    if (found == path_of_.end()) return;  // an event from before the watch was removed
+    if (found == path_of_.end()) return;  // the event is older than the removal of its watch
     const std::filesystem::path directory = found->second.path;
     if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0 && directory == drop_) {
         unwatch_tree(drop_);
@@ -200,7 +200,7 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
     owed_at_ = began;
     const bool has_time = owed_s_ < most_owed_s;
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
-        // Otherwise the next scan removes its watches, or they end with the directory.
+        // Otherwise the next scan removes the watches, or they end with the directory.
         if (has_time) unwatch_tree(path);
         listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {

@@ -1,13 +1,12 @@
 // daemon/watch/watcher.h -- reports which files appear, change and vanish below the drop directory.
 //
 // Every directory has an inotify watch, including subdirectories as they appear. A directory is
-// read after its watch is set, so that files put into it in between are found. scan() reads the
-// whole tree: at the start, after the event queue overflowed, and from time to time, since events
-// can be lost (network file systems have none). Reporting a file twice does no harm, because the
-// schedule has one entry for each path. Temporary names are never reported; symbolic links, FIFOs,
-// sockets and devices are reported only as left out. If not everything can be watched (no watches
-// left, or file systems that report no changes), the watcher is blind, and scans must be made more
-// often.
+// read after its watch is set, so that no file is missed. Call scan(), which reads the whole tree,
+// at the start, after the event queue overflowed, and from time to time, since events can be lost
+// (network file systems send none). Reporting a file twice does no harm, because the schedule has
+// one entry for each path. Temporary names are never reported; symbolic links, FIFOs, sockets and
+// devices are reported only as left out. If some directories cannot be watched (no watches left, or
+// file systems that report no changes), the watcher is blind, and the caller must scan more often.
 //
 // Threads   One thread at a time. The listener is called from within read_events() and scan().
 #pragma once
@@ -35,22 +34,21 @@ class WatchListener : public Interface {
     // A file was created and is not closed yet; or it is a hard link, for which no close ever
     // comes.
     virtual void file_created(const std::filesystem::path& path, const FileStamp& stamp) = 0;
-    // Returns whether to report each write to the file before it is closed.
+    // Returns true if file_grew() must report each write to the file before the file is closed.
     [[nodiscard]] virtual bool follows(const std::filesystem::path& /*path*/) const {
         return false;
     }
     virtual void file_grew(const std::filesystem::path& /*path*/, const FileStamp& /*stamp*/) {}
-    // A file exists in a directory that was read.
+    // A directory was read that has this file.
     virtual void file_found(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // A file was deleted or renamed away.
     virtual void file_gone(const std::filesystem::path& path) = 0;
     // A directory was deleted or renamed away, with everything in it.
     virtual void directory_gone(const std::filesystem::path& /*path*/, bool /*deleted*/) {}
-    // An entry is neither file nor directory; `kind` names it ("a FIFO"). Reported again by each
-    // scan.
+    // An entry is neither file nor directory; `kind` names its kind ("a FIFO"). Each scan reports
+    // it again.
     virtual void entry_left_out(const std::filesystem::path& /*path*/, std::string_view /*kind*/) {}
-    // Directories come or go faster than they can be read. This one is left to a scan, which is
-    // needed.
+    // Directories come or go faster than they can be read, and one was skipped. A scan is needed.
     virtual void directory_unread() {}
     // An entry that an event reported, or a directory of a scan, could not be examined now, for
     // example because descriptors have run out. A scan is needed, but not at once.
@@ -59,9 +57,9 @@ class WatchListener : public Interface {
     virtual void events_lost() = 0;
     // The drop directory itself was deleted or moved.
     virtual void drop_vanished() = 0;
-    // A directory cannot be read; or this is the first directory that cannot be watched, because
-    // the limit is reached (`error.code` no_space) or because its file system is silent
-    // (unsupported).
+    // A directory cannot be read, or some of its names are not used (`error.code` permission or
+    // io). Also called for the first directory that cannot be watched (no_space if the limit is
+    // reached), and for the first that is on a silent file system (unsupported).
     virtual void directory_problem(const Error& error) = 0;
 };
 
@@ -70,18 +68,19 @@ class Watcher {
     // Both must outlive the watcher.
     Watcher(std::filesystem::path drop, EventSource& events, WatchListener& listener);
 
-    // Sets a function that is called now and then from within scan() and read_events() while there
-    // is much to do. During a scan, events are read then as well.
+    // Sets a function that scan() and read_events() call now and then while they have much to do.
+    // At each of these calls, scan() also reads events.
     void on_step(std::function<void()> step) { step_ = std::move(step); }
-    // Watches and reports everything below the drop directory. Fails if it cannot be read.
+    // Watches and reports everything below the drop directory. Fails if the drop directory cannot
+    // be read.
     [[nodiscard]] Status scan();
-    // Handles the events that wait at events.descriptor().
+    // Handles the waiting events, at most one EventSource::read() of them.
     void read_events();
     [[nodiscard]] std::size_t directory_count() const { return watch_of_.size(); }
     // Returns the directories that could not be read in the last scan and since.
     [[nodiscard]] const Unreadable& unreadable() const { return unreadable_; }
-    // Returns true if the changes of some directories come without events, according to the last
-    // scan and the events since.
+    // Returns true if changes of some directories come without events, as far as the last scan and
+    // later events show.
     [[nodiscard]] bool is_blind() const { return unwatched_ > 0 || silent_ > 0; }
 
   private:
@@ -101,22 +100,22 @@ class Watcher {
     WatchListener& listener_;
     void step();
     std::function<void()> step_;
-    bool is_reading_ = false;  // while events are read
-    // Paths as text, which takes a quarter of the memory.
+    bool is_reading_ = false;  // read_events() is running
+    // The paths are text, which takes a quarter of the memory of std::filesystem::path.
     struct Watched {
         std::string path;
-        std::uint64_t scan = 0;  // the last scan that saw it
+        std::uint64_t scan = 0;  // the last scan that saw the directory
     };
     std::unordered_map<int, Watched> path_of_;
     // sorted, so that everything below a directory is one range
     std::map<std::string, int> watch_of_;
     std::uint64_t scan_ = 0;
-    bool saw_all_ = true;  // in that scan
+    bool saw_all_ = true;  // the current or last scan saw every entry
     Unreadable unreadable_;
     using Clock = std::chrono::steady_clock;
     double owed_s_ = 0;  // see most_owed_s; as of owed_at_
     Clock::time_point owed_at_{};
-    std::size_t unwatched_ = 0, silent_ = 0;  // directories, in the last scan and since
+    std::size_t unwatched_ = 0, silent_ = 0;  // numbers of directories, in the last scan and since
     bool told_unwatched_ = false, told_silent_ = false;
 };
 
