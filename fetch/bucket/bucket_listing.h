@@ -1,8 +1,8 @@
 // fetch/bucket/bucket_listing.h -- reads the listing of a public bucket of Level II files.
 //
 // The keys of the bucket are YYYY/MM/DD/STATION/NAME (docs/data-sources.md). A listing is a GET of
-// ?list-type=2&prefix=..., in pages that a token continues (Amazon S3, ListObjectsV2). Compatible
-// servers give the same answers.
+// ?list-type=2&prefix=... (Amazon S3 and compatible servers, ListObjectsV2). It comes in pages;
+// each page has the token to ask for the next page.
 //
 // Threads   Pure functions.
 #pragma once
@@ -24,7 +24,7 @@ struct BucketObject {
     std::string key;
     std::uint64_t size_bytes = 0;
     std::optional<UtcTime> modified;
-    std::string tag;  // of its content (ETag), in quotes; empty: the listing has none
+    std::string tag;  // ETag of the content, in quotes; empty: the listing has none
 };
 
 struct ListingPage {
@@ -36,10 +36,10 @@ struct ListingPage {
 
 struct ListingQuestion {
     std::string prefix;
-    std::string start_after = {};  // only keys after this one; empty: all
-    bool by_folders = false;       // name the folders below the prefix instead of their objects
+    std::string start_after = {};  // list only keys after this key; empty: all
+    bool by_folders = false;       // list the folders below the prefix instead of their objects
     int most_keys = 1000;          // in one page
-    std::string token = {};        // from the last page; empty: ask for the first page
+    std::string token = {};        // next_token of the page before; empty: ask for the first page
 };
 
 // Parses a page. Errors: corrupt if the text is not a listing, or if it has more pages but no
@@ -60,7 +60,7 @@ struct ListingQuestion {
 
 // Returns the last part of a key.
 [[nodiscard]] std::string_view name_of_key(std::string_view key);
-// Returns the start that a name such as KTLX20170101_030027_V06 gives, or none.
+// Returns the time in a name such as KTLX20170101_030027_V06, or none.
 [[nodiscard]] std::optional<UtcTime> start_in_name(std::string_view name);
 // Returns true for metadata without radials, such as KTLX20170101_030027_V06_MDM.
 [[nodiscard]] bool is_metadata_name(std::string_view name);

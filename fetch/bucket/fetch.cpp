@@ -1,5 +1,5 @@
-// Loads the download module, stormcellar_fetch.so, when it is first needed. libcurl brings two
-// dozen libraries, which would slow down the start of all other commands.
+// Loads the download module, stormcellar_fetch.so, when it is first needed. libcurl needs two dozen
+// libraries, which would slow down the start of all other commands.
 #include "stormcellar/fetch/fetch.h"
 
 #include "base/load_module.h"

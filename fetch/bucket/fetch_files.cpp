@@ -22,11 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // for one page
-// For one station and day: a page has 1,000 names, and a radar makes some 600 files a day.
+// Pages for one station and day: a page has 1,000 names, and a radar makes some 600 files a day.
 constexpr std::size_t most_pages = 20;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
-// A file that is being downloaded. The bytes so far are beside its final place, in a hidden file.
+// A file that is being downloaded. Its bytes so far are in a hidden file in the same directory.
 struct Download {
     BucketObject object;
     fs::path target, part;
@@ -54,8 +54,8 @@ void set_time(const fs::path& path, UtcTime time) {
     (void)::utimensat(AT_FDCWD, path.c_str(), times, 0);
 }
 
-// Returns the name of a file while it is being downloaded. It includes the tag, so parts of
-// different contents do not mix.
+// Returns the name of a file while it is being downloaded. The name includes the tag, so that parts
+// of different contents do not mix.
 std::string part_name_of(const BucketObject& object) {
     const std::int64_t modified = object.modified ? object.modified->time_since_epoch().count() : 0;
     const std::string contents =
@@ -64,7 +64,7 @@ std::string part_name_of(const BucketObject& object) {
                        xxh3_64(std::as_bytes(std::span{contents})));
 }
 
-// The tag becomes part of a header, so it must be one quoted word.
+// Returns true if the tag is one quoted word, because it becomes part of a header.
 bool is_plain_tag(std::string_view tag) {
     const auto is_plain = [](char c) { return c > ' ' && c < 0x7F && c != '"'; };
     return tag.size() > 2 && tag.front() == '"' && tag.back() == '"' &&
@@ -121,7 +121,7 @@ class Fetching {
             auto listing = outcome.good
                                ? parse_listing(*body)
                                : Result<ListingPage>{fail(ErrorCode::io, "{}", outcome.reason)};
-            // A listing that was truncated in transfer is asked for again.
+            // The listing may have been truncated in transfer, so ask for it again.
             const bool again = outcome.good ? !listing : outcome.may_be_tried_again;
             if (!listing && again && tries + 1 < request_.tries) {
                 list(prefix, token, page, tries + 1);

@@ -20,13 +20,13 @@ constexpr long slowest_bytes_per_s = 200;
 constexpr std::uint64_t most_error_bytes = std::uint64_t{1} << 20;
 constexpr std::chrono::hours most_retry_after{24};
 
-// Returns true for statuses that another try would not change: forbidden, not found, gone.
+// Returns true for statuses that another try would not change: 403, 404 and 410.
 bool is_for_good(long status) {
     return status == 403 || status == 404 || status == 410;
 }
 
-// Returns true if the same request may succeed later: for errors of the network or of a busy
-// server.
+// Returns true if the same request may succeed later, for example after errors of the network or of
+// a busy server.
 bool is_passing(CURLcode code, long status) {
     switch (code) {
         case CURLE_OK:
@@ -54,7 +54,7 @@ struct Transfers::Running {
     CURL* easy = nullptr;
     bool has_begun = false;
     bool was_refused = false;
-    bool has_wrong_range = false;   // the server answers with another part than requested
+    bool has_wrong_range = false;   // the server sends a different part than requested
     std::uint64_t error_bytes = 0;  // size of the body of an error
     curl_slist* headers = nullptr;
     std::array<char, CURL_ERROR_SIZE> error{};
@@ -84,7 +84,7 @@ struct Transfers::Running {
         auto& running = *static_cast<Running*>(self);
         const long status = running.status();
         const std::size_t length = size * count;
-        // The body of an error is useless, and an error with an endless body would never end.
+        // Drop the body of an error, and end the transfer if the body is too long.
         if (status != http_ok && status != http_partial) {
             running.error_bytes += length;
             return running.error_bytes <= most_error_bytes ? length : 0;
@@ -111,7 +111,7 @@ Result<std::unique_ptr<Transfers>> Transfers::make(TransferOptions options) {
     transfers->multi_ = curl_multi_init();
     if (transfers->multi_ == nullptr)
         return fail(ErrorCode::exhausted, "libcurl cannot be started");
-    // Connections that stay open cost 4 MB each over TLS, most of it for certificates.
+    // Limit the connections that stay open: over TLS each takes 4 MB, most of it for certificates.
     curl_multi_setopt(transfers->multi_, CURLMOPT_MAXCONNECTS, static_cast<long>(options.parallel));
     return transfers;
 }

@@ -1,6 +1,6 @@
 // fetch/bucket/transfers.h -- HTTP GETs, several at a time, with libcurl.
 //
-// The module stormcellar_fetch and the program stormcellar-feed use this; both bring libcurl.
+// The module stormcellar_fetch and the program stormcellar-feed use this; both link libcurl.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -28,26 +28,28 @@ namespace stormcellar::fetch {
 struct Transfer {
     std::string url;
     std::uint64_t from_byte = 0;  // 0: the whole object
-    // The tag of the wanted content, if only a part is requested. A server with another content
-    // answers 412.
+    // The tag (ETag) of the object; sent if only a part is requested. If the object has changed,
+    // the server answers 412.
     std::string tag;
-    // Takes the body. Returns false if it cannot, and the transfer then fails for good.
+    // Takes the next bytes of the body. If it returns false, the transfer fails for good.
     std::function<bool(const std::byte* bytes, std::size_t count)> take;
-    // Called before the body of each answer. `from_byte` is where the body begins, which is 0 if
-    // the server sends the whole object although a part was requested.
+    // Called before the body of an answer. `from_byte` is where the body begins: 0 if the server
+    // sends the whole object although a part was requested. If it returns false, the transfer fails
+    // for good.
     std::function<bool(std::uint64_t from_byte)> begin;
     struct Outcome {
         bool good = false;
         bool may_be_tried_again = false;
-        // the server cannot continue at from_byte; only the whole object can be had
+        // the server cannot continue at from_byte; only the whole object can be fetched
         bool part_is_useless = false;
-        bool is_refused = false;              // the server answered and refuses to give it
+        bool is_refused = false;              // the server answered 403, 404 or 410
         std::string reason;                   // set if the transfer failed
         long status = 0;                      // HTTP status; 0: no answer
         std::chrono::seconds retry_after{0};  // the wait that the server asks for
         std::optional<UtcTime> modified;
     };
-    // May add further transfers, including this one with another from_byte.
+    // Called at the end of the transfer. May add further transfers, for example the same object
+    // with another from_byte.
     std::function<void(const Outcome& outcome)> ended;
 };
 
@@ -56,9 +58,9 @@ struct TransferOptions {
     std::chrono::seconds stall{30};   // a transfer without a byte for this long fails
     std::chrono::seconds longest{0};  // for a whole transfer; 0: no limit
     long most_redirects = 5;
-    std::string proxy = {};             // a URL; empty: as the environment says, or as below
-    bool is_direct = false;             // without a proxy, whatever the environment says
-    std::string ca_file = {};           // certificates to trust; empty: those of the system
+    std::string proxy = {};             // a URL; empty: none, or that of the environment
+    bool is_direct = false;             // ignore proxies of the environment
+    std::string ca_file = {};           // certificates to trust; empty: the system's
     std::string agent = "stormcellar";  // the program's name for the server
 };
 
@@ -69,9 +71,10 @@ class Transfers {
     Transfers& operator=(const Transfers&) = delete;
     ~Transfers();
 
-    // Adds a transfer. It begins when there is room and `wait` has passed.
+    // Adds a transfer. It begins after `wait`, as soon as fewer than `parallel` transfers run.
     void add(Transfer transfer, std::chrono::milliseconds wait = {});
-    // Runs until all transfers have ended or the flag is set. Calls `turn` often.
+    // Runs until all transfers have ended or the flag is set. Calls `turn` at least ten times a
+    // second.
     void run(const std::atomic<bool>* stop, const std::function<void()>& turn);
 
   private:

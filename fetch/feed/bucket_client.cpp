@@ -9,7 +9,7 @@
 namespace stormcellar::feed {
 namespace {
 
-// Concurrent connections. Each costs memory, most of it for certificates.
+// Concurrent connections. Each takes memory, most of it for certificates.
 constexpr int parallel = 12;
 constexpr std::chrono::seconds longest_transfer{60};
 constexpr std::uint64_t most_page_bytes = std::uint64_t{1} << 20;

@@ -2,10 +2,10 @@
 // thread.
 //
 // The client talks only to the configured address: it follows no redirects and ignores proxies of
-// the environment. Each answer is limited in bytes, time, and pages.
+// the environment. It limits the bytes, the time and the pages of each answer.
 //
-// Threads   One thread at a time; it calls the functions that take answers, within run().
-// Errors    Passed to the function that takes the answer; the message says what the server did.
+// Threads   One thread at a time. run() calls the functions that take answers.
+// Errors    Passed to the function that takes the answer. The message gives the cause.
 //           busy        may pass: no connection, a timeout, 429, 500 and above, or cut off
 //           not_found   404 and 410
 //           permission  403
@@ -43,15 +43,18 @@ class BucketClient {
     BucketClient& operator=(const BucketClient&) = delete;
     ~BucketClient();
 
-    // Asks for a listing after `wait`. The pages of a long listing are passed on as one.
+    // Asks for a listing after `wait`. Joins the pages of a long listing, and passes the result to
+    // `taken`.
     void list(fetch::ListingQuestion question, std::chrono::milliseconds wait,
               std::function<void(Result<fetch::ListingPage>)> taken);
-    // Asks for an object that has exactly `size` bytes.
+    // Asks for an object that must have `size` bytes, and passes its bytes to `taken`.
     void get(const std::string& key, std::uint64_t size, std::function<void(Result<Bytes>)> taken);
-    // Runs until the flag is set or nothing is left to ask. Calls `turn` often.
+    // Runs until the flag is set or nothing is left to ask. Calls `turn` at least ten times a
+    // second.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
 
-    // Returns the wait that the server asked for in the answer that is being taken.
+    // Returns the wait that the server requested in its last answer; 0: none. For functions that
+    // take answers.
     [[nodiscard]] std::chrono::seconds retry_after() const { return retry_after_; }
 
   private:

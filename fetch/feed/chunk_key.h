@@ -1,13 +1,13 @@
 // fetch/feed/chunk_key.h -- the keys of the public chunk bucket:
 // SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E.
 //
-// A key is also the path of the chunk below the drop directory, where LDM would put it. So only
-// keys of exactly this form are accepted: a station's name, a volume number from 1 to 999 without
-// leading zeros, a valid time, and a chunk's number of three digits.
+// A key is also the path of the chunk below the drop directory, as LDM would name it. So only keys
+// of exactly this form are accepted: the name of a station, a volume number from 1 to 999 without
+// leading zeros, a valid time, and a chunk number of three digits.
 //
 // Units     Times are the radar's: the start of the volume.
 // Threads   Plain values and pure functions.
-// Errors    None. A key of another form gives std::nullopt.
+// Errors    None. parse_chunk_key() returns std::nullopt for a key of another form.
 #pragma once
 
 #include <chrono>
@@ -21,10 +21,10 @@
 
 namespace stormcellar::feed {
 
-inline constexpr int last_volume = 999;  // 1 follows
+inline constexpr int last_volume = 999;  // the next volume is number 1
 inline constexpr int last_chunk = 999;
 // A key whose time is further in the future than this is rejected, so that it does not count as the
-// newest forever. Clocks may differ by less.
+// newest forever.
 inline constexpr std::chrono::hours tolerated_clock_error{24};
 
 struct VolumeId {
@@ -44,9 +44,9 @@ struct ChunkKey {
 [[nodiscard]] std::optional<ChunkKey> parse_chunk_key(std::string_view key, UtcTime now);
 [[nodiscard]] std::string to_string(const ChunkKey& key);
 
-// Returns the number of a volume's directory, from "494"; none for anything else.
+// Returns the volume number of a directory name such as "494"; none for any other text.
 [[nodiscard]] std::optional<int> parse_volume_number(std::string_view text);
-// Returns the number `steps` further around the ring of volume numbers.
+// Returns the volume number `steps` after `number`; 1 follows 999.
 [[nodiscard]] int volume_number_after(int number, int steps = 1);
 // Returns "KTLX/494/", the prefix of the keys of a directory.
 [[nodiscard]] std::string directory_of(std::string_view station, int number);

@@ -29,17 +29,17 @@ struct FeedConfig {
     std::string proxy;               // empty: none
     std::string ca_file;             // empty: the certificates of the system
     std::string log_level = "info";  // debug, info, warning or error
-    // Not in the file: listings of a station within a minute that bring nothing, when a station is
-    // called silent, and how often the ages of volumes are looked at.
+    // Not in the file: the limit of listings of a station without news within a minute, the time
+    // after which a station counts as silent, and the time between checks of the ages of volumes.
     std::size_t most_in_vain = 20;
     std::chrono::milliseconds silent_after = std::chrono::minutes{10};
     std::chrono::seconds between_prunes{20};
     bool operator==(const FeedConfig&) const = default;
 };
 
-// Relative paths start at the directory of the file. Tables of other programs are ignored, except
-// [paths] drop, which must contain `drop` if stations are named. Errors: those of reading the file;
-// bad_argument, "FILE:LINE: [section] key: why".
+// Loads the configuration. Relative paths start at the directory of the file. Ignores tables of
+// other programs, except [paths] drop: if stations are named, `drop` must be that directory or be
+// below it. Errors: errors of reading the file; bad_argument, "FILE:LINE: [section] key: why".
 [[nodiscard]] Result<FeedConfig> load_feed_config(const std::filesystem::path& file);
 
 }  // namespace stormcellar::feed

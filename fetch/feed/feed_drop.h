@@ -1,18 +1,18 @@
 // fetch/feed/feed_drop.h -- the directory into which the feed writes chunks, under LDM's names.
 //
-// A chunk is at SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E, as its key says. It appears there complete
-// or not at all; while it is written, it has a temporary name that stormcellard ignores. Nothing
-// waits for the disk, because thirty chunks may come in a second and the bucket keeps them for
-// hours. A power cut may lose the last chunks or leave them empty; open() removes empty ones, so
-// that they are fetched again. The directory is the only record of what was written. Volumes older
-// than the limit are removed, and then the oldest until the rest fits the limit of bytes. Only
-// files with names of chunks, and the leftovers of a killed writer, are removed. One process writes
-// to a directory.
+// A chunk has the path of its key: SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E. It appears there complete
+// or not at all; while it is written, it has a temporary name that stormcellard ignores. Writing
+// does not wait for the disk, because thirty chunks may come in a second and the bucket keeps them
+// for hours. A power cut may lose the last chunks or leave them empty; open() removes empty chunks,
+// so that they are fetched again. The directory is the only record of the written chunks. prune()
+// removes volumes that are too old, and the oldest volumes until the rest fits the limit of bytes.
+// It removes only files with names of chunks; open() also removes temporary files of a killed
+// writer. Only one process may write to a directory.
 //
 // Units     Sizes are in bytes. A chunk counts as 16 KiB at least, so that a limit of bytes also
 //           limits the number of files.
 // Threads   One thread at a time.
-// Errors    Those of file operations.
+// Errors    Errors of file operations.
 #pragma once
 
 #include <chrono>
@@ -31,7 +31,8 @@
 namespace stormcellar::feed {
 
 struct DropLimits {
-    std::chrono::seconds age{0};  // counted from the newest volume, or from now if that is earlier
+    // relative to the newest volume, or to the present time if that is earlier
+    std::chrono::seconds age{0};
     std::uint64_t bytes = 0;
 };
 
@@ -56,7 +57,7 @@ class FeedDrop {
     [[nodiscard]] std::size_t volumes() const { return volumes_.size(); }
 
   private:
-    using Volume = std::pair<VolumeId, std::string>;  // with the station; sorted by time
+    using Volume = std::pair<VolumeId, std::string>;  // with its station; sorted by time
     FeedDrop(FileSystem& file_system, std::filesystem::path directory, DropLimits limits)
         : file_system_(&file_system), directory_(std::move(directory)), limits_(limits) {}
     Status read(UtcTime now);
@@ -67,7 +68,7 @@ class FeedDrop {
     FileSystem* file_system_;
     std::filesystem::path directory_;
     DropLimits limits_;
-    std::map<Volume, std::uint64_t> volumes_;  // with their bytes
+    std::map<Volume, std::uint64_t> volumes_;  // bytes of each volume
     std::uint64_t bytes_ = 0;
 };
 

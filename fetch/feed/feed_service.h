@@ -1,8 +1,8 @@
-// fetch/feed/feed_service.h -- follows the configured stations, with the drop directory and the
-// status file, on one thread.
+// fetch/feed/feed_service.h -- follows the configured stations on one thread, fills the drop
+// directory and writes the status file.
 //
-// A station continues where the drop directory shows that it stopped, if that was less than 20
-// minutes ago; otherwise it begins with the newest volume but one.
+// A station continues with its last volumes in the drop directory, if they began less than 20
+// minutes ago. Otherwise it begins with the volume before the newest.
 //
 // Threads   One thread at a time.
 // Errors    open(): the directories cannot be made or read, or libcurl cannot be started.
@@ -30,7 +30,7 @@ class FeedService {
 
     // Follows the stations until the flag is set. Calls `turn` ten times a second or more often.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
-    // Writes status.json if its contents have changed. Errors: those of writing.
+    // Writes status.json if its contents have changed. Errors: errors of writing.
     Status publish();
     [[nodiscard]] FeedStatus status() const;
 
@@ -47,7 +47,7 @@ class FeedService {
     std::vector<std::unique_ptr<StationFeed>> stations_;
     std::uint64_t removed_ = 0;
     SteadyTime next_prune_{};
-    std::string published_;  // without its time
+    std::string published_;  // last status, without its time
 };
 
 }  // namespace stormcellar::feed

@@ -1,4 +1,5 @@
-// fetch/feed/feed_status.h -- the state of the feed for people and monitoring: status.json.
+// fetch/feed/feed_status.h -- the contents of status.json: the state of the feed, for people and
+// monitoring.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -18,9 +19,9 @@ struct StationStatus {
     std::optional<UtcTime> answered;    // when the bucket last answered for this station
     std::optional<UtcTime> next_try;    // after a failure
     bool is_searching = true;           // searching for the newest volume
-    bool is_silent = false;             // nothing new for 10 minutes
+    bool is_silent = false;             // no new chunk for 10 minutes
     std::optional<VolumeId> volume;     // the volume being followed
-    int chunk = 0;                      // its highest chunk that is done
+    int chunk = 0;                      // the highest chunk that was written or given up
     std::optional<UtcTime> written_at;  // when a chunk was last written
     std::uint64_t written = 0;          // counts since the start: chunks written,
     std::uint64_t present = 0;          // chunks already present,

@@ -19,7 +19,7 @@ namespace stormcellar::feed {
 namespace {
 
 constexpr std::string_view program = "stormcellar-feed";
-// Periods in which the program checks for signals, and in which it writes the status and feeds the
+// Time between checks for signals, and time between writes of the status, which also feed the
 // watchdog.
 constexpr std::chrono::milliseconds between_looks{100}, between_reports{2000};
 
@@ -41,7 +41,7 @@ Result<FeedConfig> load_with_stations(const std::filesystem::path& file) {
     return config;
 }
 
-// Runs until a signal comes. Returns the signal's number.
+// Runs until a signal comes. Returns the number of the signal.
 int run_until_signal(FeedService& service, const Signals& signals, Notifier& notifier) {
     std::atomic<bool> stop{false};
     int number = 0;
@@ -61,7 +61,7 @@ int run_until_signal(FeedService& service, const Signals& signals, Notifier& not
     return number;
 }
 
-// Returns the service of the new configuration; none if it cannot be made, and the old one goes on.
+// Returns a service with the new configuration; none if that fails and the old service must go on.
 std::unique_ptr<FeedService> reloaded(const std::filesystem::path& file) {
     const auto fresh = load_with_stations(file);
     auto opened = fresh.and_then(

@@ -1,11 +1,12 @@
 // fetch/feed/newest_search.h -- finds the newest volume of a station in the ring of volume numbers.
 //
-// One listing names the directories that exist. In the order of their numbers, their times rise to
-// the newest and then fall once to the oldest, wherever that is. So the search takes the first
-// directory's newest time and bisects: a directory with something newer is before the fall, any
-// other one is behind it. That takes some 12 listings, once, however full the ring is. If a station
-// has jumped to another number, the times may fall more than once, and the search may find the end
-// of any rise; StationFollower looks further if nothing comes after it.
+// The first listing names the directories that exist. In the order of their numbers, their times
+// rise up to the newest volume; the next directory, if any, has the oldest volume, and from there
+// the times rise again. So the search bisects with the newest time of the first directory: a
+// directory with a newer time is at or before the newest volume, any other directory is after it.
+// This takes some 12 listings, however full the ring is. If a station has jumped to another number,
+// the times may fall more than once, and the search may end at any fall; StationFollower searches
+// further if no chunks follow.
 //
 // Threads   Plain data; one thread at a time.
 #pragma once
@@ -23,15 +24,15 @@ class NewestSearch {
   public:
     explicit NewestSearch(std::string station) : station_(std::move(station)) {}
 
-    // Returns the next question, until is_done().
+    // Returns the next question to ask. Call it until is_done().
     [[nodiscard]] fetch::ListingQuestion question() const;
     // Takes the answer to question().
     void take(const fetch::ListingPage& answer, UtcTime now);
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
 
-    // Start of the follower: with the directory before the newest, so that a complete volume
-    // comes first, or with the newest itself. Chunks older than `from` are from an earlier round of
-    // the ring.
+    // The place at which StationFollower begins: the directory before the newest, so that a
+    // complete volume comes first, or the newest directory if there is none before it. Chunks older
+    // than `from` belong to an earlier round of the ring.
     struct Start {
         int number = 0;
         UtcTime from;
@@ -47,7 +48,7 @@ class NewestSearch {
 
     std::string station_;
     Step step_ = Step::directories;
-    std::vector<int> numbers_;             // of directories that exist, ascending
+    std::vector<int> numbers_;             // numbers of existing directories, ascending
     UtcTime first_time_;                   // the newest time in numbers_[0]
     std::size_t newest_ = 0, beyond_ = 0;  // the newest volume is in [newest_, beyond_)
 };

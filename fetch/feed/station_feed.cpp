@@ -13,7 +13,7 @@ constexpr std::uint64_t most_chunk_bytes = std::uint64_t{4} << 20;
 constexpr int most_bad_tries = 3, most_tries = 8;
 constexpr std::chrono::milliseconds longest_between_chunks{60'000};
 
-// Returns true if the server works but this chunk is bad.
+// Returns true for errors of one chunk, while the server works.
 bool is_of_the_chunk(ErrorCode code) {
     return code == ErrorCode::truncated || code == ErrorCode::over_budget ||
            code == ErrorCode::not_found || code == ErrorCode::permission || code == ErrorCode::io;
@@ -67,7 +67,7 @@ void StationFeed::take(Result<fetch::ListingPage> answer) {
     get_next();
 }
 
-// Skips chunks that need no request, and asks for the first one that does.
+// Handles chunks that need no request, and asks for the first chunk that needs one.
 void StationFeed::get_next() {
     while (!wanted_.empty()) {
         const StationFollower::Chunk& chunk = wanted_.front();
@@ -119,12 +119,13 @@ void StationFeed::give_up(const Error& why) {
     finish_chunk();
 }
 
-// Ends a failure after a whole turn has worked; the bucket may answer while the disk is full.
+// Reports that a failure is over. Call it only after a whole turn has worked, because the bucket
+// may answer while the disk is full.
 void StationFeed::note_good() {
     if (status_.error.empty()) return;
     status_.error.clear();
     status_.next_try.reset();
-    quiet_since_ += steady_now() - failing_since_;  // it is unknown what came during the failure
+    quiet_since_ += steady_now() - failing_since_;  // a time of failures is not silence
     if (tools_.lines.allow(steady_now())) say(LogLevel::info, "{}: continues", station_);
 }
 

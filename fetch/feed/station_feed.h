@@ -1,13 +1,13 @@
 // fetch/feed/station_feed.h -- copies the chunks of one station from the bucket into the drop
 // directory.
 //
-// It makes one request at a time: a listing, then the new chunks of the listing in the order of
-// their numbers. A chunk that is in the drop directory with its size is not fetched again, so a
-// restart loses and repeats nothing. A chunk is given up after three tries if it comes with another
-// size than listed, or if the bucket lists it but does not give it, and after eight tries for any
-// other reason. After a failure the station pauses, and then lists again.
+// A turn makes one request at a time: a listing, then the new chunks of the listing in the order of
+// their numbers. A chunk that is in the drop directory with its size is not fetched again, for
+// example after a restart. If a chunk is smaller or larger than listed, or the bucket refuses it,
+// the station gives it up after three tries, and after eight tries if requests fail for another
+// reason. After a failure the station pauses, and then lists again.
 //
-// Threads   One thread at a time, that of BucketClient::run().
+// Threads   The thread of BucketClient::run().
 // Errors    None. status() and the log report failures.
 #pragma once
 
@@ -34,14 +34,14 @@ struct FeedTools {
 
 class StationFeed {
   public:
-    // `written` are the volumes to continue with, as for StationFollower.
+    // `written` are the volumes to continue with (see StationFollower).
     StationFeed(std::string station, const std::vector<VolumeId>& written, FeedTools tools,
                 unsigned seed);
     StationFeed(const StationFeed&) = delete;
     StationFeed& operator=(const StationFeed&) = delete;
     ~StationFeed() = default;
 
-    // Asks for the first listing after this time; the answers drive everything else.
+    // Asks for the first listing after `wait`. Each answer leads to the next request.
     void begin(std::chrono::milliseconds wait) { ask(wait); }
     [[nodiscard]] StationStatus status() const;
 
@@ -64,12 +64,12 @@ class StationFeed {
     StationFollower follower_;
     std::deque<StationFollower::Chunk> wanted_;
     bool has_news_ = false;  // in this turn
-    int tries_ = 0;          // for wanted_.front(), over all turns
+    int tries_ = 0;          // failed tries of tried_, over all turns
     ChunkKey tried_;
-    std::optional<UtcTime> modified_;  // of the last chunk
+    std::optional<UtcTime> modified_;  // when the bucket got the last chunk
     std::chrono::milliseconds between_chunks_{0};
     SteadyTime failing_since_{};
-    // Time of the last chunk, moved later by the time in which turns failed.
+    // Time of the last chunk, plus the time during which turns failed since then.
     SteadyTime quiet_since_ = steady_now();
     StationStatus status_;
 };

@@ -6,13 +6,14 @@
 namespace stormcellar::feed {
 namespace {
 
-// A radar's clock may be set back by less than this between two volumes.
+// A radar's clock may be set back by up to this time between two volumes.
 constexpr std::chrono::hours clock_set_back{1};
 constexpr std::chrono::seconds grace{60}, between_looks{15};
-// While chunks come, every fourth listing in vain is of the next directory instead of the volume. A
-// silent station will more likely begin anew, so there three of four are of the next directory.
+// While chunks come, every fourth listing without news is a listing of the next directory, not of
+// the volume. A silent station more likely continues with a new volume, so three of four listings
+// are of the next directory.
 constexpr int every_fourth = 4;
-// Step around the ring, and the first step; 13 and 999 have no common divisor.
+// Steps around the ring: the first, and each further step; 13 and 999 have no common divisor.
 constexpr int ring_step = 13, first_step = 3;
 
 }  // namespace
@@ -94,7 +95,7 @@ fetch::ListingQuestion StationFollower::question_of(const Followed& volume) cons
 fetch::ListingQuestion StationFollower::question_of_directory(bool is_silent) {
     const int expected = volume_number_after(last_.number);
     const int number = next_directory(is_silent);
-    // Except in the expected directory, only a newer volume can be the station's next one.
+    // In any other directory than the expected one, only a newer volume can be the next volume.
     const std::string after = number == expected
                                   ? prefix_of(station_, {last_.time - clock_set_back, number})
                                   : prefix_of(station_, {last_.time, number}) + "~";
@@ -125,7 +126,8 @@ StationFollower::News StationFollower::take_search(const fetch::ListingPage& ans
         search_.emplace(station_);
         return {};
     }
-    // Set a fictitious last volume, so that the directory is listed like the one after it.
+    // Pretend that the volume before the found directory was the last, so that the found directory
+    // is listed next.
     last_ = {start->from + clock_set_back, volume_number_after(start->number, last_volume - 1)};
     search_.reset();
     return {{}, true};
@@ -175,7 +177,7 @@ StationFollower::News StationFollower::new_in(const fetch::ListingPage& answer, 
     }
     if (asked_ == Asked::current) add_new_of(*current_);
     if (!news.chunks.empty()) return news;
-    // In the directory of the current volume, only a later volume is a new one.
+    // In the directory of the current volume, only a later volume is new.
     const auto next = std::ranges::find_if(listed, [&](const Chunk& chunk) {
         return !current_ || (chunk.key.volume != current_->id &&
                              (asked_ == Asked::directory || current_->id < chunk.key.volume));

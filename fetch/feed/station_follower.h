@@ -1,13 +1,14 @@
-// fetch/feed/station_follower.h -- decides what to list next for a station, and what is new in an
-// answer.
+// fetch/feed/station_follower.h -- decides what to list next for a station, and finds the new
+// chunks in the answer.
 //
-// It follows one volume. It lists the keys after the last chunk without a gap before it, so it sees
-// a late chunk as well as the next one. When the volume is complete, and at each fourth listing in
-// vain, it lists the directory of the next number instead, from an hour before this volume on,
-// because older keys belong to an earlier round of the ring. It also follows a later volume in the
-// same directory. If it left a volume with gaps or without its end, it looks at it again every 15 s
-// for a minute. If a station is silent, it also looks where the station may have continued: one
-// number further, at number 1, and in steps around the whole ring.
+// It follows one volume. It lists the keys from the first missing chunk on, so that it sees both
+// late and new chunks. When the volume is complete, and at every fourth listing without news, it
+// lists the directory of the next number instead, but only keys from at most an hour before this
+// volume, because older keys belong to an earlier round of the ring. It also follows a later volume
+// in the same directory. If it left the last volume with gaps or without its end, it lists that
+// volume again every 15 s for a minute. If a station is silent, it lists the next directory more
+// often, and also directories where the station may have continued: two numbers further, number 1,
+// and in steps around the whole ring.
 //
 // The caller asks the bucket, writes the chunks and passes the time.
 //
@@ -34,12 +35,11 @@ class VolumeChunks {
         return done_.test(static_cast<std::size_t>(number));
     }
     void add(int number, level2::ChunkKind kind);
-    // Returns the last chunk before which none is missing; 0 if the first is missing.
+    // Returns the largest number up to which no chunk is missing; 0 if the first is missing.
     [[nodiscard]] int without_gap() const;
     [[nodiscard]] bool is_whole() const { return end_ > 0 && without_gap() >= end_; }
     [[nodiscard]] int highest() const { return highest_; }
-    // Returns how many chunks are missing below the highest that came, counting the end if it did
-    // not come.
+    // Returns how many chunks are missing below highest(), plus 1 if the end has not come.
     [[nodiscard]] int missing() const;
 
   private:
@@ -49,8 +49,8 @@ class VolumeChunks {
 
 class StationFollower {
   public:
-    // `written` are the volumes to continue with, oldest first, at most two; if there are none, the
-    // newest volume is searched.
+    // `written` are the volumes to continue with, oldest first, at most two. If there are none, it
+    // searches for the newest volume.
     StationFollower(std::string station, const std::vector<VolumeId>& written, SteadyTime now);
 
     [[nodiscard]] fetch::ListingQuestion question(SteadyTime now, bool is_silent);
@@ -64,9 +64,9 @@ class StationFollower {
         std::vector<Chunk> chunks;  // in the order of their numbers
         bool is_urgent = false;     // ask the next question at once
     };
-    // Takes the answer to the last question.
+    // Takes the answer to the last question, and returns its new chunks.
     [[nodiscard]] News take(const fetch::ListingPage& answer, UtcTime utc, SteadyTime now);
-    // Notes that the chunk was written or given up.
+    // Notes that a chunk was written or given up.
     void note_done(const ChunkKey& key);
 
     [[nodiscard]] bool is_searching() const { return search_.has_value(); }
@@ -92,12 +92,12 @@ class StationFollower {
 
     std::string station_;
     std::optional<NewestSearch> search_;
-    VolumeId last_;  // the volume before the expected one
+    VolumeId last_;  // the volume before the next expected volume
     std::optional<Followed> current_, previous_;
     Asked asked_ = Asked::search;
     fetch::ListingQuestion question_;
-    int in_vain_ = 0;  // consecutive answers without anything new
-    int probes_ = 0;   // for a silent station
+    int in_vain_ = 0;  // consecutive answers without new chunks
+    int probes_ = 0;   // directories listed while the station was silent
     std::uint64_t missing_ = 0;
 };
 

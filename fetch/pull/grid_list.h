@@ -1,7 +1,7 @@
 // fetch/pull/grid_list.h -- reads a data server's list of grids, the answer of /api/v1/grids.
 //
 // Threads   Pure functions.
-// Errors    corrupt for any other text. A grid whose name makes no sense is left out.
+// Errors    corrupt if the text is not such a list. A grid with an invalid name is left out.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 
 namespace stormcellar::pull {
 
-// The server lists at most this many grids, the newest.
+// The server lists at most this many of the newest grids.
 inline constexpr std::size_t most_listed = 10'000;
-// Limit of the text of such a list.
+// Limit of the text of a list.
 inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
 
 [[nodiscard]] std::string list_url(const PullSource& source, UtcTime from);

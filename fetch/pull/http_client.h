@@ -1,14 +1,12 @@
 // fetch/pull/http_client.h -- makes one GET at a time, over a connection that stays open.
 //
 // The client follows no redirects and speaks only http and https. Answers are limited in bytes and
-// in time. The flag ends a transfer within a second or so.
+// in time. `stop` ends a transfer within a second or so.
 //
-// Threads   One thread at a time; the flag and the beat may be used by all.
-// Errors    busy      may pass: no connection, a timeout, 429, 500 and above, or the flag
-//           truncated the body ended early
-//           over_budget more bytes than allowed
-//           not_found 404 and 410
-//           io        any other answer, or the taker's error
+// Threads   One thread at a time. Any thread may set `stop`.
+// Errors    busy may pass: no connection, a timeout, 429, 500 and above, or `stop` truncated the
+//           body ended early over_budget more bytes than allowed not_found 404 and 410
+//           io        any other answer. Errors of `take` are passed on with their own code.
 #pragma once
 
 #include <atomic>
@@ -27,9 +25,9 @@ namespace stormcellar::pull {
 
 struct HttpRequest {
     std::string url;
-    std::string known_tag;         // with its quotes; an answer with this tag has no body
+    std::string known_tag;         // with its quotes; content with this tag is not sent again
     std::uint64_t most_bytes = 0;  // of the body
-    // Takes the body of a 200 answer, piece by piece.
+    // Takes the body of a 200 answer, piece by piece. If it fails, the transfer ends.
     std::function<Status(std::span<const std::byte>)> take;
 };
 
@@ -41,8 +39,8 @@ struct HttpAnswer {
 
 struct HttpOptions {
     std::chrono::seconds connect{10};
-    std::chrono::seconds stall{20};     // without a byte
-    std::chrono::seconds longest{300};  // for one transfer
+    std::chrono::seconds stall{20};     // a transfer without a byte for this long fails
+    std::chrono::seconds longest{300};  // limit of a whole transfer
     const std::atomic<bool>* stop = nullptr;
     std::function<void()> beat;  // called at least once a second during a transfer
 };
@@ -55,7 +53,7 @@ class HttpClient {
     ~HttpClient();
 
     [[nodiscard]] Result<HttpAnswer> get(const HttpRequest& request);
-    // Returns the wait that the last answer asked for (Retry-After); none if it did not.
+    // Returns the wait that the last answer requested (Retry-After); none if it requested none.
     [[nodiscard]] std::optional<std::chrono::seconds> retry_after() const { return retry_after_; }
 
   private:

@@ -15,8 +15,8 @@ constexpr std::size_t most_sources = 32;  // each has a thread
 constexpr std::size_t most_domains = 64;
 constexpr std::size_t most_stations = 1024;
 
-// tests/fetch/pull/pull_config_test.cpp loads the shipped file, which has all of these tables, so a
-// missing name fails there.
+// The shipped file has all of these tables, so tests/fetch/pull/pull_config_test.cpp, which loads
+// it, fails if a name is missing here.
 constexpr std::string_view tables_of_others[] = {"paths",  "ingest",  "cache", "domain",
                                                  "loop",   "catalog", "watch", "partials",
                                                  "status", "station", "web",   "feed"};

@@ -13,12 +13,12 @@
 
 namespace stormcellar::pull {
 
-// A machine whose stormcellar-web gives its grids.
+// A machine whose stormcellar-web offers grids.
 struct PullSource {
-    std::string name;  // and name of its directory
+    std::string name;  // also the name of its directory
     std::string url;   // "http://HOST:PORT", perhaps with a path, without a '/' at the end
-    std::vector<std::string> domains = {};   // whose partials are pulled; empty: all domains
-    std::vector<std::string> stations = {};  // whose partials are pulled; empty: all stations
+    std::vector<std::string> domains = {};   // pull partials of these; empty: of all domains
+    std::vector<std::string> stations = {};  // pull partials of these; empty: of all stations
     bool operator==(const PullSource&) const = default;
 };
 
@@ -36,8 +36,9 @@ struct PullConfig {
     bool operator==(const PullConfig&) const = default;
 };
 
-// Relative paths start at the directory of the file. Tables of other programs are ignored. Errors:
-// those of reading the file; bad_argument, "FILE:LINE: [section] key: why".
+// Loads the configuration. Relative paths start at the directory of the file. Ignores tables of
+// other programs. Errors: errors of reading the file; bad_argument, "FILE:LINE: [section] key:
+// why".
 [[nodiscard]] Result<PullConfig> load_pull_config(const std::filesystem::path& file);
 
 }  // namespace stormcellar::pull

@@ -46,7 +46,7 @@ PullService::~PullService() {
         thread.join();
 }
 
-// Runs the turns of a machine. Logs when it begins to fail and when it recovers, not each turn.
+// Runs the turns of a machine. Logs when the machine begins to fail and when it recovers.
 void PullService::run(SourcePuller& puller) {
     bool was_failing = false;
     while (!stop_) {

@@ -1,4 +1,5 @@
-// fetch/pull/pull_status.h -- the state of the pulling for people and monitoring: status.json.
+// fetch/pull/pull_status.h -- the contents of status.json: the state of each machine, for people
+// and monitoring.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -16,7 +17,7 @@ struct SourceStatus {
     std::string name, url;
     std::string error;                // why the last turn failed; empty: it succeeded
     std::optional<UtcTime> answered;  // when the machine last answered
-    std::optional<UtcTime> next_try;  // for a machine that failed
+    std::optional<UtcTime> next_try;  // set after a failed turn
     std::optional<UtcTime> newest;    // time of the newest grid
     std::size_t grids = 0;
     std::uint64_t bytes = 0;     // on disk

@@ -1,15 +1,14 @@
 // fetch/pull/pulled_grids.h -- the directory of grids that were pulled from one machine.
 //
 // The directory has the layout of a cache (stormcellar/cache/grid_name.h). A grid gets its name
-// only after a check of all of its bytes: it must be a grid file in which every brick has its
-// checksum, of the requested station, moment and time, and with the tag that the server named.
-// Until then it is beside the domains under a temporary name, and directories are made only for
-// grids that are kept. open() removes the leftovers of a killed program. One process writes to a
-// directory.
+// only after a check of all of its bytes: it must be a grid file of the requested station, moment
+// and time, with the right checksum of every brick and the tag that the server named. Until then it
+// has a temporary name beside the domains. Directories are made only for grids that are kept.
+// open() removes the leftovers of a killed program. Only one process may write to a directory.
 //
 // Units     Sizes are in bytes on disk.
 // Threads   One thread at a time.
-// Errors    Those of file operations and of the check: corrupt, truncated, unsupported.
+// Errors    Errors of file operations. Errors of the check are corrupt, truncated and unsupported.
 #pragma once
 
 #include <chrono>
@@ -29,19 +28,20 @@ namespace stormcellar::pull {
 struct PulledLimits {
     std::uint64_t bytes = 0;
     std::chrono::seconds age{0};
-    // For a mosaic, a nation's radars make some 60,000 grids of one moment in a day. Each takes a
-    // file and some memory, however small it is.
+    // Limit of the number of grids, because each takes a file and some memory, however small it is.
+    // For a mosaic, the radars of a nation make some 60,000 grids of one moment in a day.
     std::size_t grids = 100'000;
 };
 
 class PulledGrids {
   public:
-    // Creates the directory if it is missing.
+    // Creates the directory if it is missing, and lists its grids.
     static Result<PulledGrids> open(FileSystem& file_system, std::filesystem::path directory,
                                     PulledLimits limits);
 
     [[nodiscard]] bool has(const cache::GridName& name) const { return grids_.contains(name); }
-    // Returns the entity tag of the present grid; empty if it cannot be read.
+    // Returns the entity tag of the grid in the directory; empty if there is none or it cannot be
+    // read.
     [[nodiscard]] std::string tag_of(const cache::GridName& name);
     // A grid that is being received.
     class Incoming {
@@ -56,7 +56,7 @@ class PulledGrids {
         AtomicFile file_;
     };
     [[nodiscard]] Result<Incoming> begin(const cache::GridName& name);
-    // Checks the grid and gives it its name. `tag` is the server's.
+    // Checks the grid and gives it its name. `tag` is the tag that the server named.
     Status keep(Incoming incoming, const std::string& tag);
 
     // Removes grids that are too old, and then the oldest until the limits of bytes and of grids

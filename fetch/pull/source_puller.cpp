@@ -15,21 +15,22 @@ namespace {
 
 constexpr std::chrono::milliseconds first_pause{1000}, longest_pause{60'000};
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
-// The list begins at a multiple of this, so that its address and its tag stay the same for a while.
+// The list begins at a multiple of this time, so that its URL and its tag stay the same for a
+// while.
 constexpr std::chrono::minutes list_step{10};
-// Each turn asks for a short list; after this time, a turn asks for the whole list, to find late
-// grids.
+// Most turns ask for a list of the last half hour. Every 12th turn or so asks for the whole list,
+// to find late grids.
 constexpr std::chrono::minutes short_list{30};
 constexpr int short_lists = 12;
-// Grids younger than this are asked for again, because a partial is made again within minutes when
-// the rest of its volume comes.
+// Younger grids are asked for again, because a partial is made again within minutes when the rest
+// of its volume comes.
 constexpr std::chrono::minutes young{20};
 constexpr std::chrono::seconds between_asking{60};
-// Limits of one turn. Catching up after a long absence takes several turns; a machine that sends
-// junk is paused.
+// Limits of one turn. Fetching many missing grids takes several turns; a machine that sends junk is
+// paused.
 constexpr int most_of_a_turn = 1000, most_refused_in_a_row = 16;
 
-// Returns true if the machine works but this grid is bad.
+// Returns true for errors of one grid, while the machine works.
 bool is_of_the_grid(ErrorCode code) {
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
            code == ErrorCode::unsupported || code == ErrorCode::over_budget ||
@@ -74,7 +75,7 @@ Status SourcePuller::turn() {
     return done;
 }
 
-// Runs a turn. An exception ends this machine's turn, not the service of all.
+// Runs a turn. An exception ends only this turn, not the service.
 Status SourcePuller::try_to_pull() {
     try {
         return pull();
@@ -94,7 +95,7 @@ SourceStatus SourcePuller::status() const {
     return status_;
 }
 
-// Notes how a turn ended. Also called at the start, before the first request.
+// Notes in the status how a turn ended. Also called at the start, before the first request.
 void SourcePuller::note_outcome(const Status& done) {
     const MutexLock lock(mutex_);
     status_.grids = grids_.count();
@@ -119,7 +120,7 @@ Status SourcePuller::pull() {
     return ask_again(now);
 }
 
-// Fetches the list. Returns whether it differs from the last one.
+// Fetches the list. Returns true if it differs from the last list.
 Result<bool> SourcePuller::list(UtcTime from, UtcTime now) {
     std::vector<std::byte> text;
     const std::string url = list_url(source_, from);
@@ -144,7 +145,8 @@ Result<bool> SourcePuller::list(UtcTime from, UtcTime now) {
     return !answer->is_unchanged;
 }
 
-// Forgets grids that are newer than `from` and not in the list, which has nothing older.
+// Forgets requests and refusals of grids that are too old, or that the list, which begins at
+// `from`, lacks.
 void SourcePuller::forget_unlisted(UtcTime from, UtcTime now) {
     const std::set<cache::GridName> listed(listed_.begin(), listed_.end());
     const auto is_gone = [&](const auto& one) {
@@ -159,7 +161,7 @@ bool SourcePuller::may_fetch() const {
     return !stop_ && fetched_ < most_of_a_turn;
 }
 
-// Removes the oldest grids to make room. Returns false if that removed the new grid itself.
+// Removes the oldest grids to make room. Returns false if the new grid `name` was among them.
 bool SourcePuller::make_room_for(const cache::GridName& name) {
     if (grids_.bytes() <= config_.bytes_a_source) return true;
     const std::uint64_t bytes = grids_.bytes();
@@ -185,7 +187,8 @@ Status SourcePuller::fetch_missing() {
         if (grids_.has(name)) continue;
         if (!has_room_for(name)) return {};
         if (Status fetched = fetch(name); !fetched) return fetched;
-        // The newest grids come first: if one of them has no room, older ones have none either.
+        // Grids come newest first: if there is no room for this grid, there is none for older
+        // grids.
         if (!make_room_for(name)) return {};
     }
     return {};
@@ -203,7 +206,7 @@ Status SourcePuller::ask_again(UtcTime now) {
     return {};
 }
 
-// Fetches a grid. Fails only if the machine must be left alone for a while.
+// Fetches a grid, unless it is paused. Fails only if the machine must be paused.
 Status SourcePuller::fetch(const cache::GridName& name) {
     const auto known = bad_.find(name);
     if (known != bad_.end() && steady_now() < known->second.next) return {};
@@ -215,7 +218,7 @@ Status SourcePuller::fetch(const cache::GridName& name) {
         bad_.erase(name);
         return {};
     }
-    // The grid was evicted since it was listed.
+    // The machine has evicted the grid since it listed it.
     if (done.error().code == ErrorCode::not_found) return {};
     if (!is_of_the_grid(done.error().code)) return done;
     Bad& bad = bad_[name];
@@ -232,7 +235,7 @@ Status SourcePuller::fetch(const cache::GridName& name) {
 
 Status SourcePuller::get(const cache::GridName& name) {
     beat();
-    std::optional<PulledGrids::Incoming> incoming;  // set when the first bytes come
+    std::optional<PulledGrids::Incoming> incoming;  // set when the first bytes arrive
     const auto take = [&](std::span<const std::byte> bytes) -> Status {
         if (!incoming) {
             auto begun = grids_.begin(name);

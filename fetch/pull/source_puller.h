@@ -1,12 +1,13 @@
 // fetch/pull/source_puller.h -- pulls the partials of one machine, turn by turn.
 //
-// A turn asks for the list of grids, fetches missing grids, newest first, and asks whether the
-// newest grids were made again. A machine that does not answer ends the turn. The next turn begins
-// after a pause that doubles from one second to a minute, or that the machine asks for. A grid that
-// is cut off or fails a check is asked for again after its own pause, so that it delays no others.
-// A turn fetches at most 1,000 grids and fails after 16 refusals in a row, so a machine that sends
-// only junk is paused like one that is down. The puller forgets a grid when the machine no longer
-// lists it.
+// A turn asks for the list of grids, fetches missing grids, newest first, and asks again for the
+// newest grids, in case they were made again. The turn fails if the machine does not answer. After
+// a failed turn, the pause is one second, and doubles with each further failure up to a minute; if
+// the machine requests a longer pause, that pause applies, up to a minute. A grid that is cut off
+// or fails a check is refused, and asked for again after a pause of its own, so that it does not
+// delay other grids. A turn makes at most 1,000 requests for grids and fails after 16 refusals in a
+// row, so that a machine that sends only junk is paused like a machine that is down. When the
+// machine no longer lists a grid, the puller forgets the refusals of that grid.
 //
 // Threads   turn() by one thread; status() by any.
 // Errors    turn() says why it ended early; the next turn may succeed.
@@ -29,12 +30,13 @@
 
 namespace stormcellar::pull {
 
-// Returns the pause after this many failures, which doubles from the shortest to the longest.
+// Returns the pause after this many failures in a row: 1 s after the first, doubled after each
+// further failure, at most a minute.
 [[nodiscard]] std::chrono::milliseconds pause_after(int failures);
 
 class SourcePuller {
   public:
-    // `grids` is the directory of this source. The flag ends a turn.
+    // `grids` is the directory of this source. A turn ends soon after `stop` is set.
     SourcePuller(PullSource source, const PullConfig& config, PulledGrids grids,
                  const std::atomic<bool>& stop);
 
@@ -43,7 +45,7 @@ class SourcePuller {
     [[nodiscard]] std::chrono::milliseconds pause() const;
     [[nodiscard]] SourceStatus status() const;
     [[nodiscard]] const PullSource& source() const { return source_; }
-    // Returns the size of the larger of its two memories: grids asked for lately, and bad ones.
+    // Returns the larger number of asked_ and bad_, for tests.
     [[nodiscard]] std::size_t remembered() const { return std::max(asked_.size(), bad_.size()); }
     // Returns when a turn, or a transfer in it, last made progress.
     [[nodiscard]] SteadyTime last_beat() const { return beat_.load(); }
@@ -67,7 +69,7 @@ class SourcePuller {
         int tries = 0;
         SteadyTime next{};
     };
-    // The last grid that was removed as soon as it came, because all others are newer.
+    // The last grid that was removed as soon as it was fetched, because all other grids are newer.
     struct NoRoom {
         UtcTime time;
         std::uint64_t bytes = 0;
@@ -82,10 +84,10 @@ class SourcePuller {
     std::string list_url_, list_tag_;
     std::vector<cache::GridName> listed_;  // newest first
     SteadyTime next_long_list_{};
-    std::map<cache::GridName, SteadyTime> asked_;  // when each young grid was last asked for
+    std::map<cache::GridName, SteadyTime> asked_;  // when each young grid was last requested
     std::map<cache::GridName, Bad> bad_;
     std::optional<NoRoom> no_room_;
-    int failures_ = 0;          // consecutive turns
+    int failures_ = 0;          // failed turns in a row
     int fetched_ = 0;           // requests in this turn
     int refused_in_a_row_ = 0;  // in this turn
     RateLimit lines_{20, std::chrono::seconds{60}};

@@ -1,15 +1,15 @@
 // stormcellar/fetch/fetch.h -- downloads raw files from a public bucket into a directory.
 //
-// Files keep their names and the times that the bucket gives them. A file that exists with its full
+// Files keep the names and the times that they have in the bucket. A file that exists with its full
 // size is not downloaded again; an interrupted transfer continues where it stopped. A file appears
 // under its name only when it is complete. Failed transfers are tried again, with longer waits each
-// time; the report lists those that fail for good.
+// time; the report lists the files that failed in the end.
 //
-// A module with libcurl, stormcellar_fetch.so, does the transfers; nothing else loads it.
+// The module stormcellar_fetch.so, which links libcurl, makes the transfers; only fetch() loads it.
 //
 // Units     Sizes are in bytes.
 // Threads   One thread at a time; fetch() calls `progress` on the thread that called it.
-// Errors    See fetch(). The failure of a single file is not an error; the report lists it.
+// Errors    See fetch(). If a single file fails, that is not an error; the report lists the file.
 #pragma once
 
 #include <atomic>
@@ -35,11 +35,11 @@ struct FetchProgress {
 struct FetchRequest {
     std::string source = default_source;
     std::vector<std::string> stations;
-    UtcTime from, to;  // the range of the volumes' starts, inclusive
+    UtcTime from, to;  // volumes that start in this range, both ends included
     std::filesystem::path directory;
     int parallel = 8;  // transfers at the same time
     int tries = 6;     // for each file
-    // before the second try; doubled for each further try
+    // wait before the second try; doubled for each further try
     std::chrono::milliseconds first_wait{500};
     std::chrono::seconds stall{30};  // a transfer without a byte for this long has failed
     std::function<void(const FetchProgress&)> progress;
@@ -49,12 +49,12 @@ struct FetchRequest {
 struct FetchFailure {
     std::string what;  // a key of the bucket, or the listing that failed
     std::string reason;
-    // The server no longer has this object, or does not give it to us; another try would fail, too.
+    // The server refuses this object or no longer has it; another try would fail, too.
     bool is_refused = false;
 };
 
 struct FetchReport {
-    std::size_t found = 0;            // volumes of these stations and times
+    std::size_t found = 0;            // volumes of the requested stations and times
     std::size_t fetched = 0;          // downloaded by this call
     std::size_t present = 0;          // already in the directory
     std::size_t without_radials = 0;  // _MDM files, which are left out
@@ -64,10 +64,10 @@ struct FetchReport {
 };
 
 // Downloads the files and returns a report. Errors: bad_argument if the source is not a URL;
-// unsupported if the module is not installed; those of the directory.
+// unsupported if the module is not installed; errors of the directory.
 [[nodiscard]] Result<FetchReport> fetch(const FetchRequest& request);
 
-// The function that the module exports under the name below.
+// The type of the function that the module exports as fetch_module_entry.
 using FetchEntry = void (*)(const FetchRequest& request, Result<FetchReport>& report);
 inline constexpr const char* fetch_module_file = "stormcellar_fetch.so";
 inline constexpr const char* fetch_module_entry = "stormcellar_fetch_files";
