@@ -1,7 +1,7 @@
-// service/arguments.h -- the arguments of a service: --config FILE, and little else.
+// service/arguments.h -- parses the command line of a service: --config FILE, and few other flags.
 //
 // Threads   Functions without state.
-// Errors    bad_argument for any other argument, and if there is no file.
+// Errors    bad_argument for any other argument, and if --config FILE is missing.
 #pragma once
 
 #include <filesystem>
@@ -19,15 +19,16 @@ struct ServiceArguments {
     bool check = false;
     bool help = false;
     bool version = false;
-    std::string_view flag;  // the service's own flag that was given; empty: none
+    std::string_view flag;  // the flag of `own_flags` that was given; empty: none
 };
 // Parses the arguments. `own_flags` are further flags of this service, such as "--no-loops"; at
 // most one of them may be given.
 [[nodiscard]] Result<ServiceArguments> parse_service_arguments(
     int argc, char** argv, const std::vector<std::string_view>& own_flags = {});
 
-// Returns "checked as the user NAME", for --check-config. For root it adds how to check as the
-// service, because root may read everything and so does not learn what the service may read.
+// Returns "checked as the user NAME", for --check-config. For root it adds how to check as the user
+// of the service: root may read everything, so its check does not show which files the service may
+// read.
 [[nodiscard]] std::string checked_as(std::string_view program, std::string_view service_user);
 
 }  // namespace stormcellar

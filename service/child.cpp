@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int lower_priority = 10;
 constexpr int first_to_go = 500;
 
-// A pipe. Programs that are started later inherit neither end.
+// A pipe. Programs inherit neither end, unless spawn() passes it on.
 struct Pipe {
     Pipe() {
         std::array<int, 2> ends{-1, -1};
@@ -35,7 +35,7 @@ struct Pipe {
     Descriptor reader, writer;
 };
 
-// Reads from the pipe without ever blocking.
+// Returns a reader of the pipe that never blocks.
 LineReader lines_of(Pipe& pipe) {
     ::fcntl(pipe.reader.number(), F_SETFL, O_NONBLOCK);
     return LineReader(std::move(pipe.reader));
@@ -81,11 +81,11 @@ Result<Child> Child::start(const fs::path& program, const std::vector<std::strin
         spawn(program, arguments, {.out = out.writer.number(), .err = err.writer.number()});
     if (!started) return pass_on(started);
     const pid_t id = *started;
-    // If the service may not change these, the program runs without them.
+    // These calls may fail for lack of permission; the program then runs without them.
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(id), lower_priority);
     std::ofstream(fmt::format("/proc/{}/oom_score_adj", id)) << first_to_go;
-    // The C library's own declaration lacks its extern "C" (glibc 2.36). The descriptor is closed
-    // in programs that are started.
+    // Call pidfd_open directly, because its declaration in glibc 2.36 lacks extern "C". Programs do
+    // not inherit the descriptor.
     Child child(id, Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, id, 0))));
     if (!child.descriptor_.is_open()) return system_failure(program.native(), errno);
     child.out = lines_of(out);

@@ -1,11 +1,12 @@
 // service/child.h -- starts a program beside the service and reads its output.
 //
 // The program has no input, default signals, a process group of its own (so that Ctrl-C in a
-// terminal reaches only the service) and a lower priority; it is the first to be killed if memory
-// runs out. It inherits none of the service's files. Its output is read line by line.
+// terminal reaches only the service) and a lower priority. If memory runs out, the system kills the
+// program before the service. The program inherits no open files of the service. Its output is read
+// line by line.
 //
-// Threads   One thread, which must live as long as the child if the child asks to be ended with its
-//           parent (PR_SET_PDEATHSIG follows the thread).
+// Threads   One thread. The thread must live as long as the child if the child uses
+//           PR_SET_PDEATHSIG, because that signal comes when the thread ends.
 #pragma once
 
 #include <filesystem>
@@ -29,10 +30,10 @@ class LineReader {
     LineReader() = default;
     explicit LineReader(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
-    // for poll(); -1 once the other end is closed
+    // for poll(); -1 once the other end of the pipe is closed
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
-    // Returns the lines that have arrived; at the end also a last line without a line end. Reads at
-    // most 64 KiB a call.
+    // Returns the lines that have arrived. At the end of the output, also returns a last line
+    // without a line end. Reads at most 64 KiB a call.
     std::vector<std::string> read();
 
   private:
@@ -44,20 +45,20 @@ class LineReader {
 
 class Child {
   public:
-    // Errors: not_found, permission or io if it could not be started.
+    // Starts the program. Errors: not_found, permission or io.
     static Result<Child> start(const std::filesystem::path& program,
                                const std::vector<std::string>& arguments);
     Child(Child&& other) noexcept;
     Child& operator=(Child&& other) noexcept;
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
-    ~Child();  // kills it
+    ~Child();  // kills the program and waits for its end
 
     [[nodiscard]] pid_t id() const { return id_; }
     // readable once the program has ended
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     void signal(int number) const;
-    // Returns "status 1" or "signal 9"; empty while it runs.
+    // Returns how the program ended: "status 1" or "signal 9"; empty while it runs.
     [[nodiscard]] std::string ended();
 
     LineReader out, err;
@@ -66,7 +67,7 @@ class Child {
     Child(pid_t id, Descriptor descriptor) : id_(id), descriptor_(std::move(descriptor)) {}
     void kill();
 
-    pid_t id_ = 0;  // 0: there is no process, or it was waited for
+    pid_t id_ = 0;  // 0: there is no process, or it has ended and was waited for
     Descriptor descriptor_;
     std::string ended_;
 };

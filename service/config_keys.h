@@ -1,7 +1,7 @@
 // service/config_keys.h -- reads configuration keys that several services have.
 //
-// Threads   Pure functions, except that they use the table.
-// Errors    Complaints of the table.
+// Threads   One thread at a time for each table.
+// Errors    Reported to the table as complaints.
 #pragma once
 
 #include <chrono>
@@ -19,9 +19,10 @@ namespace stormcellar {
 // Returns true for http:// or https:// with a host, without a query and without characters that do
 // not belong in a request or a log.
 [[nodiscard]] bool is_web_address(std::string_view url);
-// Reads an amount of bytes, as a number or as "20 GB"; it must be at least 1 MB.
+// Reads an amount of bytes, as a number or as "20 GB". The amount must be at least 1 MB.
 void read_bytes(TomlTable& table, std::string_view key, std::uint64_t& bytes);
-// Reads a number of units (seconds, hours, days), rounded to the precision of `into`.
+// Reads a number of `unit` (a second, an hour, a day), rounded to the precision of `into`. Leaves
+// `into` unchanged if the key is missing.
 template <class Duration>
 void read_duration(TomlTable& table, std::string_view key, TomlRange range,
                    std::chrono::seconds unit, Duration& into) {
@@ -35,7 +36,8 @@ void read_path_beside(TomlTable& table, std::string_view key, const std::filesys
                       std::filesystem::path& path);
 // Reads [log] level.
 void read_log_level(TomlTable root, std::string& level);
-// Leaves the tables of other programs to them, and reports the first complaint about the rest.
+// Returns the first complaint about the file. Ignores `tables_of_others`, which other programs
+// read.
 [[nodiscard]] Status finish(TomlFile& toml, std::span<const std::string_view> tables_of_others);
 
 }  // namespace stormcellar

@@ -1,7 +1,7 @@
 // service/http_daemon.h -- starts libmicrohttpd on a listening socket, for the status of the daemon
 // and for the data server.
 //
-// A library of its own (stormcellar::http_daemon), because the other services do not link
+// It is a library of its own (stormcellar::http_daemon), because the other services do not link
 // libmicrohttpd.
 //
 // Threads   Any thread.
@@ -25,7 +25,7 @@ using HttpResponse = std::unique_ptr<MHD_Response, HttpResponseDeleter>;
 struct HttpDaemonOptions {
     unsigned flags = 0;  // MHD_FLAG
     unsigned most_connections = 0;
-    std::size_t header_bytes = 0;                // for a request line and all headers
+    std::size_t header_bytes = 0;                // limit of a request line with all headers
     void* self = nullptr;                        // passed to the callbacks
     MHD_AcceptPolicyCallback accepts = nullptr;  // null: accept all
     MHD_AccessHandlerCallback answer = nullptr;
@@ -33,8 +33,9 @@ struct HttpDaemonOptions {
     std::vector<MHD_OptionItem> others = {};
 };
 
-// Serves a copy of the socket `listening`, which stays open. A thread of libmicrohttpd blocks
-// SIGPIPE. The caller ends the daemon with MHD_stop_daemon(). Errors: io.
+// Starts a daemon that serves a copy of the socket `listening`, which stays open. If libmicrohttpd
+// starts threads, they block SIGPIPE. The caller ends the daemon with MHD_stop_daemon(). Errors:
+// io.
 [[nodiscard]] Result<MHD_Daemon*> start_http_daemon(int listening, HttpDaemonOptions options);
 
 }  // namespace stormcellar

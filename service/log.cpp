@@ -31,7 +31,7 @@ const LevelFacts& facts_of(LogLevel level) {
     return facts_of_levels[static_cast<std::size_t>(level)];
 }
 
-// Writes a line for the journal or for people, as stderr is at that moment.
+// Writes a line for the journal or for people, depending on where stderr goes at that moment.
 class LineFormatter final : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
@@ -50,7 +50,7 @@ class LineFormatter final : public spdlog::formatter {
     }
 };
 
-// The sink writes each line at once, so that lines of several threads do not mix.
+// The sink writes each line with one call, so that lines of several threads do not mix.
 spdlog::logger& logger() {
     static spdlog::logger the_logger = [] {
         spdlog::logger made("stormcellar", std::make_shared<spdlog::sinks::stderr_sink_mt>());

@@ -1,8 +1,8 @@
-// service/log.h -- the lines that a service writes to stderr: start, stop, trouble.
-// Only programs and their services call it; the daemon does through daemon/log/log.h.
+// service/log.h -- writes log lines of a service to stderr. Only programs and their services call
+// it; the daemon calls it through daemon/log/log.h.
 //
-// If stderr is the journal, lines carry the "<N>" prefix by which the journal knows their level;
-// otherwise the time and the level. Control characters are escaped.
+// If stderr is the journal, each line begins with the prefix "<N>", from which the journal takes
+// the level; otherwise with the time and the level. Control characters are escaped.
 //
 // Threads   Any thread may call every function.
 #pragma once
@@ -22,9 +22,9 @@ void set_log_level(std::string_view name);
 [[nodiscard]] bool is_logged(LogLevel level);
 // Returns the priority of syslog(3), a digit.
 [[nodiscard]] char priority_of(LogLevel level);
-// Returns true if stderr is the stream that JOURNAL_STREAM=device:inode names.
+// Returns true if $JOURNAL_STREAM names stderr as the stream of the journal (DEVICE:INODE).
 [[nodiscard]] bool stderr_is_journal();
-// Writes a line of any level.
+// Writes a line, whatever its level.
 void write_log(LogLevel level, std::string_view text);
 
 template <class... Arguments>
@@ -32,7 +32,7 @@ void say(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... v
     if (is_logged(level)) write_log(level, fmt::format(text, std::forward<Arguments>(values)...));
 }
 
-// Logs the first of several failures in a row, and the next one only after a success.
+// Logs the first of several failures in a row. Logs a further failure only after a success.
 class FirstFailure {
   public:
     void note(const Status& status) {

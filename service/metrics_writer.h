@@ -1,9 +1,9 @@
 // service/metrics_writer.h -- writes metrics in the text format of Prometheus, version 0.0.4.
 //
-// Families follow each other: "# HELP", "# TYPE", then the samples, one line each:
+// Each family has the lines "# HELP" and "# TYPE", and then a line for each sample:
 //   name{label="value",...} 12.5
-// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN. Numbers are written so
-// that the same double is read back; NaN, +Inf and -Inf by these names.
+// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN. Numbers have enough
+// digits to read the same double back; others are NaN, +Inf and -Inf.
 //
 // Threads   One thread at a time.
 // Source    prometheus.io, "Exposition formats". tests/daemon/metrics_reader.h checks it strictly.
@@ -28,20 +28,21 @@ class MetricsWriter {
     using Labels = std::initializer_list<Label>;
 
     enum class Type { counter, gauge, summary, histogram };
-    // Begins a family. A name is used once, and all its samples follow before the next family.
+    // Begins a family. Use each name once, and write all its samples before the next family.
     void family(std::string_view name, Type type, std::string_view help);
     void sample(double value, Labels labels = {});
     void sample(double value, std::span<const Label> labels);
     void sample(std::uint64_t value, Labels labels = {});
     // Writes a sample of a summary: median, 95th percentile and maximum (quantiles 0.5, 0.95 and 1)
-    // of the last values, if there are any, and sum and count of all since the start.
+    // of the last values, if there are any, and sum and count of all values.
     void sample(const Timings& timings, Labels labels = {});
-    // Writes a sample of a histogram with one label. `counts` has the number of values at or below
-    // each bound and, last, above all bounds; `sum` is the sum of the values.
+    // Writes a sample of a histogram with one label. `counts` has the number of values between each
+    // bound and the bound before it, and at last the number above all bounds; `sum` is the sum of
+    // all values.
     void sample(std::span<const double> bounds, std::span<const std::uint64_t> counts, double sum,
                 const Label& label);
 
-    // Write families of one sample without labels.
+    // Each writes a family of one sample without labels.
     void gauge(std::string_view name, std::string_view help, double value) {
         family(name, Type::gauge, help);
         sample(value);
@@ -62,7 +63,7 @@ class MetricsWriter {
     [[nodiscard]] std::string take() { return std::move(text_); }
 
   private:
-    // `extra` is one more label after the others, used if it has a name.
+    // `extra` is a further label, which is left out if its name is empty.
     void line(std::string_view suffix, std::span<const Label> labels, const Label& extra,
               std::string_view value);
 

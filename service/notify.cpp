@@ -9,7 +9,7 @@
 
 namespace stormcellar {
 
-// A failure is ignored: the service manager's own timeouts react to silence.
+// Ignores failures, because the service manager has timeouts for a silent service.
 void SystemdNotifier::send(const std::string& state) {
     (void)sd_notify(0, state.c_str());
 }

@@ -19,7 +19,7 @@ class Notifier : public Interface {
     // `state` has lines of VARIABLE=value.
     virtual void send(const std::string& state) = 0;
     // Returns how long the manager waits for WATCHDOG=1 before it restarts the service; none: it
-    // does not restart it.
+    // does not watch the service.
     [[nodiscard]] virtual std::optional<std::chrono::microseconds> watchdog() const = 0;
 };
 
@@ -30,7 +30,7 @@ class SystemdNotifier final : public Notifier {
     [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
 };
 
-// Reports that the service reloads while the object lives; READY=1 ends it.
+// Reports that the service reloads. The destructor reports READY=1 again.
 class Reloading {
   public:
     explicit Reloading(Notifier& notifier);
@@ -46,8 +46,9 @@ class Reloading {
 [[nodiscard]] std::string reloading_state();
 
 // Decides when to feed the watchdog: four times a period, and only while no thread has been at one
-// step (pulse.h) for longer than a whole period. So the main loop, which still runs, does not hide
-// a stuck thread. Such a step is reported once, with or without a watchdog.
+// step (pulse.h) for longer than a whole period. So a main loop that still runs does not hide
+// another thread that hangs. Each step that hangs is reported once; without a watchdog, a step
+// hangs after `without_watchdog`.
 class WatchdogFeed {
   public:
     static constexpr std::chrono::seconds without_watchdog{180};
@@ -55,7 +56,7 @@ class WatchdogFeed {
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
     [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest = std::nullopt);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // Returns true if this step now lasts too long and was not reported before.
+    // Returns true if the step hangs, and if this call is the first to say so.
     [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
 
   private:

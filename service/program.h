@@ -1,5 +1,5 @@
-// service/program.h -- code that the programs of the services share: answers to --help, --version
-// and wrong arguments, and errors on stderr.
+// service/program.h -- code that the programs of the services share: it answers --help, --version
+// and wrong arguments, and writes errors to stderr.
 #pragma once
 
 #include <cstdint>
@@ -25,17 +25,17 @@ struct ServiceProgram {
 // stderr; an exception gives 1, with its text.
 [[nodiscard]] int run_service(const ServiceProgram& program, int argc, char** argv);
 
-// Writes an error to stderr in the program's name. Returns the exit status of a failure, 1.
+// Writes "PROGRAM: ERROR" to stderr. Returns 1, the exit status of a failure.
 int complain(std::string_view program, const Error& error);
 
-// Writes that --check-config found no fault in a file, and as which user. Returns the exit status,
-// 0.
+// Reports that --check-config found no fault in a file, and as which user. Returns 0, the exit
+// status.
 int say_checked(std::string_view program, std::string_view service_user,
                 const std::filesystem::path& file);
 
 // Raises the soft limit of descriptors to `wanted`, as far as the hard limit allows. The usual
-// limit of 1,024 exists for old programs. If raising fails, the error appears later where a
-// descriptor is missing.
+// limit of 1,024 exists for old programs. Ignores failures: an error appears later if a descriptor
+// is missing.
 void raise_descriptor_limit(std::uint64_t wanted);
 
 }  // namespace stormcellar

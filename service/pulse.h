@@ -1,7 +1,7 @@
-// service/pulse.h -- shows the watchdog whether the threads make progress.
+// service/pulse.h -- shows the watchdog that threads make progress.
 //
-// A working thread reports each step; a thread that waits for work is at rest. The watchdog judges
-// how long the current step of a thread has lasted, so long work is not a hang if it has steps:
+// A working thread reports each step; a thread that waits for work is at rest. The watchdog checks
+// how long the current step of a thread has lasted, so long work must be divided into steps:
 //   ingest, registration   one file (worker_pool.h)
 //   missing       the search for missing files: the names of one station, or 1,000 files
 //   cache         the rolling of the cache: one directory, or 2,048 files that are removed
@@ -9,7 +9,7 @@
 //   partials      one partial of another machine, with the frames that it changes
 //   status        one turn of the status server: it reads what has arrived and answers requests
 //   loops         one turn of the thread that starts and reads the programs of the loops
-// The main loop's thread (service.h) is not among them, because it does the checking.
+// The thread of the main loop (service.h) has no pulse, because it feeds the watchdog itself.
 //
 // Threads   Pulse: any thread. Pulses: one thread at a time.
 #pragma once
@@ -25,7 +25,7 @@ namespace stormcellar {
 
 class Pulse {
   public:
-    // The thread is at work and begins a new step.
+    // Notes that the thread is at work and begins a new step.
     void beat(SteadyTime now = std::chrono::steady_clock::now()) { since_ = now; }
     void rest() { since_ = resting; }
     // Returns the start of the current step; none while the thread is at rest.
@@ -60,7 +60,7 @@ struct Step {
 
 class Pulses {
   public:
-    // The pulse must outlive all calls of oldest().
+    // Adds a pulse, which must outlive all calls of oldest().
     void watch(std::string who, const Pulse& pulse) { all_.push_back({std::move(who), &pulse}); }
     // Returns the step that has lasted longest; none if all threads are at rest.
     [[nodiscard]] std::optional<Step> oldest() const;

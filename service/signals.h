@@ -1,8 +1,8 @@
 // service/signals.h -- turns signals into events that a thread waits for, or blocks them.
 //
-// Make one object of Signals before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for
-// this thread and the threads that it starts, and ignores SIGPIPE. A signal that arrives waits for
-// next().
+// Call Signals::open() once, before any thread starts. It blocks SIGTERM, SIGINT and SIGHUP for
+// this thread and the threads that this thread starts, and ignores SIGPIPE. A blocked signal waits
+// until next() returns it.
 //
 // Threads   Signals: one thread at a time.
 #pragma once
@@ -22,12 +22,12 @@ namespace stormcellar {
 
 class Signals {
   public:
-    // Errors: io if there is no descriptor.
+    // Errors: io if no descriptor is left; internal if signals cannot be blocked.
     static Result<Signals> open();
 
     // Readable while a signal waits; for poll().
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
-    // Returns the number of a signal, or none if none comes within this time.
+    // Returns the number of a signal; none if no signal comes within `most`.
     [[nodiscard]] std::optional<int> next(
         std::chrono::milliseconds most = std::chrono::milliseconds{0}) const;
 
@@ -36,7 +36,7 @@ class Signals {
     Descriptor descriptor_;
 };
 
-// Blocks signals in this thread, and in those that it starts, while the object exists.
+// Blocks signals in this thread, and in threads that it starts, while the object exists.
 class BlockedSignals {
   public:
     explicit BlockedSignals(std::span<const int> numbers);

@@ -16,8 +16,8 @@ struct LatencySummary {
     std::size_t count = 0;
     double median = 0, p95 = 0, max = 0;  // in seconds; meaningless if `count` is 0
 };
-// Returns the summary. Percentiles are by nearest rank: the smallest value such that at least this
-// share of all values is not greater.
+// Returns the summary. Percentiles are by nearest rank: the 95th percentile is the smallest value
+// such that at least 95 % of all values are not greater.
 [[nodiscard]] LatencySummary summarise(std::vector<double> seconds);
 
 class Timings {
@@ -31,7 +31,7 @@ class Timings {
 
   private:
     std::size_t window_;
-    std::vector<double> last_;  // a ring once it is full
+    std::vector<double> last_;  // a ring of the last `window` values
     std::size_t next_ = 0;
     std::uint64_t count_ = 0;
     double sum_s_ = 0;

@@ -1,5 +1,5 @@
-// service/turns.h -- the main loop of a service whose work is done by other threads: a turn about
-// once a second, reloads, the watchdog, and the end.
+// service/turns.h -- the main loop of a service whose work other threads do: it takes a turn each
+// second, reloads, feeds the watchdog, and ends.
 //
 // Threads   One thread, which calls all functions.
 #pragma once
@@ -20,8 +20,9 @@ struct ServiceTurns {
     std::function<bool()> reload;
 };
 
-// Reports READY and takes a turn each second. A signal makes it reload or end. Returns false if a
-// reload failed for good; else true, after SIGTERM or SIGINT, which it logs (service/log.h).
+// Reports READY and takes a turn each second. Reloads on SIGHUP; returns false if the service
+// cannot go on after that. Ends on SIGTERM or SIGINT, which it logs (service/log.h), and returns
+// true.
 [[nodiscard]] bool take_turns(const ServiceTurns& service, const Signals& signals,
                               Notifier& notifier);
 
