@@ -1,7 +1,7 @@
-# What depends on the prefix: the units, and where the configuration goes. Included when the tree is
-# configured, and again when it is installed, which may be below another prefix.
+# The parts that depend on the prefix: the units, and the directory of the configuration. Included when the tree is
+# configured, and again when it is installed, possibly below another prefix.
 
-# Sets `variable` to the directory of configuration files of the prefix: /etc for /usr.
+# Sets `variable` to the prefix's directory for configuration files, for example /etc for /usr.
 function(stormcellar_sysconfdir prefix variable)
   if(prefix STREQUAL "/usr" OR prefix STREQUAL "/")
     set(${variable} /etc PARENT_SCOPE)
@@ -10,7 +10,7 @@ function(stormcellar_sysconfdir prefix variable)
   endif()
 endfunction()
 
-# Writes the units as they are below `prefix` to `directory`; `libdir` is relative to the prefix.
+# Writes the units for an installation below `prefix` to `directory`; `libdir` is relative to the prefix.
 function(stormcellar_write_units source prefix libdir directory)
   stormcellar_sysconfdir(${prefix} STORMCELLAR_SYSCONFDIR)
   set(STORMCELLAR_BINDIR ${prefix}/bin)
