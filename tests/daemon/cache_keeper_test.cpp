@@ -33,7 +33,7 @@ class CacheKeeperTest : public ::testing::Test {
     [[nodiscard]] bool has_ended(int rolls) const {
         return testing::eventually([&] { return woken_ >= rolls; });
     }
-    // Polls until a roll has something new to tell, each time so much later.
+    // Polls, each time after `later`, until a roll brings news.
     std::optional<cache::StoreUsage> next_news(seconds later = {}) {
         std::optional<cache::StoreUsage> usage;
         (void)testing::eventually([&] {

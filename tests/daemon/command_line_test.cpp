@@ -55,8 +55,8 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
     fs::create_directory(directory / "there");
     const auto there = run("[paths]\ndrop = \"there\"\n", {"--check-config"});
     EXPECT_EQ(there.err, "");
-    // 2026-11-28: root, who may read everything, was told that a directory of another group is
-    // fine.
+    // 2026-11-28: for root, who may read everything, the check accepted a directory that the
+    // service may not read.
     const std::string as = ::geteuid() == 0 ? "checked as the user root, who may read everything; "
                                             : "checked as the user ";
     EXPECT_TRUE(there.out.starts_with(as)) << there.out;

@@ -1,5 +1,5 @@
-// tests/daemon/datagram_socket.h -- a Unix socket that receives datagrams, for the tests that stand
-// in for the service manager or the journal.
+// tests/daemon/datagram_socket.h -- a Unix socket that receives datagrams, for tests that play the
+// service manager or the journal.
 #pragma once
 
 #include <cstring>
@@ -31,7 +31,7 @@ class DatagramSocket {
 
   protected:
     [[nodiscard]] int number() const { return socket_.number(); }
-    // Returns true once a datagram is there; false if none comes within the time.
+    // Returns true once a datagram has arrived; false if none arrives within `within_ms`.
     [[nodiscard]] bool is_ready(int within_ms) const {
         pollfd source{number(), POLLIN, 0};
         return ::poll(&source, 1, within_ms) > 0;

@@ -1,5 +1,5 @@
-// The real program on real files: what comes in, in all the ways in which it comes in, ends in the
-// catalog and the cache.
+// Runs the real program on real files. Files that arrive in any way must end up in the catalog and
+// the cache.
 #include <algorithm>
 #include <csignal>
 #include <fstream>
@@ -48,7 +48,7 @@ bool everything_is_done(const json& status) {
            status["pending"]["growing"] == 0;
 }
 
-// Every grid below the cache passes its checksums; gives how many there are.
+// Expects that every grid below the cache passes its checksums. Returns the number of grids.
 std::size_t verified_grids(const fs::path& cache) {
     std::size_t grids = 0;
     for (const auto& entry : fs::recursive_directory_iterator(cache)) {
@@ -92,7 +92,8 @@ void take_in_one_volume(RunningDaemon& daemon) {
     })) << daemon.log();
 }
 
-// Grids the file alone, as `stormcellar grid` does, and returns it as the cache holds it.
+// Grids the file by itself, as `stormcellar grid` does, and returns the bytes of its grid in a
+// cache.
 grid::BrickGrid gridded_alone(const fs::path& raw, level2::Moment moment) {
     level2::DecodeOptions options;
     options.selection.moments = {moment};
@@ -147,7 +148,7 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     ASSERT_EQ(volumes.size(), 5U);
     RunningDaemon daemon;
     const fs::path day = daemon.drop() / "20050822";
-    // Before the start; and what is no volume at all.
+    // Deliver a volume before the start, and files that are no volumes.
     fs::copy_file(volumes[0], daemon.drop() / volumes[0].filename());
     write_file(daemon.drop() / "garbage", std::string(5000, 'x'));
     write_file(daemon.drop() / "empty", "");
@@ -155,7 +156,7 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     fs::create_directory(daemon.drop() / "KBGM20050822_999999.gz");
     daemon.start("[ingest]\nquiet_seconds = 5\n");  // a busy machine pauses between the pieces
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
-    // Whole; into a directory made this moment; renamed from a dot-file; piece by piece.
+    // Deliver volumes whole, into a new directory, renamed from a dot-file, and piece by piece.
     fs::copy_file(volumes[1], daemon.drop() / volumes[1].filename());
     fs::create_directory(day);
     fs::copy_file(volumes[2], day / volumes[2].filename());
@@ -189,12 +190,13 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
 
     const json status = daemon.status();
     EXPECT_EQ(status["state"], "stopped");
-    // Files that scans find, at the start or in directories not yet watched, have no known close.
+    // The close of a file is unknown if a scan finds the file, at the start or in a directory that
+    // is not watched yet.
     EXPECT_GE(status["latency_s"]["count"], 1);
     EXPECT_LE(status["latency_s"]["count"], 4) << "the first stood there before";
     EXPECT_GT(status["latency_s"]["max"], 0);
     EXPECT_NE(daemon.log().find("two\\x0alines"), std::string::npos) << "names are one line";
-    // The raw files are LDM's.
+    // The service does not change raw files.
     EXPECT_EQ(testing::text_of(day / volumes[4].filename()), testing::text_of(volumes[4]));
 }
 
@@ -265,7 +267,7 @@ TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
     EXPECT_EQ(daemon.terminate(), 0);
     EXPECT_EQ(rows(daemon, "KBGM").at(0).state, FileState::gone);
 
-    // And forgotten where that is asked for, as its row is older than a tenth of a second.
+    // With gone_days, the row is deleted, because it is older than a tenth of a second.
     daemon.start(std::string{quick} + "[catalog]\ngone_days = 1e-6\n");
     ASSERT_TRUE(
         daemon.wait_for_log("deleted the catalog rows of 1 file marked as gone: they were older"))
@@ -324,7 +326,7 @@ TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
     EXPECT_EQ(daemon.terminate(), 0) << "a bad file does not end it";
 }
 
-// The budget is lowered while the service runs: the oldest go, the newest stays.
+// A reload lowers the budget: the oldest grids must go, and the newest must stay.
 TEST(EndToEnd, TheCacheRollsWithinItsBudget) {
     STORMCELLAR_NEED_DATA();
     RunningDaemon daemon;
@@ -382,7 +384,7 @@ TEST(EndToEnd, OneDaemonAStateDirectory) {
     EXPECT_EQ(daemon.terminate(), 0);
 }
 
-// It can never be had, so nothing is promised.
+// The service can never open such a socket, so it does not announce a retry.
 TEST(EndToEnd, ASocketPathThatIsTooLongIsSaid) {
     RunningDaemon daemon;
     daemon.start({}, {{"RUNTIME_DIRECTORY", (daemon.root() / std::string(120, 's')).native()}});
@@ -402,7 +404,7 @@ TEST(EndToEnd, EndsInPeaceWhenInterrupted) {
     EXPECT_EQ(daemon.wait(), 0);
 }
 
-// An example is a spool that is mounted late.
+// The drop directory may appear late, for example if it is mounted late.
 TEST(EndToEnd, WaitsForADropDirectoryThatIsNotThereYet) {
     STORMCELLAR_NEED_DATA();
     const std::vector<fs::path> volumes =

@@ -1,4 +1,4 @@
-// tests/daemon/fake_sink.h -- a sink that does what the test says, and remembers what it was given.
+// tests/daemon/fake_sink.h -- a sink that acts as the test says, and records its calls.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace stormcellar::daemon {
 
-// A sink that has nothing to do.
+// A sink that does nothing.
 class IdleSink : public Sink {
   public:
     Result<Taken> take(const std::filesystem::path&, bool, pipeline::Tries /*tries*/) override {
@@ -66,19 +66,21 @@ class FakeSink final : public Sink {
     std::function<void(const OnStep&)> looks, rolls;
     [[nodiscard]] int missing_looks() const { return missing_looks_; }
 
-    // Returns false if it takes too long.
+    // Returns false if the calls do not come in time.
     bool wait_for_calls(std::size_t count) {
         std::unique_lock lock(mutex_);
         return called_.wait_for(lock, std::chrono::seconds{20},
                                 [&] { return calls_.size() >= count; });
     }
-    // Returns them in their order; after a while, also if there are fewer.
+    // Waits for `count` calls of note(), or until time is up. Returns the files in the order of the
+    // calls.
     std::vector<std::string> wait_for_noted(std::size_t count) {
         std::unique_lock lock(mutex_);
         called_.wait_for(lock, std::chrono::seconds{20}, [&] { return noted_.size() >= count; });
         return noted_;
     }
-    // "NAME", with "!" when it was to be finished; in the order in which they ended.
+    // Returns the calls of take() in the order in which they ended: "NAME", or "NAME!" if
+    // finish_as_is was set.
     std::vector<std::string> calls() {
         const std::lock_guard lock(mutex_);
         return calls_;
@@ -92,7 +94,7 @@ class FakeSink final : public Sink {
     std::vector<std::string> calls_, noted_;
 };
 
-// Returns an ending with this result and no details.
+// Returns an ending with this result, without details.
 inline pipeline::Ending ending_of(pipeline::IngestResult result) {
     namespace ended = pipeline::ended;
     // in the order of the enumeration

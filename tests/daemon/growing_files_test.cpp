@@ -14,11 +14,11 @@ using std::chrono::seconds;
 constexpr FileStamp small{1, 100, 5};
 constexpr FileStamp large{1, 200, 6};
 
-// A disk of stamps, and a clock that advances a second at a time.
+// A fake disk that has only stamps, and a clock that advances a second at a time.
 class Growing : public ::testing::Test {
   protected:
-    // Advances to t0 + `second` and returns the files that are due: "a", or "a!" if it is to be
-    // finished.
+    // Advances to t0 + `second` and returns the files that are due: "a", or "a!" if finish_as_is is
+    // set.
     std::string due_at(int second) {
         std::string text;
         const auto look = [this](const std::filesystem::path& path) -> FileFound {
@@ -76,7 +76,7 @@ TEST_F(Growing, AnIncompleteFileThatGrowsIsReadAgainWhenItRests) {
     disk_["a"] = large;
     EXPECT_EQ(due_at(26), "") << "just changed";
     EXPECT_EQ(due_at(27), "a");
-    // The quiet time starts again with the next reading.
+    // The quiet time starts again when the file is read again.
     files_.add_incomplete("a", large, t0 + seconds{28});
     EXPECT_EQ(due_at(57), "");
     EXPECT_EQ(due_at(58), "a!");
@@ -130,7 +130,7 @@ TEST_F(Growing, AFileThatVanishesIsForgotten) {
     EXPECT_FALSE(files_.next_time());
 }
 
-// There may have been no event, and a volume may wait under this name.
+// The event of its deletion may be lost, and chunks of a volume may wait under its name.
 TEST_F(Growing, AnIncompleteFileThatVanishesIsDue) {
     files_.add_incomplete("a", small, t0);
     EXPECT_EQ(due_at(1), "a");

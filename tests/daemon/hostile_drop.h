@@ -1,4 +1,4 @@
-// tests/daemon/hostile_drop.h -- the real program on a drop directory that means harm.
+// tests/daemon/hostile_drop.h -- runs the real program on a hostile drop directory.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,10 @@
 
 namespace stormcellar::daemon {
 
-// With two workers; what a volume of a radar takes is a fifth of it.
+// The largest memory of the program with two workers. A volume of a real radar takes a fifth of
+// this.
 inline constexpr long most_mib = 1024;
-// For what takes seconds where nothing else runs.
+// Limit of waits that take some seconds on an idle machine.
 inline constexpr double most_seconds = 60.0 * testing::slow_down;
 
 #if defined(STORMCELLAR_SANITIZED)
@@ -43,7 +44,7 @@ class HostileDrop : public ::testing::Test {
         std::filesystem::create_directories(path.parent_path());
         write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
-    // A volume of the site of the tests; each with its own number of sweeps is told by it.
+    // Returns a volume of the tests' site. The number of sweeps tells volumes apart.
     static level2::wire::Bytes volume(unsigned sweeps = 2) {
         return level2::wire::ldm_volume(sweeps, 360);
     }
@@ -65,7 +66,7 @@ class HostileDrop : public ::testing::Test {
         return daemon_.wait_for(
             [&](const nlohmann::json& status) { return status["rejected"] >= files; });
     }
-    // The reason for which a file was rejected; empty where it was not.
+    // Returns the reason why the file was rejected; empty if it was not.
     std::string reason_of(const std::string& name) {
         const nlohmann::json status = daemon_.status();
         for (const nlohmann::json& file : status["rejected_files"]) {
@@ -88,7 +89,7 @@ class HostileDrop : public ::testing::Test {
         }
         EXPECT_LT(took.count(), most_seconds);
     }
-    // Returns the number of sweeps of each volume that the catalog knows, in any state.
+    // Returns the number of sweeps of each volume in the catalog, whatever its state.
     std::multiset<int> sweeps_known() {
         std::multiset<int> sweeps;
         auto catalog = catalog::CatalogReader::open(daemon_.catalog());

@@ -27,7 +27,7 @@ namespace wire = level2::wire;
 using nlohmann::json;
 using wire::Bytes;
 
-// The times of the last read, write and change of a file, and its size.
+// Returns the times of the last read, write and change of a file, and its size.
 using Facts = std::array<std::int64_t, 4>;
 Facts facts_of(const fs::path& path) {
     struct stat facts {};
@@ -58,8 +58,7 @@ void make_socket(const fs::path& path) {
     ::close(socket);
 }
 
-// Makes everything that can exist in a directory and is neither file nor directory. Returns the
-// names.
+// Makes one entry of each kind that is neither a file nor a directory. Returns the names.
 std::vector<std::string> make_oddities(const fs::path& in, const fs::path& outside) {
     fs::create_directories(in);
     fs::create_symlink(outside / "KTLX_volume", in / "to-a-file");
@@ -110,7 +109,7 @@ TEST_F(HostileDrop, LinksFifosSocketsAndDevicesAreNamedAndNeverOpened) {
     EXPECT_EQ(log.find(line), log.rfind(line)) << "said once, not with each scan";
 }
 
-// Somebody replaces a directory by a link to another one, thousands of times.
+// Another process replaces a directory by a link out of the drop directory, thousands of times.
 TEST_F(HostileDrop, NamesThatAreSwappedForLinksLeadNowhere) {
     put(drop() / "day/KTLX_a", volume());
     put(outside() / "KTLX_a", volume(3));
@@ -136,7 +135,7 @@ TEST_F(HostileDrop, NamesThatAreSwappedForLinksLeadNowhere) {
     EXPECT_EQ(facts_below(outside()).size(), before.size());
 }
 
-// A growing file is looked at again each second, and its path then leads elsewhere.
+// The service polls a growing file each second, while the path is changed to lead elsewhere.
 TEST_F(HostileDrop, AGrowingFileWhoseDirectoryBecomesALinkIsNotReadOn) {
     const Bytes messages = wire::radial_messages(2, 360);
     Bytes plain = wire::archive_header();
@@ -170,7 +169,7 @@ TEST_F(HostileDrop, ADropDirectoryBehindALinkIsFine) {
     EXPECT_EQ(daemon_.terminate(), 0);
 }
 
-// A hard link is the file itself, wherever its other names are.
+// A hard link is an ordinary file, even if its other names are outside of the drop directory.
 TEST_F(HostileDrop, AHardLinkIsAnOrdinaryFile) {
     put(outside() / "KTLX_volume", volume(3));
     start();

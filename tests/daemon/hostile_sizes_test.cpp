@@ -1,5 +1,5 @@
-// Runs the real program on files and directories that could take all memory or time: huge ones, and
-// small ones that unpack to as much.
+// Runs the real program on files and directories that could take all memory or time: huge files,
+// and small files that unpack to huge ones.
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -48,7 +48,7 @@ TEST_F(HostileSizes, HugeSparseFilesAreRefusedBySize) {
     EXPECT_EQ(daemon_.terminate(), 0);
 }
 
-// The largest that is still read: all zeros, and a volume followed by zeros.
+// The largest files that are still read: a file of zeros, and a volume followed by zeros.
 TEST_F(HostileSizes, SparseFilesBelowTheLimitAreReadAndStayBounded) {
     for (int i = 0; i < 4; ++i) {
         const fs::path path = drop() / ("KTLX_" + std::to_string(i));
@@ -63,7 +63,7 @@ TEST_F(HostileSizes, SparseFilesBelowTheLimitAreReadAndStayBounded) {
     EXPECT_EQ(daemon_.terminate(), 0);
 }
 
-// `records` of 45 MB each, in some 90 bytes each.
+// Returns `records` compressed records of some 90 bytes; each unpacks to 45 MB.
 Bytes bomb_records(unsigned records) {
     static const Bytes stream = wire::bzip2(Bytes(45'000'000));
     const Bytes record =
@@ -146,7 +146,7 @@ TEST_F(HostileSizes, BombsOfGzipAndCompressAreRejected) {
     EXPECT_EQ(daemon_.terminate(), 0);
 }
 
-// A directory in a directory, and so on; each is named "d".
+// Makes nested directories, each named "d".
 void make_deep(const fs::path& top, int depth) {
     int at = ::open(top.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
     for (int i = 0; i < depth; ++i) {
@@ -158,7 +158,7 @@ void make_deep(const fs::path& top, int depth) {
     ::close(at);
 }
 
-// Removing it recursively with open directories would run out of descriptors; rm does not.
+// std::filesystem::remove_all() would run out of descriptors here; rm does not.
 void remove_deep(const fs::path& top) {
     ASSERT_EQ(testing::run_program("/bin/rm", {"-rf", top.native()}).status, 0);
 }

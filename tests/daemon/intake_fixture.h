@@ -1,4 +1,5 @@
-// tests/daemon/intake_fixture.h -- an Intake on a directory, with a clock that stands still.
+// tests/daemon/intake_fixture.h -- an Intake on a directory, with a clock that only the test
+// advances.
 #pragma once
 
 #include <chrono>
@@ -17,19 +18,19 @@ namespace stormcellar::daemon {
 
 inline constexpr std::int64_t second_ns = 1'000'000'000;
 
-// Time stands still unless the test moves it.
+// Time passes only when the test advances it.
 class IntakeTest : public ::testing::Test {
   protected:
     static Config config() {
         Config made;
-        made.reloadable.workers = 100;  // the tests end few of their jobs
+        made.reloadable.workers = 100;  // many, because the tests do not end most jobs
         made.reloadable.quiet = std::chrono::seconds{30};
         made.reloadable.reread = std::chrono::milliseconds{500};
         made.fixed.queue_limit = 4;
         return made;
     }
     [[nodiscard]] std::filesystem::path at(const char* name) const { return directory_ / name; }
-    // A file of which the intake may read the stamp; written long ago.
+    // Writes a file whose stamp the intake may read; its time is long ago.
     FileStamp make(const char* name, std::string_view text = "1") {
         write_file(at(name), text);
         FileStamp stamp = look_at(at(name)).stamp;
@@ -51,14 +52,14 @@ class IntakeTest : public ::testing::Test {
         }
         intake_.job_ended(finished);
     }
-    // The jobs of the files "a" and "b" begin.
+    // Begins the jobs of the files "a" and "b".
     void begin_two() {
         for (const char* name : {"a", "b"}) {
             intake_.file_closed(at(name), make(name));
             EXPECT_EQ(next(), name);
         }
     }
-    // A chunk took over its volume from the chunk `former`.
+    // Returns the outcome of a chunk that represents its volume instead of the chunk `former`.
     [[nodiscard]] pipeline::IngestOutcome incomplete_after(const char* former) const {
         pipeline::IngestOutcome outcome = outcome_of(pipeline::IngestResult::incomplete);
         outcome.former_representative = at(former);

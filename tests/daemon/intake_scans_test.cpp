@@ -1,4 +1,4 @@
-// Tests what scans find, and files that are no longer there.
+// Tests scans, and files that no longer exist.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/intake_fixture.h"
@@ -9,7 +9,7 @@ namespace {
 using pipeline::IngestResult;
 using std::chrono::seconds;
 
-// If a directory is moved away, the kernel says nothing of the files in it.
+// If a directory is moved away, the kernel sends no events for its files.
 TEST_F(IntakeTest, FollowedFilesGoWithTheirDirectory) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
     followed.ending = pipeline::ended::Incomplete{.is_followed = true};
@@ -113,7 +113,7 @@ TEST_F(IntakeTest, AFileWrittenThisMomentIsLeftToRest) {
     EXPECT_EQ(next(), "a");
 }
 
-// A clock that went back must not make files wait for ever.
+// A clock that was set back must not make files wait forever.
 TEST_F(IntakeTest, AFileFromTheFutureIsTakenAtOnce) {
     FileStamp stamp = make("a");
     stamp.modified_ns = wall_ns_ + 3600 * second_ns;
@@ -174,7 +174,7 @@ TEST_F(IntakeTest, AFileThatWentIsLookedAtLastSoThatItsRowsAreMarked) {
     EXPECT_EQ(intake_.pending().running, 1U);
 }
 
-// 2026-11-22: a volume of chunks whose newest one was deleted waited for the next start.
+// 2026-11-22: a volume of chunks waited until the next start if its newest chunk was deleted.
 TEST_F(IntakeTest, OneThatWentIsAskedForAgainWhereAVolumeWaitsInItsName) {
     intake_.file_closed(at("a"), make("a"));
     ASSERT_EQ(next(), "a");
@@ -194,7 +194,7 @@ TEST_F(IntakeTest, OneThatWentIsAskedForAgainWhereAVolumeWaitsInItsName) {
     EXPECT_EQ(intake_.pending(), Pending{});
 }
 
-// 2026-11-22: it waited for the next regular scan.
+// 2026-11-22: an entry that could not be examined waited for the next regular scan.
 TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
     EXPECT_FALSE(intake_.look_again_at());
     intake_.entry_unseen();
@@ -205,7 +205,7 @@ TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
     EXPECT_EQ(intake_.look_again_at(), now_ + seconds{1});
     now_ += seconds{1};
     EXPECT_TRUE(intake_.needs_scan());
-    // In vain: once nothing could be read, and once not all.
+    // Two scans fail: the first reads nothing, the second not everything.
     intake_.begin_scan();
     EXPECT_FALSE(intake_.needs_scan());
     intake_.end_scan(false);
@@ -220,7 +220,8 @@ TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
     intake_.end_scan(true);
     EXPECT_FALSE(intake_.look_again_at());
     EXPECT_FALSE(intake_.needs_scan());
-    // The next time begins with a second again; a drop directory that is missing is not the same.
+    // After a success, delays begin at a second again. A missing drop directory requests no such
+    // retry.
     intake_.begin_scan();
     intake_.end_scan(false);
     EXPECT_FALSE(intake_.look_again_at());

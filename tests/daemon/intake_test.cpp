@@ -33,10 +33,10 @@ TEST_F(IntakeTest, AFollowedFileIsReadAtEveryWriteWithoutAPause) {
     const auto job = intake_.next_job();
     ASSERT_TRUE(job);
     EXPECT_EQ(job->closed_at, now_);
-    intake_.file_grew(at("a"), make("a", "123"));  // while it is read
+    intake_.file_grew(at("a"), make("a", "123"));  // while its job runs
     end("a", followed);
     EXPECT_EQ(next(), "a");
-    // One that must be read from its start each time has to wait.
+    // A file that each job reads from its start must wait.
     end("a", IngestResult::incomplete);
     EXPECT_FALSE(intake_.follows(at("a")));
     intake_.file_closed(at("a"), make("a", "1234"));
@@ -48,7 +48,7 @@ TEST_F(IntakeTest, AFollowedFileIsReadAtEveryWriteWithoutAPause) {
     EXPECT_FALSE(intake_.follows(at("a")));
 }
 
-// Somebody sets the clock, or the machine starts without one: no order, wait or file is lost.
+// If the clock is set back, or the machine starts without a clock, files keep their order.
 TEST_F(IntakeTest, AClockThatIsSetBackKeepsTheOrderOfWhatIsClosed) {
     intake_.file_closed(at("first"), make("first"));
     wall_ns_ -= 3600 * second_ns;
@@ -77,7 +77,7 @@ TEST_F(IntakeTest, AClockThatJumpsChangesNoWait) {
     }
 }
 
-// A time of the year 2100 would put a backlog before all that comes until then.
+// Otherwise a backlog with times of the year 2100 would come before all new files.
 TEST_F(IntakeTest, FilesFromTheFutureGoBeforeNothingThatIsClosedNow) {
     FileStamp stamp = make("future");
     stamp.modified_ns = wall_ns_ + 70LL * 365 * 86'400 * second_ns;
@@ -113,7 +113,8 @@ TEST_F(IntakeTest, OneChunkOfAVolumeIsWaitedForTheNewest) {
     EXPECT_EQ(next(), "");
 }
 
-// The end of a volume, while the station's next one comes and another station sends much.
+// The end of a volume must come first, even while the station's next volume begins and another
+// station sends many files.
 TEST_F(IntakeTest, WhatGoesOnComesBeforeTheBeginningsOfAllStations) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
     followed.ending = pipeline::ended::Incomplete{.is_followed = true};
@@ -236,7 +237,7 @@ TEST_F(IntakeTest, AFileThatIsNeverClosedIsReadWhenItRests) {
     now_ += seconds{1};
     intake_.poll_growing();  // sees the change
     now_ += seconds{1};
-    intake_.poll_growing();  // sees that it rests
+    intake_.poll_growing();  // sees that it has settled
     EXPECT_EQ(next(), "a");
 }
 
@@ -307,9 +308,8 @@ TEST_F(IntakeTest, SaysWhenThereIsSomethingToDo) {
     EXPECT_EQ(intake_.next_time(false, false), now_ + seconds{1});
 }
 
-// 2026-11-28: after a volume of chunks was gridded, the status announced for up to 30 s that one of
-// its chunks had not ended. Two workers had ended in the other order than they had looked at the
-// volume.
+// 2026-11-28: after a volume of chunks was gridded, the status said for up to 30 s that one of its
+// chunks had not ended. Two workers had ended in a different order than they had read the volume.
 TEST_F(IntakeTest, AChunkThatWasRelievedBeforeItsJobEndedIsNotWaitedFor) {
     begin_two();
     end("b", incomplete_after("a"));
@@ -321,7 +321,7 @@ TEST_F(IntakeTest, AChunkThatWasRelievedBeforeItsJobEndedIsNotWaitedFor) {
     EXPECT_EQ(waits[0].file, at("b"));
 }
 
-// The same two, but "a" took over from "b" again: it is the one to wait for.
+// The same two chunks, but "a" took over from "b" again, so the intake must wait for "a".
 TEST_F(IntakeTest, TheChunkThatTookOverLastIsWaitedFor) {
     begin_two();
     end("b", incomplete_after("a"));

@@ -1,5 +1,5 @@
-// tests/daemon/journal_socket.h -- the journal's end of its socket, and a reader of its entries
-// that follows the description of the protocol and is independent of our writer.
+// tests/daemon/journal_socket.h -- the journal's end of its socket, with a reader of entries that
+// follows the description of the protocol and shares no code with our writer.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace stormcellar::daemon {
 
 using JournalFields = std::map<std::string, std::string>;
 
-// Returns none if the bytes break the protocol.
+// Parses an entry. Returns none if the bytes violate the protocol.
 inline std::optional<JournalFields> read_journal_entry(const std::string& bytes) {
     JournalFields fields;
     std::size_t at = 0;

@@ -16,7 +16,7 @@ TEST(JournalEntry, IsNameAndValueLineByLine) {
     EXPECT_EQ(journal_entry(fields), "MESSAGE=it is = so\nPRIORITY=6\nEMPTY=\n");
 }
 
-// The bytes in the protocol's own form: the length of "a\nb" is 3, in 64 bits, little endian.
+// Compares the exact bytes: the length of "a\nb" is 3, in 64 bits, little endian.
 TEST(JournalEntry, AValueWithANewlineComesWithItsLength) {
     const std::array fields = {JournalField{"FILE", "a\nb"}, JournalField{"PRIORITY", "6"}};
     const std::string length = "\x03" + std::string(7, '\0');

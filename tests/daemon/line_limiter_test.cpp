@@ -60,8 +60,8 @@ TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
         << "a new minute";
 }
 
-// A feed can use any names. 100,000 of them cause no more lines and take no more memory than a few.
-// Simulates an hour, with each line once a minute.
+// A feed can use any names. 100,000 names must not cause more lines or take more memory than a few
+// names. Simulates an hour, with a line of each name once a minute.
 TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
     LineLimiter limiter;
     std::uint64_t written = 0;
@@ -90,7 +90,7 @@ TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
     EXPECT_EQ(held_back, minutes * a_minute - shown) << "none is lost uncounted";
 }
 
-// 2026-11-25: once invented names had filled the places, all other stations counted as one.
+// 2026-11-25: once invented names had filled the table, all other stations shared one limit.
 TEST(LineLimiter, InventedSubjectsTakeNoLinesFromOthers) {
     LineLimiter limiter;
     for (std::size_t i = 0; i < 2 * LineLimiter::most_subjects; ++i)
@@ -111,8 +111,8 @@ TEST(LineLimiter, TheGravestOfWhatIsHeldBackCounts) {
     EXPECT_EQ(held[0].level, LogLevel::warning);
 }
 
-// The heaviest feed possible: 160 sites with a volume every four minutes each, and a backlog of one
-// of them.
+// Simulates the heaviest possible feed: 160 sites send a volume every four minutes each, and one
+// site has a backlog.
 TEST(LineLimiter, AFeedAsItShouldBeIsNotHeldBack) {
     LineLimiter limiter;
     for (int second = 0; second < 3600; ++second) {

@@ -1,4 +1,4 @@
-// The daemon links what ingest needs and nothing more: no renderer, no video, no netCDF.
+// The daemon must link only the libraries that ingest needs: no renderer, no video, no netCDF.
 #include <sstream>
 #include <string>
 #include <vector>

@@ -17,8 +17,8 @@ mode_t mode_of(const std::filesystem::path& path) {
     return found.st_mode & 07777;
 }
 
-// 2026-11-25: it was widened by its name once it stood, and a link that somebody had put in its
-// place by then was followed. Now its mode is there with it.
+// 2026-11-25: the mode of the socket was set by name after its creation, which followed a link if
+// somebody had put one in its place. Now the socket is created with its mode.
 TEST(ListeningSocket, ItsModeIsThereWhenItStands) {
     const testing::TemporaryDirectory directory;
     const mode_t umask_before = ::umask(0);

@@ -1,4 +1,4 @@
-// The real program on files that grow: what stands in the cache while the antenna still climbs.
+// Runs the real program on growing files, and checks the cache while the antenna still climbs.
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Written to and not closed, as LDM's pqact does without -close.
+// A file that is written to and not closed, as LDM's pqact writes without -close.
 class OpenFile {
   public:
     explicit OpenFile(const fs::path& path) : file_(std::fopen(path.c_str(), "ab"), &std::fclose) {}
@@ -46,7 +46,7 @@ class LivingDaemon : public ::testing::Test {
         const std::size_t start = from == 0 ? 0 : ends_[from - 1];
         return std::span{bytes_}.subspan(start, ends_[to - 1] - start);
     }
-    // Starts the daemon and then an empty file.
+    // Starts the daemon and then begins an empty file.
     OpenFile start_with_file() {
         daemon_.start(patient);
         EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
@@ -72,7 +72,7 @@ class LivingDaemon : public ::testing::Test {
         const auto& notes = grid.provenance.notes;
         return grid.provenance.partial && !notes.empty() && notes.back().starts_with("living: ");
     }
-    // No file that we made for a while is left, whatever happened to the program.
+    // Expects that no temporary file is left, whatever happened to the program.
     void expect_nothing_left_behind() const {
         for (const fs::path& directory : {daemon_.root() / "state", daemon_.cache()}) {
             for (const auto& entry : fs::recursive_directory_iterator(directory)) {
@@ -90,7 +90,7 @@ TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
     OpenFile file = start_with_file();
     file.append(pieces(0, 12));
     ASSERT_TRUE(wait_for_grid(is_living)) << daemon_.log();
-    // Its writes are seen as soon as it is followed, which is when the job has ended.
+    // The daemon sees writes once it follows the file, after the first job has ended.
     ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["living_grids"] > 0; }));
     const std::size_t sweeps = newest()->provenance.sweeps.size();
     file.append(pieces(12, 40));
@@ -98,7 +98,7 @@ TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
         return is_living(grid) && grid.provenance.sweeps.size() > sweeps;
     })) << daemon_.log();
     EXPECT_EQ(daemon_.status()["ingested"], 0);
-    // The status counts the living grids before any volume.
+    // The status counts living grids before the first volume is gridded.
     EXPECT_TRUE(daemon_.wait_for([](const json& s) {
         const auto& stations = s["stations"];
         return stations.size() == 1 && s["sweep_latency_s"]["count"] > 0 &&

@@ -49,8 +49,8 @@ class LogTest : public ::testing::Test {
             ++entries;
         return entries;
     }
-    // Returns how many entries arrive for this many lines. They are read as they arrive, because a
-    // socket may hold no more than ten.
+    // Logs this many lines and returns how many entries arrive. Reads them as they arrive, because
+    // a socket may queue only ten.
     int count_of(int lines, const std::function<void(int)>& log_line) {
         int entries = 0;
         for (int i = 0; i < lines; ++i) {
@@ -155,7 +155,7 @@ TEST_F(LogTest, OfALoopTheLoopIsNamed) {
     EXPECT_EQ(fields->at("PRIORITY"), "6") << "of the lines that it stands for";
 }
 
-// People who switch on debugging want all lines.
+// Whoever sets the level to debug wants all lines.
 TEST_F(LogTest, LinesForDebuggingAreNotHeldBack) {
     begin("debug");
     for (int i = 0; i < 300; ++i) {

@@ -86,7 +86,7 @@ TEST_F(LoopKeeperTest, AProgramThatIsNotThereIsSaid) {
     EXPECT_FALSE(states_[0].is_running);
     EXPECT_THAT(states_[0].last_problem, HasSubstr("No such file or directory"));
     EXPECT_EQ(states_[0].restarts, 0U);
-    // It may appear later.
+    // The program may appear later.
     fs::rename(program(for_ever), directory_ / "none");
     EXPECT_TRUE(wait_for([&] { return states_[0].is_running; }));
 }
@@ -100,7 +100,8 @@ TEST_F(LoopKeeperTest, AKilledLoopIsStartedAgain) {
     EXPECT_EQ(states_[0].last_problem, "signal 9");
 }
 
-// 2026-11-22: "signal 9: note: no grid ...; waiting for one" was logged minutes after that note.
+// 2026-11-22: the log gave "signal 9: note: no grid ...; waiting for one" as the reason of an end
+// minutes after that note.
 TEST_F(LoopKeeperTest, AnOldLineIsNoReasonOfAnEnd) {
     keep(program(
         "echo 'note: waiting' >&2\nsleep 0.2\necho '{\"frames\": 3}'\nsleep 0.2\nexit 7\n"));
@@ -178,7 +179,8 @@ TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
     EXPECT_NE(::kill(process_of(starts()[0]), 0), 0);
 }
 
-// The watchdog depends on this: the thread rests between its turns, however long.
+// The thread must be at rest between its turns, however long they are apart, or the watchdog would
+// see a hang.
 TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     keep(program("sleep 100\n"));
     EXPECT_FALSE(keeper_->pulse().since()) << "no loops, no thread that could hang";
@@ -187,7 +189,7 @@ TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); }));
 }
 
-// The thread is blocked in the middle of its turn, when it reports news.
+// Blocks the thread in the middle of its turn, when it reports news.
 TEST_F(LoopKeeperTest, IsSeenToHangInATurn) {
     std::atomic<bool> hangs = true, is_reporting = false;
     keeper_ = std::make_unique<LoopSupervisor>(

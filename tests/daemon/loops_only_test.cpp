@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr const char* its_status = "loops/status.json";
 
-// A loop of a cache that another daemon fills.
+// Runs loops of a cache that another daemon fills.
 class LoopsOnly : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -35,7 +35,8 @@ class LoopsOnly : public ::testing::Test {
         return "[[loop]]\nname = \"binghamton\"\nscene = \"scene.toml\"\ndomain = \"KBGM\"\n"
                "outputs = [\"out/kbgm.webp\"]\n";
     }
-    // Returns true once the metric has this line; the daemon reads the file every few seconds.
+    // Waits until the metrics have this line. The daemon reads the loops' status file only every
+    // few seconds.
     static bool has_metric(const RunningDaemon& daemon, const std::string& line) {
         const fs::path socket = daemon.root() / "state/status.sock";
         return testing::eventually([&] {
@@ -118,7 +119,7 @@ TEST_F(LoopsOnly, ADaemonThatKeepsThemTooSaysSo) {
     EXPECT_EQ(loops_.terminate(), 0) << loops_.log();
 }
 
-// Two keepers would make the same files.
+// Two such services would write the same files.
 TEST_F(LoopsOnly, OneAStateDirectory) {
     loops_.start("", with_program(), {"--loops-only"});
     ASSERT_TRUE(comes([](const json& s) { return s["state"] == "running"; })) << loops_.log();

@@ -1,4 +1,4 @@
-// The real stormcellard keeps loops with the real stormcellar.
+// Runs the real stormcellard with loops of the real stormcellar.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -109,7 +109,7 @@ TEST_F(Loops, ALoopThatDiesIsStartedAgain) {
 
 TEST_F(Loops, ALoopEndsWithADaemonThatIsKilled) {
     daemon_.start(one_loop, with_program());
-    // Once it waits, it has already asked to be ended with its parent.
+    // Once the loop waits, it has already requested to end with its parent.
     ASSERT_TRUE(daemon_.wait_for_log("waiting for one")) << daemon_.log();
     const pid_t loop = process();
     daemon_.signal(SIGKILL);
@@ -134,7 +134,7 @@ TEST_F(Loops, AReloadStartsAndStopsThem) {
     EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
 }
 
-// 2026-11-22: only the existence of a scene's file was checked.
+// 2026-11-22: the check accepted any existing file as a scene.
 TEST(CheckConfig, LooksIntoTheLoopsScenes) {
     const testing::TemporaryDirectory directory;
     const auto check = [&](const std::string& scene, const std::string& loop,
@@ -142,7 +142,7 @@ TEST(CheckConfig, LooksIntoTheLoopsScenes) {
         write_file(directory / "scene.toml", scene);
         write_file(directory / "c.toml",
                    "[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\n" + loop);
-        // `env` sets where stormcellar is found.
+        // `env` sets the PATH on which stormcellar is found.
         return testing::run_program("/usr/bin/env", {"PATH=" + path, STORMCELLARD, "--check-config",
                                                      "--config", (directory / "c.toml").native()});
     };

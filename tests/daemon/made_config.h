@@ -1,4 +1,4 @@
-// tests/daemon/made_config.h -- a configuration whose directories are those of a test.
+// tests/daemon/made_config.h -- a configuration with the directories of a test.
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// They stay blocked in this thread, as in that of the service.
+// The signals stay blocked in this thread, as in the thread of the service.
 TEST(TakeSignals, AreTakenOneAfterTheOther) {
     const Result<Signals> signals = Signals::open();
     ASSERT_TRUE(signals);

@@ -23,7 +23,7 @@ double number(const std::string& text, const std::string& line) {
     return std::stod(text);
 }
 
-// Returns the labels between { and }, sorted; escapes are checked and kept.
+// Returns the labels between { and }, sorted. Checks escapes and keeps them.
 std::string sorted_labels(const std::string& inside, const std::string& line) {
     static const std::regex one(R"re(([a-zA-Z_][a-zA-Z0-9_]*)="((?:[^"\\\n]|\\["\\n])*)")re");
     std::vector<std::string> labels;

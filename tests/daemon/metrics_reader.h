@@ -1,7 +1,8 @@
 // tests/daemon/metrics_reader.h -- a strict reader of Prometheus' text format 0.0.4.
 //
-// It throws std::runtime_error with the line for everything that the format forbids, and for what
-// our own text must not contain: a family without HELP or TYPE, a family twice, a series twice.
+// It throws std::runtime_error, with the line, for everything that the format forbids. It also
+// throws for a family without HELP or TYPE, and for a family or a series that comes twice, which
+// our text must not contain.
 #pragma once
 
 #include <map>
@@ -12,7 +13,7 @@ namespace stormcellar::daemon {
 
 struct MetricFamily {
     std::string type, help;
-    // By the name with its sorted labels: NAME{a="x",b="y"}.
+    // The key is the name with its sorted labels: NAME{a="x",b="y"}.
     std::map<std::string, double> samples;
 };
 

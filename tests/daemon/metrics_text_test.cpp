@@ -134,7 +134,8 @@ TEST(Metrics, SayWhatTheBookCounted) {
                     .evicted_bytes = 300,
                     .not_kept = 1});
     book.set_loops({{"a", true, 2, 10, asked_at, 24, ""}});
-    book.set_others_loops({{"b", false, 0, 0, std::nullopt, 0, ""}});  // never beside its own
+    // left out, because this process runs loops
+    book.set_others_loops({{"b", false, 0, 0, std::nullopt, 0, ""}});
     book.count_overflow();
     const std::string text = metrics_text(book.facts(), {4, 2, 1}, asked_at);
     const auto expect = [&](const std::string& family, const std::string& labels, double value) {
@@ -174,7 +175,7 @@ TEST(Metrics, SayWhatTheBookCounted) {
             .samples.contains(R"(stormcellar_station_last_ingest_age_seconds{station="KOUN"})"));
 }
 
-// 2026-11-22: where no file had come since the start, nothing told of the silence.
+// 2026-11-22: if no file had come since the start, no metric showed the silence.
 TEST(Metrics, TheFeedsAgeCountsFromTheStartWhereNothingHasCome) {
     StatusBook book("/d", "/c");
     book.stations().add_known("KTLX", asked_at, asked_at);
@@ -186,7 +187,7 @@ TEST(Metrics, TheFeedsAgeCountsFromTheStartWhereNothingHasCome) {
         1000);
 }
 
-// No file can make a line that is not one, nor more series than are remembered.
+// Every line must be valid and the number of series limited, whatever files claim.
 TEST(Metrics, StayWholeWhateverFilesClaim) {
     StatusBook book("/d", "/c");
     for (int i = 0; i < 2000; ++i)

@@ -27,7 +27,7 @@ fs::path monitoring() {
     return testing::source_directory() / "daemon/monitoring";
 }
 
-// With something in every family.
+// Returns metrics with a sample in every family.
 std::map<std::string, MetricFamily> all_families() {
     StatusBook book("/d", "/c");
     const UtcTime now = *parse_utc("2022-03-17T00:20:00Z", UtcTime{});
@@ -51,7 +51,8 @@ std::map<std::string, MetricFamily> all_families() {
     return read_metrics(metrics_text(book.facts(), {}, now));
 }
 
-// The labels of each metric: of its samples here, and of what Prometheus adds.
+// Returns the labels of each metric: the labels of its samples, and the labels that Prometheus
+// adds.
 std::map<std::string, std::set<std::string>> exported() {
     static const std::regex label(R"re([{,]([a-z_]+)=")re");
     std::map<std::string, std::set<std::string>> labels;
@@ -67,7 +68,7 @@ std::map<std::string, std::set<std::string>> exported() {
     return labels;
 }
 
-// Every metric of ours that a text names, with the labels by which it chooses, checked.
+// Checks every metric of ours in a text, with the labels that select its samples.
 void check_names(const std::string& text, const std::string& what) {
     static const std::regex use(R"re((stormcellar_[a-z][a-z0-9_]*)(?:\{([^}]*)\})?)re");
     static const std::regex label(R"re((?:^|,)([a-z_]+)(?:=~?|!=)\\?")re");
@@ -118,7 +119,7 @@ TEST(Monitoring, TheManualExplainsEveryMetricAndEveryAlert) {
     EXPECT_GT(count, 10);
 }
 
-// On PATH; empty: nowhere.
+// Returns the promtool on PATH; empty if there is none.
 fs::path find_promtool() {
     const char* path = std::getenv("PATH");
     std::istringstream directories(path == nullptr ? "" : path);
@@ -127,7 +128,7 @@ fs::path find_promtool() {
     return {};
 }
 
-// Prometheus' own tool, where it is installed (Debian's package prometheus).
+// Runs Prometheus' own tool if it is installed (Debian's package prometheus).
 class Promtool : public ::testing::Test {
   protected:
     void SetUp() override {

@@ -15,7 +15,7 @@ class NotifySocket : public DatagramSocket {
   public:
     using DatagramSocket::DatagramSocket;
 
-    // Returns the next message; empty if none comes within the time.
+    // Returns the next message; empty if none comes in time.
     std::string receive(int within_ms = 100) {
         if (!is_ready(within_ms)) return {};
         std::array<char, 4096> buffer{};
@@ -23,7 +23,7 @@ class NotifySocket : public DatagramSocket {
         if (length <= 0) return {};
         return {buffer.data(), static_cast<std::size_t>(length)};
     }
-    // Returns true once a message begins with this text.
+    // Returns true once a message comes that begins with this text; false if none comes in time.
     bool hears(std::string_view text) {
         for (int i = 0; i < 600; ++i)
             if (receive().starts_with(text)) return true;

@@ -16,7 +16,7 @@ std::vector<LoopState> two_loops() {
     return {{"a", true, 2, 10, made_at, 24, ""}, {"b", false, 1, 0, std::nullopt, 0, "signal 9"}};
 }
 
-// Returns what the process that keeps the loops writes.
+// Returns the status document of a process that runs loops.
 std::string document(const char* state = "running") {
     return loops_json(two_loops(), state, made_at, made_at);
 }
@@ -36,7 +36,7 @@ TEST(OthersLoops, DoNotRunWhenTheirProcessIsGone) {
     EXPECT_FALSE(has_running(document("stopped")));
     std::string text = document();
     const std::string pid = std::to_string(::getpid());
-    text.replace(text.find(pid), pid.size(), "99999999");  // above the kernel's largest number
+    text.replace(text.find(pid), pid.size(), "99999999");  // above the largest process id
     EXPECT_FALSE(has_running(text));
 }
 

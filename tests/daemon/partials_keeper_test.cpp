@@ -1,5 +1,5 @@
-// Partials that others put into directories: what is whole is taken, what is not waits, and a
-// machine that brings nothing is named.
+// Other machines put partials into directories: the keeper must take complete partials, wait for
+// incomplete ones, and report machines that bring nothing.
 #include "daemon/partials/partials_keeper.h"
 
 #include <fstream>
@@ -43,7 +43,7 @@ class PartialsKeeperTest : public ::testing::Test {
                         PartialsOf{*mosaics_, store_, sources_, std::make_shared<StationRule>(), 1},
                         PartialsTimes{milliseconds{500}, milliseconds{200}});
     }
-    // Returns the bytes and the place of a partial, without putting it anywhere.
+    // Returns the bytes of a partial and its path below a directory, without writing it.
     std::pair<std::string, fs::path> made(const InventedPartial& partial) {
         auto store = cache::StoreWriter::open(real_file_system(), directory_ / "made", false);
         const fs::path path = pipeline::commit(*store, partial);
@@ -66,9 +66,9 @@ class PartialsKeeperTest : public ::testing::Test {
         return fs::exists(*store_.path_of("north." + partial.station, level2::Moment::ref,
                                           pipeline::minute(partial.minute)));
     }
-    // Waits until each directory has been scanned so often again, from the beginning to the end.
+    // Waits for this many further whole scans of each directory.
     bool is_scanned_again(std::uint64_t times) {
-        const std::uint64_t until = keeper_->scans() + 1 + times;  // one may be under way
+        const std::uint64_t until = keeper_->scans() + 1 + times;  // one scan may be under way
         return testing::eventually([&] { return keeper_->scans() >= until; });
     }
     [[nodiscard]] MachineFacts north() const { return keeper_->facts().at(0); }
@@ -125,7 +125,7 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     auto damaged = bytes;
     damaged.back() ^= 1;
     write(path, damaged);
-    // The file seems to have been written an hour ago.
+    // Make the file an hour old.
     fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours{1});
     start();
     EXPECT_TRUE(testing::eventually([&] { return north().refused == 1; }));
@@ -136,8 +136,8 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
 }
 
-// 2026-11-28: one part with other codes, or of a place that the earth does not have, ended all
-// frames near its time, and the log named honest stations.
+// 2026-11-28: one part with other codes, or with an impossible position, prevented all frames near
+// its time, and the log blamed honest stations.
 TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
     std::vector<std::pair<InventedPartial, std::string>> parts(
         4, {{.minute = 44}, "its codes are not those of REF"});
@@ -148,7 +148,7 @@ TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
     for (const auto& [part, why] : parts) {
         bring("south", part);
         const fs::path file = directory_ / "south" / made(part).second;
-        // The keeper waits for a younger file, because it may still be coming.
+        // The keeper waits for a younger file, because it may still be incomplete.
         fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours{1});
         start();
         EXPECT_TRUE(testing::eventually([&] { return south().refused == 1; })) << why;
@@ -159,7 +159,8 @@ TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
     }
 }
 
-// 2026-11-28: a machine brought parts of 158 invented stations in 40 s, and each frame merged all.
+// 2026-11-28: a machine brought parts of 158 invented stations in 40 s, and each frame merged them
+// all.
 TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
     const InventedPartial invented{"QAAA", 44, 0, 20}, listed{"QAAB", 44, 0, 20};
     stations_ = {{"north", {"QAAB"}}};
@@ -172,7 +173,7 @@ TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
     EXPECT_TRUE(is_kept(listed));
 }
 
-// 2026-11-28: any machine could replace the parts of another one's stations.
+// 2026-11-28: any machine could replace parts of another machine's stations.
 TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     stations_ = {{"north", {"KBGM"}}};
     start();
@@ -186,7 +187,7 @@ TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     EXPECT_EQ(south().refused, 1U);
 }
 
-// 2026-11-28: an empty part with the time of an honest one and a later end took its place in every
+// 2026-11-28: an empty part with the time of an honest part and a later end replaced it in every
 // frame, and nothing was logged.
 TEST_F(PartialsKeeperTest, APartThatReplacesThatOfAnotherMachineIsNamed) {
     start();
@@ -227,7 +228,7 @@ TEST_F(PartialsKeeperTest, TheSamePartOfTwoMachinesReplacesNothing) {
     bring("south", later);
     ASSERT_TRUE(testing::eventually([&] { return south().taken == 1; }));
     bring("south", later);
-    // The newest comes first, so this one comes after all others.
+    // The keeper takes the newest partial first, so it takes this one after all others.
     bring("south", first_of_all);
     EXPECT_TRUE(testing::eventually([&] { return south().taken == 2; }));
     EXPECT_EQ(north().replaced + south().replaced, 0U);

@@ -47,7 +47,8 @@ TEST_F(ReadyJobsTest, WhatIsLiveGoesBeforeTheBacklogWhichIsNewestFirst) {
     EXPECT_EQ(all(), "live newer older older-too");
 }
 
-// A scan reports again and again the files that gave up their places in the queue.
+// Otherwise files that lost their places in the queue, and that each scan finds again, would delay
+// new files.
 TEST_F(ReadyJobsTest, WhatAnEventToldOfGoesBeforeWhatALookFound) {
     for (int i = 0; i < 10; ++i) {
         ReadyJobs::Key found = live("KAAA", 1000 + i);
@@ -129,7 +130,7 @@ TEST_F(ReadyJobsTest, ClassesHaveTheirTurnsAndNoneStandsStill) {
     std::string kinds;
     for (int i = 0; i < 26; ++i)
         kinds += next().front();
-    // eight that are going on, four fresh, one of the others
+    // eight jobs of "going on", four of "fresh", one of "others"
     const std::string round = "ooooooooffffo";
     EXPECT_EQ(kinds, round + round);
     EXPECT_EQ(next(), "on16") << "the next round";
@@ -163,12 +164,12 @@ TEST_F(ReadyJobsTest, WhoMayNotBeginIsPassedOver) {
     EXPECT_EQ(next(), "a");
 }
 
-// In whatever order jobs come, no station is served twice while another one waits.
+// In whatever order jobs come, no station may be served twice while another station waits.
 TEST_F(ReadyJobsTest, NoStationIsServedTwiceWhileAnotherWaits) {
     std::mt19937 random(7);
     std::map<std::string, int> waiting;
     const std::array<std::string, 5> stations = {"KAAA", "KBBB", "KCCC", "KDDD", "KEEE"};
-    std::map<std::string, int> passed;  // how often others were served while it waits
+    std::map<std::string, int> passed;  // how often other stations were served while it waits
     for (const std::string& station : stations)
         passed[station] = 0;
     int served = 0;

@@ -1,4 +1,4 @@
-// The real program after damage: a database, grids and a whole cache that come back by themselves.
+// Runs the real program after damage. It must restore a database, grids and a whole cache.
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -50,7 +50,7 @@ TEST_F(Recovery, ADamagedDatabaseIsSetAsideAtTheStartAndFilledAgain) {
     put(second);
     run_until_ingested(2);
     EXPECT_EQ(daemon_.terminate(), 0);
-    fs::remove(daemon_.drop() / first);  // its row can only be had from the damaged database
+    fs::remove(daemon_.drop() / first);  // only the damaged database has its row
     fs::resize_file(daemon_.catalog() / "KBGM.sqlite",
                     fs::file_size(daemon_.catalog() / "KBGM.sqlite") - 100);
     run_until_ingested(1);
@@ -90,7 +90,7 @@ TEST_F(Recovery, ADeletedDatabaseIsFilledAgain) {
     EXPECT_EQ(rows().size(), 2U);
 }
 
-// 2026-11-22: nothing could be stored until a restart.
+// 2026-11-22: after somebody deleted the state directory, nothing could be stored until a restart.
 TEST_F(Recovery, ADeletedStateDirectoryIsMadeAgain) {
     put(first);
     run_until_ingested(1);
@@ -130,7 +130,7 @@ TEST_F(Recovery, AWipedCacheAndADamagedGridAreMadeAgainAtTheStart) {
     }
 }
 
-// A mosaic of one site: damage to a partial and to a frame, then both lost.
+// Damages a partial and a frame of a mosaic of one site, then deletes both.
 TEST_F(Recovery, MosaicsAreMadeAgainFromRawFilesAndPartials) {
     const std::string domain =
         "[ingest]\nspacing_km = 4\n[[domain]]\nname = \"north\"\ncenter = [42.2, -75.9]\n"
@@ -209,7 +209,7 @@ TEST_F(Recovery, WithoutRefillAMissingGridStaysMissing) {
     const auto made = grids();
     ASSERT_EQ(made.size(), 2U);
     fs::remove(made[0].path);
-    // Damage among the values is found when a round has looked for missing grids.
+    // A round finds damage to values only after it has made missing grids.
     std::fstream file(made[1].path, std::ios::in | std::ios::out | std::ios::binary);
     const auto at = static_cast<std::streamoff>(fs::file_size(made[1].path) / 4 * 3);
     const int byte = file.seekg(at).get();
@@ -223,8 +223,8 @@ TEST_F(Recovery, WithoutRefillAMissingGridStaysMissing) {
     EXPECT_FALSE(fs::exists(made[0].path));
 }
 
-// Killed again and again while it takes volumes in: what stands in the cache is whole at any time,
-// and in the end everything is there.
+// Kills the program again and again while it ingests volumes. Every grid in the cache must be whole
+// at any time, and in the end all grids must exist.
 TEST_F(Recovery, KilledWhileItWorks) {
     STORMCELLAR_NEED_DATA();  // simulated volumes take too little time
     const fs::path sequence = *testing::data_directory() / "sequence-kbgm";
@@ -245,7 +245,7 @@ TEST_F(Recovery, KilledWhileItWorks) {
             ++whole;
         }
     }
-    // The last status of the killed daemon says nothing about the one that starts now.
+    // Remove the last status of the killed daemon, so that the test waits for a new one.
     fs::remove(daemon_.cache().parent_path() / "state" / "status.json");
     daemon_.start("[ingest]\nspacing_km = 2\n");
     ASSERT_TRUE(daemon_.wait_for([](const json& s) {

@@ -1,6 +1,5 @@
-// Tests what a reload does with each key of the configuration: it either counts at once, or a
-// sentence in the log says that it needs a restart. A key that does neither would be lost in
-// silence, as [catalog] bytes was until 2026-11-25.
+// Tests that a reload applies each key of the configuration, or that the log names the key as one
+// that needs a restart. Until 2026-11-25, a reload ignored [catalog] bytes without a word.
 #include <fstream>
 #include <regex>
 #include <set>
@@ -21,7 +20,7 @@ enum class Counts { at_reload, at_restart };
 
 struct Key {
     std::string name;
-    std::string value, other;  // as they stand in the file
+    std::string value, other;  // as text in the file
 };
 
 struct Section {
@@ -30,7 +29,7 @@ struct Section {
     std::vector<Key> keys;
 };
 
-// Every key once at least. A key that excludes another has a table of its own.
+// Every key at least once. A key that excludes another key has a table of its own.
 const std::vector<Section>& all_sections() {
     using enum Counts;
     static const std::vector<Section> sections = {
@@ -129,7 +128,7 @@ const std::vector<Section>& all_sections() {
          {{"directories", "['/p/north']", "['/p/north', '/p/south']"},
           {"late_after_seconds", "600", "300"}}},
         {"[partials.stations]", at_restart, {{"north", "['KBGM']", "['KENX']"}}},
-        // The daemon checks them alone; stormcellar-web applies them.
+        // The daemon only checks these keys; stormcellar-web applies them.
         {"[web]",
          at_reload,
          {{"listen", "['127.0.0.1:8090', '[::1]:8090']", "['127.0.0.1:8091']"},
@@ -178,11 +177,11 @@ const std::vector<Section>& all_sections() {
     return sections;
 }
 
-// A file with all keys, of which the one that is named has its other value.
+// Returns a file with all keys. The key `changed` has its other value.
 std::string file_with(const Key* changed) {
     std::string text, header;
     for (const Section& section : all_sections()) {
-        // Both parts of a section are one in the file.
+        // Keys of one section may be in two tables here, but have one header in the file.
         if (section.header != header || header.starts_with("[[")) text += section.header + "\n";
         header = section.header;
         for (const Key& key : section.keys)
@@ -191,7 +190,7 @@ std::string file_with(const Key* changed) {
     return text;
 }
 
-// "[section] key" of each key that the shipped file explains, in a comment or as it counts.
+// Returns "[section] key" for each key of the shipped file, also for keys in comments.
 std::set<std::string> shipped_keys() {
     std::set<std::string> keys;
     std::ifstream file(testing::source_directory() / "daemon/stormcellard.toml");
@@ -223,7 +222,7 @@ TEST_F(ReloadOfAKey, CountsOrIsSaidToNeedARestart) {
     EXPECT_TRUE(needs_restart(running->fixed, running->fixed).empty());
     for (const Section& section : all_sections()) {
         for (const Key& key : section.keys) {
-            if (key.other.empty()) continue;  // it is changed in another table
+            if (key.other.empty()) continue;  // another table changes this key
             SCOPED_TRACE(section.header + " " + key.name);
             const Result<Config> fresh = load(&key);
             ASSERT_TRUE(fresh) << fresh.error().message;

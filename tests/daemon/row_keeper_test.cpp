@@ -1,4 +1,4 @@
-// Tests when missing files are looked for and, much later, forgotten, and what is logged.
+// Tests when RowKeeper looks for missing files and deletes their rows, and what it logs.
 #include "daemon/care/row_keeper.h"
 
 #include <atomic>
@@ -47,7 +47,7 @@ class RowKeeperTest : public ::testing::Test {
                        {.journal = journal_.path(), .clock = std::chrono::steady_clock::now});
     }
     void TearDown() override { set_up_logging("info"); }
-    // Waits until it has looked this often.
+    // Waits until the keeper has looked this often.
     void look(int looks, milliseconds gone_rows_kept_for = {}) {
         EXPECT_TRUE(testing::eventually([&] {
             keeper_->look(now_, gone_rows_kept_for);
@@ -116,7 +116,7 @@ TEST_F(RowKeeperTest, TakesATenthOfTheTimeAtMost) {
     EXPECT_EQ(sink_.looks, 1) << "not while it is at work";
     keeper_->look(now_ + seconds{1}, {});
     keeper_->look(now_ + milliseconds{2199}, {});
-    keeper_.reset();  // waits for what has begun
+    keeper_.reset();  // waits for the end of the work
     EXPECT_EQ(sink_.looks, 1) << "nor while it rests";
 }
 

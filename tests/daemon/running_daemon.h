@@ -28,24 +28,25 @@ class RunningDaemon {
     RunningDaemon& operator=(const RunningDaemon&) = delete;
     ~RunningDaemon();
 
-    // `more` is added to the configuration, which names the paths, and `options` to the command
-    // line. Throws if the program cannot be started.
+    // Starts the program. `more` is added to the configuration, which has the paths, and `options`
+    // to the command line. Throws if the program cannot be started.
     void start(const std::string& more = {},
                const std::map<std::string, std::string>& environment = {},
                const std::vector<std::string>& options = {});
-    // Starts it through this program, which must become it (setpriv, unshare). Call it before
-    // start().
+    // Makes start() run the daemon through this program, which must replace itself by the daemon
+    // (setpriv, unshare).
     void run_under(std::vector<std::string> program) { under_ = std::move(program); }
     [[nodiscard]] pid_t id() const { return child_; }
-    // Returns its peak resident memory; -1 if it cannot be read.
+    // Returns the daemon's peak resident memory; -1 if it cannot be read.
     [[nodiscard]] long peak_mib() const;
     void signal(int number) const;
-    // Returns the exit status, or minus the signal that ended it. Throws after 60 s.
+    // Waits for the end of the daemon. Returns the exit status, or minus the signal that ended the
+    // daemon. Throws after 60 s.
     int wait();
-    // Returns the same at once; none while it runs.
+    // Returns the same without waiting; none while the daemon runs.
     std::optional<int> ended();
     int terminate();
-    // Expects that the daemon tells the manager of a reload and of its end.
+    // Expects that the daemon reports a reload and its end to the service manager.
     void expect_reload_and_end(NotifySocket& manager);
 
     // Writes root/scene.toml, a small picture.
@@ -56,9 +57,9 @@ class RunningDaemon {
     [[nodiscard]] std::filesystem::path catalog() const { return root_ / "state/catalog"; }
     [[nodiscard]] std::filesystem::path cache() const { return root_ / "cache"; }
     [[nodiscard]] std::string log() const;
-    // Returns null if there is none yet. `name` is below root/state.
+    // Returns the status document root/state/`name`; null if there is none yet.
     [[nodiscard]] nlohmann::json status(const std::string& name = "status.json") const;
-    // Returns false if it does not become true within a minute.
+    // Waits until the condition is true. Returns false if that takes more than a minute.
     bool wait_for(const std::function<bool(const nlohmann::json&)>& status,
                   const std::string& name = "status.json") const;
     bool wait_for_log(const std::string& text) const;

@@ -1,4 +1,5 @@
-// If the watcher cannot look at a file for want of descriptors, the intake has it found again.
+// If the watcher cannot examine a file because descriptors have run out, the intake requests a scan
+// that finds the file again.
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::seconds;
 
-// While it stands no file can be opened; those that are open stay so.
+// While this object lives, no file can be opened; open files stay open.
 class WithoutDescriptors {
   public:
     WithoutDescriptors() {

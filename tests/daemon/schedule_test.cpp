@@ -158,7 +158,7 @@ TEST(Schedule, WhatIsTriedAgainTakesNoPlaceFromWhatComes) {
         EXPECT_EQ(schedule.offer(job("good" + std::to_string(i))), Offered::queued);
     EXPECT_EQ(schedule.offer(job("more")), Offered::refused);
     EXPECT_EQ(schedule.waiting_count(), 4U);
-    // No more than this may wait; a job that fails now is forgotten.
+    // No more jobs may wait for another attempt; a job that fails now is forgotten.
     const auto running = schedule.next(t0);
     EXPECT_FALSE(schedule.retry(*running, t0));
     EXPECT_EQ(schedule.running_count(), 0U);
@@ -185,8 +185,8 @@ TEST(Schedule, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_EQ(schedule.waiting_count(), 6U);
 }
 
-// 2026-11-25: at the limit, a flood in the names of all stations left only old jobs of each: a new
-// job took the place of the newest one.
+// 2026-11-25: at the limit, a new job took the place of the newest job of its station, so that a
+// flood left only old jobs.
 TEST(Schedule, AtTheBoundWhatWouldBeServedLastGivesWay) {
     Schedule schedule(4);
     const auto job_at = [](const char* path, std::int64_t newest_ns, bool is_begun = false) {
@@ -254,11 +254,11 @@ TEST(Schedule, AHoldConcernsEveryJob) {
     EXPECT_TRUE(schedule.next(t0 + seconds{4}));
 }
 
-// Compares with an obvious implementation: a list that is searched.
+// Compares the schedule with an obvious implementation, which searches a list.
 TEST(Schedule, AgreesWithAPlainListUnderRandomUse) {
     std::mt19937 random(20261121);
     Schedule schedule(8);
-    std::vector<Job> waiting, running;  // in the order of their last offer
+    std::vector<Job> waiting, running;  // in the order of the last offer
     const auto find = [](std::vector<Job>& jobs, const std::filesystem::path& path) {
         return std::find_if(jobs.begin(), jobs.end(),
                             [&](const Job& other) { return other.path == path; });
@@ -344,7 +344,7 @@ TEST(Schedule, SaysWhenTheNextIsToBeRegistered) {
     EXPECT_FALSE(schedule.next_unregistered_time());
 }
 
-// A job that failed and waited for its next try was not waiting for a free worker.
+// The time that a failed job waits for its next attempt does not count as waiting for a worker.
 TEST(Schedule, ARetryWaitsSinceItsTime) {
     Schedule schedule(10);
     schedule.offer(job("a", 1), t0);

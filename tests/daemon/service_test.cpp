@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using pipeline::IngestResult;
 
-// A whole service on a real directory, with a sink that does what the test says.
+// Runs a whole service on a real directory, with a sink that acts as the test says.
 class ServiceTest : public ::testing::Test {
   protected:
     ServiceTest() {
@@ -98,7 +98,7 @@ TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
 }
 
 TEST_F(ServiceTest, FilesAreTakenInWhileAScanGoesOn) {
-    // A file that was written a moment ago waits for more to come, so these are older.
+    // A file that was just written waits for further writes, so make these files older.
     const auto before = fs::file_time_type::clock::now() - std::chrono::hours{1};
     for (int i = 0; i < 20'000; ++i) {
         const fs::path file = config_.fixed.paths.drop / std::to_string(i);
@@ -115,7 +115,8 @@ TEST_F(ServiceTest, FilesAreTakenInWhileAScanGoesOn) {
     EXPECT_TRUE(sink_->wait_for_calls(1));
 }
 
-// Two of three workers are held up by files that take long, of no station; the last is for others.
+// Slow files of unknown stations occupy two of three workers; the last worker is reserved for
+// stations.
 TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
     config_.reloadable.workers = 3;
     std::atomic<int> held = 0;
@@ -175,7 +176,7 @@ TEST_F(ServiceTest, LivesOnRescansWhereThereAreNoEvents) {
     EXPECT_TRUE(sink_->wait_for_calls(1));
 }
 
-// On NFS no event comes, and the service knows that.
+// On NFS no events come, so the service must poll.
 TEST_F(ServiceTest, PollsWhereChangesComeWithoutEvents) {
     class Silent final : public EventSource {
       public:
@@ -201,7 +202,7 @@ TEST_F(ServiceTest, PollsWhereChangesComeWithoutEvents) {
     EXPECT_EQ(sink_->missing_looks(), 1) << "polls do not look at every row of the catalog";
 }
 
-// Every event is dropped by the kernel: only the scan that follows can find the files.
+// The kernel drops every event, so only the next scan can find the files.
 TEST_F(ServiceTest, ScansWhenEventsWereLost) {
     class Overflowing final : public EventSource {
       public:
@@ -249,7 +250,7 @@ TEST_F(ServiceTest, GoesOnWhenTheDropDirectoryVanishesAndReturns) {
     EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
-// 2026-11-22: as of the last scan, a minute ago, it was.
+// 2026-11-22: the status showed the number of directories at the last scan, up to a minute ago.
 TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
     config_.reloadable.rescan = std::chrono::hours{1};
     start(always(IngestResult::gridded));
@@ -261,9 +262,9 @@ TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
     EXPECT_TRUE(testing::eventually([&] { return status()["directories"] == 1; }));
 }
 
-// 2026-11-22: a drop directory that was mounted late, or that a group was let into late, ended the
-// start, and systemd gave up after ten of them. 2026-11-28: READY waited for it, and with it the
-// data server, the loops, an upgrade of the package and the machine's boot.
+// 2026-11-22: the start failed if the drop directory was mounted, or became readable, late; systemd
+// gave up after ten starts. 2026-11-28: READY waited for the drop directory, and the data server,
+// the loops, an upgrade of the package and the machine's boot waited for READY.
 TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
     fs::remove(config_.fixed.paths.drop);
     start(always(IngestResult::gridded));
@@ -285,7 +286,7 @@ TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
     EXPECT_TRUE(status()["drop_lost"].is_null());
 }
 
-// 2026-11-25: READY was said while every socket, the state and the cache failed.
+// 2026-11-25: the service reported READY while every socket, the state and the cache failed.
 TEST_F(ServiceTest, IsReadyWhenAllThatItNeedsAnswers) {
     fs::remove_all(config_.fixed.paths.state);
     write_file(config_.fixed.paths.state, "no directory");
@@ -308,7 +309,8 @@ TEST_F(ServiceTest, IsReadyWhenAllThatItNeedsAnswers) {
     EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
-// An example is /srv/drop -> /mnt/spool/nexrad2 where /mnt/spool is mounted later.
+// The drop directory may be a link whose target appears later, for example /srv/drop ->
+// /mnt/spool/nexrad2 if /mnt/spool is mounted late.
 TEST_F(ServiceTest, StartsBeforeWhatItsDropDirectoryLinksTo) {
     config_.reloadable.rescan = std::chrono::milliseconds{200};
     fs::remove(config_.fixed.paths.drop);
@@ -334,8 +336,8 @@ TEST_F(ServiceTest, AFileInPlaceOfTheDropDirectoryIsWaitedOutToo) {
 TEST_F(ServiceTest, StopsWithoutTakingTheRestOfTheQueue) {
     for (int i = 0; i < 50; ++i)
         write_file(config_.fixed.paths.drop / std::to_string(i), "1");
-    // Each worker holds its file until the service says that it is stopping. Files of no station
-    // may be held by one worker alone, which leaves the other for stations.
+    // Each worker holds its file until the service reports that it is stopping. Files of unknown
+    // stations may use only one of the two workers.
     std::atomic<int> held = 0;
     start([&](const auto&, bool) {
         ++held;
@@ -354,14 +356,14 @@ TEST_F(ServiceTest, FeedsTheWatchdogWhenIdle) {
     EXPECT_TRUE(wait_for_message("WATCHDOG=1"));
 }
 
-// Counts how many times the watchdog was fed.
+// Returns how often the watchdog was fed.
 std::ptrdiff_t meals(const FakeNotifier& notifier) {
     const auto sent = notifier.sent();
     return std::count(sent.begin(), sent.end(), "WATCHDOG=1");
 }
 
-// Each of the service's own threads in turn hangs until the test lets it go: the watchdog starves.
-// One that takes as long in steps does not starve it.
+// One of the service's own threads hangs until the test releases it: the service must stop feeding
+// the watchdog. A thread that takes as long but makes steps must not stop it.
 class HangingThread : public ServiceTest, public ::testing::WithParamInterface<const char*> {
   protected:
     std::atomic<bool> hangs_{true};
@@ -378,7 +380,8 @@ class HangingThread : public ServiceTest, public ::testing::WithParamInterface<c
     }
 };
 
-// The service takes a turn whenever the watchdog is due, and reads its clock several times in each.
+// The service takes a turn whenever the watchdog is due, and reads its clock several times in each
+// turn.
 TEST_P(HangingThread, StarvesTheWatchdog) {
     constexpr std::chrono::milliseconds period{200};
     constexpr int a_turn = 50, many_turns = 150;  // readings of the clock
@@ -416,7 +419,7 @@ TEST_P(HangingThread, StarvesTheWatchdog) {
     stop();  // it refers to the clock above
 }
 
-// A file has no steps.
+// Runs the threads that make steps; a worker has none within a file.
 class SteppingThread : public HangingThread {};
 
 TEST_P(SteppingThread, DoesNot) {
@@ -430,7 +433,7 @@ TEST_P(SteppingThread, DoesNot) {
     };
     start(always(IngestResult::gridded));
     EXPECT_TRUE(wait_until_it_hangs());
-    // It is fed four times a period.
+    // The watchdog is fed four times a period.
     EXPECT_TRUE(testing::eventually([&, before = meals(notifier_)] {
         return meals(notifier_) >= before + 12;
     })) << "for more than two periods, and never at one step";
@@ -445,7 +448,7 @@ INSTANTIATE_TEST_SUITE_P(All, HangingThread, ::testing::Values("ingest", "missin
 INSTANTIATE_TEST_SUITE_P(All, SteppingThread, ::testing::Values("missing", "cache"),
                          name_of_thread);
 
-// Signals are blocked in this thread, so that the process-wide ones reach the service only.
+// This thread blocks the signals, so that only the service receives signals to the process.
 TEST_F(ServiceTest, ReloadsOnHangUpAndStopsOnTermination) {
     const Result<Signals> signals = Signals::open();
     ASSERT_TRUE(signals);

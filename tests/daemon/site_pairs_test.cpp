@@ -1,4 +1,4 @@
-// Runs the real program on files of two simulated radars, one of which is too weak.
+// Runs the real program on files of two simulated radars, one of which measures too low values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

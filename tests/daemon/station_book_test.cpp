@@ -52,7 +52,7 @@ TEST(StationBook, KeepsTheNewestVolumeWhateverComesLater) {
     EXPECT_EQ(state.close_to_cache.count(), 1U);
 }
 
-// Also data of which nothing is gridded yet: a feed whose volumes grow is not silent.
+// Data count before anything is gridded: a feed whose volumes grow is not silent.
 TEST(StationBook, AGrowingVolumesChunksAreDataAndItsSweepsHaveTimes) {
     StationBook book;
     IngestOutcome chunk = outcome_of(IngestResult::incomplete);

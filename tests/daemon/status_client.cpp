@@ -61,7 +61,7 @@ std::optional<std::string> StatusClient::read_to_end() const {
         pollfd source{socket_.number(), POLLIN, 0};
         if (::poll(&source, 1, longest_wait_ms) <= 0) return std::nullopt;
         const ssize_t got = ::read(socket_.number(), buffer.data(), buffer.size());
-        if (got <= 0) return all;  // also if the connection was reset
+        if (got <= 0) return all;  // the end, or the connection was reset
         all.append(buffer.data(), static_cast<std::size_t>(got));
     }
 }

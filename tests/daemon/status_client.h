@@ -1,4 +1,4 @@
-// tests/daemon/status_client.h -- a client that asks for the status, as badly as a test wants.
+// tests/daemon/status_client.h -- a client of the status server, which may also violate HTTP.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@ namespace stormcellar::daemon {
 
 class StatusClient {
   public:
-    // Waits at most a minute until somebody listens there.
+    // Connects to the path. Waits at most a minute until a server listens.
     static StatusClient at_path(const std::filesystem::path& path);
     static StatusClient at_port(int port);
 
     [[nodiscard]] bool is_connected() const { return socket_.is_open(); }
-    // Returns false if the other side has closed the connection.
+    // Returns false if the server has closed the connection.
     bool send(const std::string& text) const;
     // Returns everything up to the end of the connection; none if it does not end within 20 s.
     [[nodiscard]] std::optional<std::string> read_to_end() const;
-    // Returns true if the other side has closed the connection, whatever is left to be read.
+    // Returns true if the server has closed the connection, even if bytes are left to be read.
     [[nodiscard]] bool is_cut_off() const;
     // Sends and reads; returns "" if nothing comes.
     [[nodiscard]] std::string ask(const std::string& request) const;
@@ -33,7 +33,7 @@ class StatusClient {
 
 // Returns "GET PATH" as HTTP/1.0.
 [[nodiscard]] std::string get(const std::string& path);
-// Returns what follows the headers.
+// Returns the part of an answer after the headers.
 [[nodiscard]] std::string body_of(const std::string& answer);
 
 }  // namespace stormcellar::daemon

@@ -79,7 +79,8 @@ TEST_F(StatusFileTest, AFullDiskLeavesTheLastWholeDocument) {
     EXPECT_EQ(entries(), 1U);
 }
 
-// 2026-11-22: the temporary file stayed, and nothing was written until the next change.
+// 2026-11-22: after a failed write, the temporary file stayed, and nothing was written until the
+// next change.
 TEST_F(StatusFileTest, WhatCannotBePutInPlaceIsTakenAwayAndTriedAgain) {
     std::filesystem::create_directory(state_ / "status.json");
     StatusFile file(real_file_system(), state_.path(), notifier_);

@@ -1,4 +1,4 @@
-// Requests are answered, and badly behaved clients do not keep others from being answered.
+// Tests that the server answers requests, also while other clients misbehave.
 #include "daemon/status/status_server.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ class StatusServerTest : public ::testing::Test {
                 .freshness = milliseconds{0},
                 .most_connections = 8};
     }
-    // for clients that are to be cut off soon
+    // Returns options that cut off clients soon.
     [[nodiscard]] StatusServerOptions impatient() const {
         StatusServerOptions options = quick();
         options.longest_connection = milliseconds{300};
@@ -52,7 +52,8 @@ class StatusServerTest : public ::testing::Test {
     [[nodiscard]] std::string ask(const std::string& request) const {
         return StatusClient::at_path(path()).ask(request);
     }
-    // On a busy machine, well-behaved clients may be cut off as well.
+    // Returns true if one of 100 requests is answered: on a busy machine, well-behaved clients may
+    // be cut off, too.
     [[nodiscard]] bool answers() const {
         for (int i = 0; i < 100; ++i)
             if (body_of(ask(get("/metrics"))) == metrics_) return true;
@@ -64,8 +65,8 @@ class StatusServerTest : public ::testing::Test {
     std::atomic<int> rendered_ = 0;
 };
 
-// The watchdog must see a server that hangs in the middle of an answer, but not one that waits for
-// a request.
+// The watchdog must notice a server that hangs in the middle of an answer, but not a server that
+// waits for a request.
 TEST_F(StatusServerTest, IsSeenToHang) {
     std::atomic<bool> hangs = true, is_at_a_page = false;
     const StatusServer server(quick(), [&](StatusPage) {
@@ -149,7 +150,7 @@ TEST_F(StatusServerTest, WhoSaysNothingOrDripsIsCutOff) {
     EXPECT_TRUE(answers()) << "meanwhile";
     EXPECT_TRUE(silent.read_to_end()) << "ended by the server";
     EXPECT_TRUE(half.read_to_end());
-    // A byte now and then does not help.
+    // A client that sends a byte now and then is cut off, too.
     const StatusClient dripping = StatusClient::at_path(path());
     int sent = 0;
     EXPECT_TRUE(testing::eventually([&] { return !dripping.send("G") || ++sent == 1000; }));
@@ -178,7 +179,8 @@ TEST_F(StatusServerTest, MoreConnectionsThanThereMayBeWaitTheirTurn) {
     EXPECT_TRUE(answers()) << "once the silent ones were cut off";
 }
 
-// 2026-11-22: nobody was answered until silent connections were cut off 10 s later.
+// 2026-11-22: silent connections kept all clients from an answer until they were cut off after 10
+// s.
 TEST_F(StatusServerTest, SilentConnectionsMakeRoomForWhoAsks) {
     StatusServerOptions options = quick();
     options.longest_connection = std::chrono::hours{1};
@@ -239,8 +241,8 @@ TEST_F(StatusServerTest, ThePortIsOfThisMachineAlone) {
     EXPECT_EQ(all.find("00000000" + port), std::string::npos);
 }
 
-// 2026-11-25: a web page whose host name had the address of this machine (DNS rebinding) was
-// answered, and its browser let it read the answer.
+// 2026-11-25: the server answered a web page whose host name had the address of this machine (DNS
+// rebinding), and the browser let the page read the answer.
 TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     StatusServerOptions options = quick();
     options.http_port = testing::free_port();
@@ -267,7 +269,7 @@ TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     EXPECT_EQ(rendered_, 5) << "no page was made for those who were refused";
 }
 
-// 2026-11-25: nothing kept a browser from storing an answer, or from guessing another type.
+// 2026-11-25: a browser could store an answer, or guess another type of content.
 TEST_F(StatusServerTest, EveryAnswerSaysHowItIsToBeTaken) {
     const StatusBoard empty;
     const StatusServer server(quick(), pages_of(empty));
@@ -278,7 +280,7 @@ TEST_F(StatusServerTest, EveryAnswerSaysHowItIsToBeTaken) {
     }
 }
 
-// Opens silent connections to the port, all of them before any is accepted.
+// Begins to open silent connections to the port, without waiting until any is accepted.
 std::vector<Descriptor> silent_connections(int port, int count) {
     std::vector<Descriptor> all;
     for (int i = 0; i < count; ++i) {
@@ -289,7 +291,7 @@ std::vector<Descriptor> silent_connections(int port, int count) {
     return all;
 }
 
-// Waits for each of them, at most 10 s.
+// Waits until all are connected, at most 10 s for each.
 bool all_are_connected(const std::vector<Descriptor>& sockets) {
     return std::all_of(sockets.begin(), sockets.end(), [](const Descriptor& socket) {
         pollfd connects{socket.number(), POLLOUT, 0};
@@ -303,9 +305,9 @@ std::ptrdiff_t open_descriptors() {
     return std::distance(begin(all), end(all));
 }
 
-// 2026-11-25: the kernel queued 16 of them for the server and dropped the others, which tried again
-// after 1 s and after 3 s. And once the limit was reached, the server slept although the
-// connections that it had cut made room.
+// 2026-11-25: the kernel queued 16 connections for the server and dropped the others, which tried
+// again after 1 s and after 3 s. At the limit, the server slept although the connections that it
+// had cut made room.
 TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     constexpr int silent = 200;
     StatusServerOptions options = quick();
@@ -321,12 +323,13 @@ TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     const auto ask_it = [&] {
         return StatusClient::at_port(options.http_port).ask(get("/metrics"));
     };
-    // The server's thread is making a page while they arrive.
+    // The server's thread is rendering a page while the connections arrive.
     auto first = std::async(std::launch::async, ask_it);
     EXPECT_TRUE(testing::eventually([&] { return is_at_a_page.load(); }));
     const std::ptrdiff_t before = open_descriptors();
     const auto many = silent_connections(options.http_port, silent);
-    // Nobody accepts meanwhile, so one that the kernel dropped would never be there.
+    // The server accepts none meanwhile, so a connection that the kernel dropped would never be
+    // connected.
     EXPECT_TRUE(all_are_connected(many));
     const StatusClient second = StatusClient::at_port(options.http_port);
     second.send(get("/metrics"));
@@ -340,7 +343,7 @@ TEST_F(StatusServerTest, ASocketOfAKilledDaemonIsTakenOver) {
     {
         auto left = ListeningSocket::at_path(path());
         ASSERT_TRUE(left) << left.error().message;
-        std::filesystem::rename(path(), directory_ / "kept");  // so it is not removed at the end
+        std::filesystem::rename(path(), directory_ / "kept");  // so the server does not remove it
     }
     std::filesystem::rename(directory_ / "kept", path());
     const StatusServer server(quick(), render());

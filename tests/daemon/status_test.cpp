@@ -131,7 +131,7 @@ TEST(StatusBook, SaysWhatWasWrongWithTheLastRejectedFiles) {
     EXPECT_LT(reason.size(), 600U);
 }
 
-// 2026-11-22: a file that was no volume counted and stood in the list with each append.
+// 2026-11-22: each append to a file that is no volume was counted and listed as a rejected file.
 TEST(StatusBook, AFileThatIsRejectedAgainAndAgainCountsOnce) {
     StatusBook book("/d", "/c");
     const auto reject = [&](const std::string& path, const std::string& reason) {
@@ -320,7 +320,7 @@ TEST(StatusBook, OddBytesInNamesAreEscaped) {
     EXPECT_EQ(status["volumes"][0]["file"], "/d/\\xc3(");
 }
 
-// A process that keeps loops alone says the same of them, and nothing of ingest.
+// A process that only runs loops must report them in the same way, and nothing about ingest.
 TEST(LoopsStatus, IsTheSameForLoopsAlone) {
     std::vector<LoopState> loops(3);
     loops[0].name = "a";

@@ -67,7 +67,8 @@ TEST(TreeWalk, LeavesOutLinksFifosAndTemporaryNames) {
     EXPECT_EQ(seen->others, (std::set<std::string>{"fifo", "link", "linked"}));
 }
 
-// A directory that appears deep down is found by a walk of its own, and its depth still counts.
+// A new directory deep in the tree is walked by itself, but its depth still counts from the drop
+// directory.
 TEST(TreeWalk, DepthCountsFromWhereItIsSaidTo) {
     const testing::TemporaryDirectory directory;
     fs::create_directories(directory / "a/b");
@@ -157,8 +158,8 @@ TEST(TreeWalk, GoesOnAfterADirectoryThatMayNotBeRead) {
     EXPECT_EQ(seen->problems.size(), 1U);
 }
 
-// 2026-11-28: after LDM had removed its empty drop directory and made it again, the service went on
-// looking at the removed one, which a bind mount of its unit kept, and nothing said so.
+// 2026-11-28: after LDM had removed its empty drop directory and made it again, the service kept
+// watching the removed directory, which a bind mount of its unit preserved, and reported nothing.
 TEST(TreeWalk, ARootThatAMountAloneKeepsIsAnError) {
     if (::unshare(CLONE_NEWNS) != 0) GTEST_SKIP() << "this machine does not let it mount";
     const testing::TemporaryDirectory directory;

@@ -1,4 +1,4 @@
-// Tests what the service remembers of files that it was ingesting when the process ended.
+// Tests how the service treats files that it was ingesting when the process ended.
 #include "daemon/queue/tried_files.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ class TriedFilesTest : public ::testing::Test {
         write_file(directory_ / name, name);
         return directory_ / name;
     }
-    // Both files are under way when the process ends.
+    // The process ends while it ingests both files.
     void end_under_way(const fs::path& a, const fs::path& b) const {
         TriedFiles tried(file());
         tried.begin(a, stamp(a));
@@ -58,8 +58,8 @@ TEST_F(TriedFilesTest, WhatWasUnderWayWaitsLongerEachTimeAndIsGivenUp) {
     EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
 }
 
-// 2026-11-28: files that ran together when one of them ended the process waited equally long, so
-// they ran together again, and all were given up.
+// 2026-11-28: if one of several files that ran together ended the process, all waited equally long,
+// so they ran together again, until all were given up.
 TEST_F(TriedFilesTest, WhatRanTogetherIsTriedApart) {
     const fs::path bomb = make("bomb"), good = make("good");
     end_under_way(bomb, good);
@@ -76,8 +76,8 @@ TEST_F(TriedFilesTest, AStartBetweenDoesNotCount) {
     EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
 }
 
-// 2026-11-28: the process was killed between writing a list and cutting its file, and the rest of
-// the list before was taken for files that were under way.
+// 2026-11-28: the process was killed between writing a list and truncating its file, and the next
+// start took the rest of the old list for files that were being ingested.
 TEST_F(TriedFilesTest, TheRestOfAnOlderListDoesNotCount) {
     const fs::path first = make("first"), second = make("second");
     end_under_way(first, second);

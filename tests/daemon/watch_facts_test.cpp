@@ -1,4 +1,4 @@
-// The real program where the kernel tells little: few watches, no instance, files that go at any
+// Runs the real program with few watches or no inotify instance, and on files that vanish at any
 // moment.
 
 #include "tests/daemon/hostile_drop.h"
@@ -13,10 +13,11 @@ namespace wire = level2::wire;
 using nlohmann::json;
 using wire::Bytes;
 
-// In a user namespace of its own, where the limits may be set: of watches and of instances.
+// Runs the daemon in a user namespace of its own, in which the test may limit watches and
+// instances.
 class FewWatches : public HostileDrop {
   protected:
-    // False where the system does not let us.
+    // Returns false if the system does not allow this.
     bool limit(const std::string& name, int value) {
         const std::string set =
             "echo " + std::to_string(value) + " > /proc/sys/user/max_inotify_" + name;
@@ -60,7 +61,7 @@ TEST_F(FewWatches, WithoutAnInstanceEverythingIsPolled) {
 
 using WatchFacts = HostileDrop;
 
-// LDM's scour deletes what is old, whatever anybody does with it at that moment.
+// LDM's scour deletes old files, even while the service handles them.
 TEST_F(WatchFacts, FilesMayGoAtAnyMoment) {
     start();
     const Bytes bytes = volume();

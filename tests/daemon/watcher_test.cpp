@@ -49,7 +49,7 @@ class Notes final : public WatchListener {
     [[nodiscard]] bool has(const std::string& line) const {
         return std::find(said.begin(), said.end(), line) != said.end();
     }
-    // Returns the files that were reported to be ingested, in whatever way.
+    // Returns the files that the watcher reported as closed or found.
     [[nodiscard]] std::set<std::string> taken() const {
         std::set<std::string> names;
         for (const std::string& line : said) {
@@ -79,7 +79,7 @@ class RealWatcher : public ::testing::Test {
         watcher_ = std::make_unique<Watcher>(drop(), *events_, notes_);
     }
     [[nodiscard]] fs::path drop() const { return directory_.path(); }
-    // Handles all events until there are none for a moment.
+    // Handles events until none come for a moment.
     void settle() {
         pollfd source{events_->descriptor(), POLLIN, 0};
         while (::poll(&source, 1, 50) > 0)
@@ -102,7 +102,7 @@ TEST_F(RealWatcher, FindsWhatStoodThereBefore) {
     EXPECT_EQ(watcher_->directory_count(), 2U);
 }
 
-// A scan of many files takes seconds.
+// A scan of many files takes seconds, and must not delay new files.
 TEST_F(RealWatcher, WhatComesDuringAScanIsSeenBeforeItsEnd) {
     constexpr int count = 1000;
     for (int i = 0; i < count; ++i)
@@ -268,7 +268,8 @@ TEST_F(RealWatcher, ForgetsADirectoryThatIsDeleted) {
     EXPECT_EQ(watcher_->directory_count(), 1U);
 }
 
-// Each directory is seen when it appears, however deep it is by then.
+// The watcher sees each directory when it appears, and must count its depth from the drop
+// directory.
 TEST_F(RealWatcher, DirectoriesThatAppearAreNoDeeperThanThoseThatAreFound) {
     ASSERT_TRUE(watcher_->scan());
     fs::path path = drop();
@@ -281,7 +282,8 @@ TEST_F(RealWatcher, DirectoriesThatAppearAreNoDeeperThanThoseThatAreFound) {
     EXPECT_EQ(notes_.problems.size(), 1U) << "nobody hears of what lies below";
 }
 
-// 2026-11-28: LDM with umask 027 and a service outside of its group. One line in the log was all.
+// 2026-11-28: LDM wrote with umask 027, and the service was not in its group. Only one line in the
+// log showed this.
 TEST_F(RealWatcher, NamesTheDirectoriesThatItMayNotRead) {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
     fs::permissions(drop(), fs::perms{0755});
@@ -333,8 +335,8 @@ TEST_F(RealWatcher, AMissingDropDirectoryIsAnError) {
     EXPECT_FALSE(watcher.scan());
 }
 
-// There are more events than the kernel keeps. Some are dropped, the watcher reports it, and a scan
-// finds all files.
+// Makes more events than the kernel queues. The kernel drops some, the watcher reports that, and a
+// scan finds all files.
 TEST_F(RealWatcher, ASecondScanFindsWhatAnOverflowHid) {
     std::size_t queue = 0;
     std::ifstream("/proc/sys/fs/inotify/max_queued_events") >> queue;
@@ -342,7 +344,7 @@ TEST_F(RealWatcher, ASecondScanFindsWhatAnOverflowHid) {
     ASSERT_TRUE(watcher_->scan());
     write_file(drop() / "a", "1");
     write_file(drop() / "b", "1");
-    // Equal events in a row are merged, so the two alternate.
+    // The kernel merges equal events in a row, so two events alternate.
     for (std::size_t i = 0; i <= queue; ++i)
         append_to_file(drop() / (i % 2 == 0 ? "a" : "b"), "");
     write_file(drop() / "late", "1");
@@ -353,7 +355,7 @@ TEST_F(RealWatcher, ASecondScanFindsWhatAnOverflowHid) {
     EXPECT_TRUE(notes_.taken().contains("late"));
 }
 
-// Events that tests make, and a limit of watches.
+// Returns events that tests make, and limits the watches.
 class FakeEvents final : public EventSource {
   public:
     [[nodiscard]] int descriptor() const override { return -1; }
@@ -377,7 +379,7 @@ class FakeEvents final : public EventSource {
     std::vector<DirectoryEvent> waiting;
 };
 
-// The drop directory is watched as "DIR/.", which may be reached through a link.
+// The drop directory may be a link, because the watcher watches "DIR/.".
 TEST(Inotify, NamesADirectoryAsItIsCalled) {
     const testing::TemporaryDirectory directory;
     const auto events = open_inotify();

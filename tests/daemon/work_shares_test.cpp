@@ -33,7 +33,8 @@ TEST(WorkShares, StationsWhoseFilesAreQuickAndGoodHaveAllWorkers) {
     }
 }
 
-// The cost of its second file is not known before it has ended.
+// The time that its second file takes is unknown until the job has ended, so a station may not use
+// all workers.
 TEST(WorkShares, NoStationHasAllWorkersAlone) {
     WorkShares shares;
     shares.set_workers(3);
@@ -46,7 +47,7 @@ TEST(WorkShares, NoStationHasAllWorkersAlone) {
     EXPECT_TRUE(shares.may_begin("KOKX", t0)) << "of which nothing good has come, but alone";
 }
 
-// 2026-11-25: 141 files of 1.4 kB, each of another station, kept a real one waiting for 15 s.
+// 2026-11-25: 141 files of 1.4 kB, each of a different station, delayed a real file by 15 s.
 TEST(WorkShares, StationsOfWhichNothingGoodHasComeLeaveOneWorkerToTheOthers) {
     WorkShares shares;
     shares.set_workers(2);

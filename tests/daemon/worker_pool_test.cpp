@@ -28,7 +28,7 @@ WorkerPool::Work work_of(Sink& sink) {
     };
 }
 
-// Waits until so many jobs have ended.
+// Waits until `count` jobs have ended.
 std::vector<Finished> collect(WorkerPool& pool, std::size_t count) {
     std::vector<Finished> all;
     (void)testing::eventually([&] {
@@ -74,7 +74,7 @@ TEST(WorkerPool, AWorkerOutlivesWhatAFileThrows) {
     EXPECT_TRUE(good[0].taken);
 }
 
-// To be tried again like a full disk, and no defect.
+// A lack of memory is a fault of the system, so the job is tried again.
 TEST(WorkerPool, WantOfMemoryIsTheSystems) {
     FakeSink sink([](const std::filesystem::path&, bool) -> pipeline::IngestOutcome {
         throw std::bad_alloc{};
@@ -133,7 +133,7 @@ TEST(WorkerPool, CanGrowAndShrink) {
         return outcome_of(IngestResult::gridded);
     });
     WorkerPool pool(work_of(sink), "ingest", 1, [] {});
-    // Gives jobs to all workers that are free, holds them until all run, and returns their number.
+    // Submits jobs while workers are free, holds them until all run, and returns their number.
     const auto run_at_once = [&] {
         is_held = true;
         int jobs = 0;
@@ -164,7 +164,7 @@ TEST(WorkerPool, DrainingEndsRunningJobsAndBeginsNone) {
         WorkerPool pool(work_of(sink), "ingest", 1, [] {});
         pool.submit(job("a"));
         begun.wait();
-        pool.submit(job("b"));  // the one worker cannot have begun it
+        pool.submit(job("b"));  // the only worker is busy, so it has not begun this job
         EXPECT_FALSE(pool.drain(milliseconds{1})) << "the first still runs";
         is_held = false;
         EXPECT_TRUE(pool.drain(seconds{20}));

@@ -1,4 +1,4 @@
-// tests/daemon/write_file.h -- writes files as a writer does: whole, or piece by piece.
+// tests/daemon/write_file.h -- writes files, whole or piece by piece.
 #pragma once
 
 #include <filesystem>
