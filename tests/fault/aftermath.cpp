@@ -40,8 +40,8 @@ void read_rows(const fs::path& path, Rows& rows, Aftermath& after) {
     }
 }
 
-// The catalog's directory holds databases, what SQLite keeps beside them, damaged ones of before,
-// and a file that names the drop directory.
+// Reads the catalog's directory. It may contain databases and SQLite's files beside them, damaged
+// databases that were set aside, and a file that names the drop directory.
 Rows look_at_catalog(const fs::path& directory, Aftermath& after) {
     Rows rows;
     std::error_code error;
@@ -116,7 +116,7 @@ void check_files(const std::vector<Delivered>& delivered, const Rows& rows, Afte
     }
 }
 
-// Every file below the cache is a grid, and sound.
+// Checks that every file below the cache is a sound grid.
 void check_cache(const fs::path& directory, Aftermath& after) {
     std::error_code error;
     for (fs::recursive_directory_iterator at(directory, error), end; !error && at != end;
@@ -160,7 +160,7 @@ void check_volumes(const fs::path& cache, const std::vector<Delivered>& delivere
     }
 }
 
-// Below the state directory: nothing that was made for a while, by its name or by having none.
+// Checks that no temporary file is left below the directory, by name or unnamed.
 void check_leftovers(const fs::path& directory, Aftermath& after) {
     std::error_code error;
     for (fs::recursive_directory_iterator at(directory, error), end; !error && at != end;
@@ -170,7 +170,7 @@ void check_leftovers(const fs::path& directory, Aftermath& after) {
     }
 }
 
-// Nothing was made in the drop directory that nobody delivered.
+// Checks that the drop directory contains only delivered files.
 void check_drop(const fs::path& directory, const std::vector<Delivered>& delivered,
                 Aftermath& after) {
     std::set<fs::path> known;

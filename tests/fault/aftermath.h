@@ -4,7 +4,7 @@
 // The same check follows every fault. Each file of the drop directory is in the catalog exactly
 // once, settled, with a reason if it is not complete. Each complete volume has its whole grid in
 // the cache. Every grid opens and verifies, and every database is sound. No temporary files are
-// left. The check looks at the files itself; of the product it uses only readers. Call it when the
+// left. The check reads the files itself; it uses only readers of the product. Call it when the
 // daemon has stopped.
 //
 // Threads   A function without state.
@@ -25,7 +25,7 @@ struct Places {
 };
 
 enum class Contents {
-    whole_volume,  // must be complete, and its grid whole
+    whole_volume,  // must be complete, with a whole grid
     part,          // must be partial or rejected with a reason; complete would be wrong
     junk,          // must be rejected with a reason
 };
@@ -42,14 +42,14 @@ struct Aftermath {
     std::size_t files = 0;        // delivered
     std::size_t rows = 0;         // of the catalog, in all databases
     std::size_t volumes = 0;      // delivered whole
-    std::size_t gridded = 0;      // of these, in the cache and whole
+    std::size_t gridded = 0;      // volumes of these with a whole grid in the cache
     std::size_t grids = 0;        // in the cache, all verified
     std::size_t with_reason = 0;  // rows that are partial or rejected and give a reason
     std::size_t set_aside = 0;    // damaged databases
     std::vector<std::string> problems;
 
     [[nodiscard]] bool holds() const { return problems.empty(); }
-    // Returns the first twenty, one a line.
+    // Returns the first twenty problems, one a line.
     [[nodiscard]] std::string problem_text() const;
     // Returns "23 files, 23 rows, ...".
     [[nodiscard]] std::string summary() const;

@@ -1,4 +1,4 @@
-// Tests the check itself: it reports nothing about a sound state, and names each fault.
+// Tests the check itself: it must report nothing about a sound state, and name each fault.
 #include <fstream>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -35,7 +35,7 @@ class AftermathTest : public ::testing::Test {
         delete daemon_;
         delete delivered_;
     }
-    // A copy to be damaged; paths in the catalog are still those of the drop directory.
+    // A copy to damage. Paths in the catalog still begin with the drop directory.
     void SetUp() override {
         places_ = daemon_->places();
         fs::copy(places_.state / "catalog", copy_ / "state/catalog", fs::copy_options::recursive);

@@ -1,4 +1,4 @@
-// Loaded into the daemon by LD_PRELOAD; see failing_calls.h. Links nothing of the product.
+// LD_PRELOAD loads this into the daemon; see failing_calls.h. It links nothing of the product.
 #include "tests/fault/failing_calls.h"
 
 #include <cerrno>
@@ -61,7 +61,7 @@ int fate(Kind kind, const char* call, const char* path) {
     return steer->error_number;
 }
 
-// Finds the path of the descriptor; false if that is not possible.
+// Finds the path of the descriptor. Returns false if that is not possible.
 bool find_path(int descriptor, char (&path)[PATH_MAX]) {
     char link[64];
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
@@ -150,7 +150,7 @@ int ftruncate64(int file, off64_t size) noexcept {
     return what > 0 ? fail_with(what) : real(file, size);
 }
 
-// Returns the error number instead of setting errno.
+// This call returns the error number and does not set errno.
 int posix_fallocate64(int file, off64_t offset, off64_t size) {
     static const auto real = next<int (*)(int, off64_t, off64_t)>("posix_fallocate64");
     const int what = fate_of(kind_truncate, "posix_fallocate64", file);

@@ -1,10 +1,10 @@
 // tests/fault/failing_calls.h -- controls failing_calls.so, a library that is loaded into the
 // daemon (LD_PRELOAD) and makes its system calls fail.
 //
-// The file that $STORMCELLAR_FAILING_CALLS names holds one Steering, which both sides map, so the
-// test may change it while the daemon runs. Calls on files below one of the directories of `below`
-// are counted if their kind is in `kinds`. Those from number `from` on (the first is 1) and before
-// `to` fail.
+// The file that $STORMCELLAR_FAILING_CALLS names holds one Steering, which the test and the library
+// map, so that the test may change it while the daemon runs. Calls on files below a directory of
+// `below` are counted if their kind is in `kinds`. Calls whose number is at least `from` (the first
+// call is 1) and less than `to` fail.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ enum Kind : std::uint32_t {
     kind_remove = 128,
 };
 
-// instead of an errno: half of it is written, without an error
+// used instead of an errno: the call writes only half, without an error
 inline constexpr int short_write = -1;
 
 struct Steering {

@@ -1,5 +1,5 @@
-// Makes each system call of the real program fail in turn: nothing is lost, and nothing is left
-// over.
+// Makes each system call of the real program fail in turn. No data may be lost, and no temporary
+// files may be left.
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -24,9 +24,9 @@ struct Failure {
     const char* name;
     std::uint32_t kinds;
     int error_number;
-    bool lasts;          // until 200 ms after the first failure; else only one call fails
+    bool lasts;          // calls fail until 200 ms after the first failure; false: one call fails
     bool in_drop;        // also calls on the incoming files
-    bool needs_restart;  // what is left over is removed at the next start
+    bool needs_restart;  // only the next start removes temporary files that are left
 };
 
 void PrintTo(const Failure& failure, std::ostream* out) {
@@ -49,7 +49,7 @@ constexpr Failure failures[] = {
     {"FromEachCallOnTheDiskFails", changes | kind_remove, EIO, true, false, true},
 };
 
-// The result of failing at one call.
+// The result of a run in which one call, or all from one call on, failed.
 struct Tried {
     std::uint64_t calls = 0, failed = 0;
     bool ended = false;  // the daemon gave up, for example at its start
@@ -58,12 +58,12 @@ struct Tried {
 
 class FailingCalls : public ::testing::TestWithParam<Failure> {
   protected:
-    // Delivers one volume of each way and a file that is none: two before the start, the others
+    // Delivers a volume in each way and a file that is no volume: two before the start, the others
     // after it.
     static Tried run(std::uint64_t at);
 };
 
-// Waits until all is settled. Returns true if the daemon ended instead.
+// Waits until all files are settled. Returns true if the daemon ended instead.
 bool ends_before(FaultyDaemon& daemon, SteeringFile& steering, bool lasts, std::size_t files) {
     std::optional<Clock::time_point> first;
     bool has_ended = false;
@@ -105,7 +105,7 @@ Tried FailingCalls::run(std::uint64_t at) {
     put(shipments.junk());
     Tried tried;
     tried.ended = ends_before(daemon, steering, failure.lasts, files_of(delivered));
-    if (failure.lasts || tried.ended) steering.end();  // otherwise it might fail at the stop
+    if (failure.lasts || tried.ended) steering.end();  // otherwise the stop might fail
     if (failure.needs_restart && !tried.ended) {
         EXPECT_EQ(daemon.stop(), 0) << daemon.log_end();
     }
@@ -123,8 +123,8 @@ Tried FailingCalls::run(std::uint64_t at) {
     return tried;
 }
 
-// The short form takes this many of all calls, spread evenly; $STORMCELLAR_FAILING_TRIES sets the
-// number.
+// $STORMCELLAR_FAILING_TRIES sets how many of all calls fail, each in a run of its own, spread
+// evenly.
 TEST_P(FailingCalls, NothingIsLost) {
     if (is_sanitized) GTEST_SKIP() << "no other library may be loaded before the sanitizer's";
     const std::uint64_t calls = run(UINT64_MAX).calls;

@@ -30,7 +30,7 @@ std::size_t settled_in(const fs::path& database) {
         count.executeStep();
         return static_cast<std::size_t>(count.getColumn(0).getInt64());
     } catch (const SQLite::Exception&) {
-        return 0;  // just being made, or damaged on purpose: try again
+        return 0;  // the catalog is being made, or a test has damaged it: try again
     }
 }
 

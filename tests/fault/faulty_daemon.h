@@ -1,5 +1,5 @@
-// tests/fault/faulty_daemon.h -- the real stormcellard, configured to be quick, and checks of what
-// it leaves behind.
+// tests/fault/faulty_daemon.h -- the real stormcellard, configured to be quick, with checks of its
+// state.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,21 @@
 
 namespace stormcellar::fault {
 
-// With a sanitizer, which must be loaded first and takes memory of its own.
+// True for a build with a sanitizer, which must be loaded first and takes memory of its own.
 #if defined(STORMCELLAR_SANITIZED)
 inline constexpr bool is_sanitized = true;
 #else
 inline constexpr bool is_sanitized = false;
 #endif
 
-// Returns the number in the environment, for example `STORMCELLAR_KILLS=1000`, else `usual`.
+// Returns the number in the environment variable `name`, for example STORMCELLAR_KILLS=1000;
+// `usual` if it is not set.
 [[nodiscard]] int number_of(const char* variable, int usual);
 
 class FaultyDaemon {
   public:
-    // Removes the status of the previous run, so that status() gives that of this run. `more` is
-    // added to [ingest].
+    // Starts the daemon. Removes the status of the previous run first, so that status() returns
+    // this run's status. `more` is added to [ingest].
     void start(const std::map<std::string, std::string>& environment = {},
                const std::string& more = {});
     void kill();  // with SIGKILL
@@ -39,7 +40,7 @@ class FaultyDaemon {
     }
     [[nodiscard]] const std::filesystem::path drop() const { return running_.drop(); }
     // Waits until this many files are settled in the catalog and nothing is pending. Returns false
-    // if that does not happen within `seconds`.
+    // if that takes longer than `seconds`.
     [[nodiscard]] bool catches_up(std::size_t files, int seconds = 60) const;
     // Returns the number of rows of the catalog that are complete, partial, rejected or gone.
     [[nodiscard]] std::size_t settled() const;

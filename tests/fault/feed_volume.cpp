@@ -11,7 +11,8 @@
 namespace stormcellar::fault {
 namespace {
 
-// The volume must have so many gates of 8 bits in each radial of each moment.
+// Keeps only `gates` gates of each moment. The volume must have at least this many gates of 8 bits
+// in each radial.
 void cut_gates(level2::Volume& volume, std::uint16_t gates) {
     for (level2::Sweep& sweep : volume.sweeps) {
         for (level2::SweepMoment& moment : sweep.moments) {

@@ -1,5 +1,5 @@
-// tests/fault/feed_volume.h -- volumes for feeds that are made while a test runs: small ones, so
-// that many are written quickly, and in the pieces in which they come.
+// tests/fault/feed_volume.h -- simulated volumes for feeds. They are small, so that many are
+// written quickly, and come in pieces as from a radar.
 #pragma once
 
 #include <cstddef>
@@ -26,14 +26,14 @@ struct FeedScene {
 };
 [[nodiscard]] std::string text_of(const FeedScene& scene);
 
-// Returns what a radar sees of a scene's first volume: `gates` gates of each radial, and no others.
-// Throws if the scene is not valid.
+// Returns the first volume that the scene's radar observes, with only `gates` gates in each radial.
+// Throws if the scene is invalid.
 [[nodiscard]] level2::Volume observed_volume(std::string_view scene, std::uint16_t gates);
 
-// A file's bytes in the pieces of synth::piece_ends().
+// Returns the bytes of a file, divided at synth::piece_ends().
 [[nodiscard]] std::vector<std::vector<std::byte>> pieces_of(const std::vector<std::byte>& bytes);
 
-// The names of the chunks of a volume that comes in so many: "20240601-000000-001-S" and so on.
+// Returns the names of the `count` chunks of a volume: "20240601-000000-001-S" and so on.
 [[nodiscard]] std::vector<std::string> chunk_names(UtcTime start, std::size_t count);
 
 }  // namespace stormcellar::fault

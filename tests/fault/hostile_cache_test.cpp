@@ -1,4 +1,4 @@
-// Tests grids of unknown stations, and the room that the cache has for them.
+// Tests the space that grids of unknown stations may take in the cache.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -24,7 +24,7 @@ class ProtectedNewest : public HostileCases {
         });
         EXPECT_EQ(stand, static_cast<std::ptrdiff_t>(history.size())) << "grids of real history";
     }
-    // Grids of some 300 kB each.
+    // Delivers volumes whose grids take some 300 kB each.
     void put_invented_sites(std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
             Claims claims = invented_claims(i, now_utc() - std::chrono::hours{1});
@@ -36,7 +36,7 @@ class ProtectedNewest : public HostileCases {
     }
 };
 
-// Configured as in HostileCases, but with larger grids.
+// The configuration of HostileCases, but with larger grids.
 constexpr const char* large_grids = "[ingest]\nquiet_seconds = 2\nworkers = 2\nspacing_km = 4\n";
 
 TEST_F(ProtectedNewest, GridsOfInventedSitesPushOutNoRealHistory) {

@@ -45,7 +45,7 @@ class OneDatabase : public HostileCases, public ::testing::WithParamInterface<Sp
                 break;
         }
     }
-    // Makes the place accessible again, whatever is there now.
+    // Replaces whatever is at the database's path by the sound database.
     void mend() {
         fs::remove_all(database());
         fs::copy_file(aside(), database());
@@ -81,7 +81,8 @@ TEST_P(OneDatabase, ThatCannotBeOpenedIsItsStationsTroubleAlone) {
     EXPECT_EQ(daemon_.status().dump().find("KTLX.sqlite"), std::string::npos)
         << "the status still names it";
     stop();
-    // Not earlier, because root's reader leaves files beside the database that belong to root.
+    // Read the catalog only now, because a reader that runs as root leaves files of root beside the
+    // database.
     EXPECT_EQ(
         catalog_rows(daemon_.catalog()).count(daemon_.drop() / ("KTLX" + format_compact(later))),
         1U);

@@ -47,7 +47,7 @@ void give_to(level2::Volume& volume, std::string_view icao) {
         static_cast<std::int16_t>(station->antenna_altitude_m - volume.block->tower_height_m);
 }
 
-// Moves the volume to `start`, with its radials spread evenly over `takes_s`.
+// Moves the times of the volume to `start`, and spreads its radials evenly over `takes_s`.
 void move_to(level2::Volume& volume, UtcTime start, double takes_s, int number) {
     const NexradTime time = nexrad_from_time(start);
     volume.header->filename = fmt::format("AR2V0006.{:03}", number);
@@ -71,7 +71,7 @@ std::span<const std::string_view> real_stations() {
 
 RealFeed::RealFeed(fs::path drop, fs::path cache, double period_s)
     : drop_(std::move(drop)), cache_(std::move(cache)), period_s_(period_s) {
-    // One radar's view, which then stands for all of them.
+    // All stations send the same observed volume.
     const level2::Volume pattern = observed_volume(text_of(feed_scene), real_gates);
     for (std::size_t i = 0; i < stations.size(); ++i) {
         Station station;
@@ -91,8 +91,7 @@ RealFeed::~RealFeed() {
 
 void RealFeed::begin() {
     is_watched_ = true;
-    // The starts are spread, so that at any time the stations are at different places in their
-    // volumes.
+    // Stations start at different times, so that they are at different places in their volumes.
     const auto now = Clock::now();
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         const duration<double> after{period_s_ * static_cast<double>(i) /
@@ -138,7 +137,7 @@ void RealFeed::write_piece(Station& station) {
     closed_.push_back(station.volume);
 }
 
-// Always writes the piece that is due first, of all stations.
+// Writes pieces in the order of their times, of all stations.
 void RealFeed::write() {
     while (true) {
         const auto first = std::min_element(
@@ -161,7 +160,8 @@ void RealFeed::write() {
     }
 }
 
-// A living grid has the same name before, so a file is opened whenever it has changed.
+// Opens a grid file whenever it has changed, because a living grid has the same name as the final
+// grid.
 void RealFeed::look_at_waiting(std::vector<std::int64_t>& seen_ns) {
     std::vector<std::pair<std::size_t, RealVolume>> waiting;
     {

@@ -1,8 +1,9 @@
-// tests/fault/hostile_feed.h -- real stations during an attack, and how soon they are gridded.
+// tests/fault/hostile_feed.h -- real stations that send volumes during an attack, and the latency
+// of their grids.
 //
-// Sixteen stations of the table send simulated volumes at the same time, each one volume after the
-// other. A volume has five sweeps, the lowest with 720 radials, the others with 360. Files are
-// written as LDM does: a record is appended and the file closed, again and again; every fourth
+// Sixteen stations of the table send simulated volumes at the same time, each station one volume
+// after another. A volume has five sweeps, the lowest with 720 radials, the others with 360. Files
+// are written as LDM does: a record is appended and the file closed, again and again; every fourth
 // station sends one file for each chunk. The latency of a volume is the time from the close of its
 // last piece to the moment at which the grid of the whole volume is in the cache, as a reader of
 // the cache sees it.
@@ -34,14 +35,14 @@ namespace stormcellar::fault {
 struct RealVolume {
     std::string station;
     UtcTime time;
-    std::vector<std::filesystem::path> files;  // of chunks: all
+    std::vector<std::filesystem::path> files;  // all files of a volume in chunks
     std::chrono::steady_clock::time_point closed;
     std::optional<double> latency_s;  // none: no whole grid was seen
 };
 
 class RealFeed {
   public:
-    // `period_s`: from one volume of a station to its next.
+    // `period_s`: time between the starts of two volumes of a station.
     RealFeed(std::filesystem::path drop, std::filesystem::path cache, double period_s);
     RealFeed(const RealFeed&) = delete;
     RealFeed& operator=(const RealFeed&) = delete;
@@ -58,7 +59,7 @@ class RealFeed {
     struct Station {
         level2::Volume pattern;
         bool comes_as_chunks = false;
-        int number = 0;  // of its volumes
+        int number = 0;  // number of its volume
         Clock::time_point next_piece;
         RealVolume volume;
         std::vector<std::vector<std::byte>> pieces;

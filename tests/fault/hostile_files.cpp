@@ -153,8 +153,8 @@ Bytes plain_volume_bytes(const Claims& claims) {
 Bytes endless_bytes(Claims claims, unsigned radials, unsigned gates) {
     claims.gates = gates;
     claims.word_bits = 16;
-    claims.code = 0x0404;  // equal bytes, which are packed fastest
-    // The second record is used for all that follow, because making records takes most of a test's
+    claims.code = 0x0404;  // two equal bytes, because equal bytes are compressed fastest
+    // Use the second record for all later ones, too, because making records takes most of a test's
     // time.
     const auto record = [&](Mark first) {
         Writer messages;

@@ -1,8 +1,8 @@
-// tests/fault/hostile_files.h -- makes Level II bytes with any claims that a test wants.
+// tests/fault/hostile_files.h -- makes Level II bytes that claim whatever a test wants.
 //
-// They are small files of message 31 with one moment: of any station, position, time, scale and
-// offset, ending or not. This is independent of stormcellar/level2/encode.h, which refuses to write
-// most of them.
+// The files are small, of message 31, with one moment. They may claim any station, position, time,
+// scale and offset, and may lack an end. This code does not use stormcellar/level2/encode.h, which
+// refuses to write most of them.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -29,20 +29,21 @@ struct Claims {
     float scale = 2, offset = 66;
 };
 
-// Returns the claims of a station of the table, with its position. Throws for any other.
+// Returns claims with the name and position of a station of the table. Throws for any other
+// station.
 [[nodiscard]] Claims claims_of(std::string_view known_station, UtcTime start);
 
-// Returns "XAAA", "XAAB" and so on, none of which is in the table: 17,576 names.
+// Returns one of 17,576 names that are not in the table: "XAAA", "XAAB" and so on.
 [[nodiscard]] std::string invented_station(std::size_t number);
 [[nodiscard]] Claims invented_claims(std::size_t number, UtcTime start);
 
 // the 24 bytes before the first record
 [[nodiscard]] Bytes file_header(const Claims& claims, int number = 1);
-// Returns the radials of one sweep, counted from 0.
+// Returns the radials of sweep number `sweep`; the first is 0.
 [[nodiscard]] Bytes sweep_messages(const Claims& claims, unsigned sweep);
 // Returns a whole volume: the header and one record.
 [[nodiscard]] Bytes volume_bytes(const Claims& claims);
-// The same without compression, which is faster to make.
+// Returns the same without compression, which is faster to make.
 [[nodiscard]] Bytes plain_volume_bytes(const Claims& claims);
 // Returns the header and records of one sweep that does not end: `radials` radials (a multiple of
 // 125) of `gates` gates of 16 bits. With 1,250 and 20,000 it has some 23 kB and unpacks to 50 MB.

@@ -1,4 +1,4 @@
-// Files that grow without end, and take memory and places while they are followed.
+// Tests files that grow without end, and take memory and places while the service follows them.
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -24,7 +24,8 @@ class LivingMemory : public HostileCases {
   protected:
     static constexpr int files = 100;
 
-    // Each unpacks to a sweep of 50 MB that does not end, and begins a record that never comes.
+    // Makes files that each unpack to a sweep of 50 MB without an end, and begin a record that
+    // never comes.
     void put_endless(const std::function<std::string(int)>& station_of) {
         for (int i = 0; i < files; ++i) {
             const std::string station = station_of(i);
@@ -72,7 +73,7 @@ TEST_F(LivingMemory, SweepsOfManyStationsThatNeverEndAreCounted) {
     stop();
 }
 
-// The bytes of a record that has not ended are a hole, so that they cost the sender nothing.
+// The bytes of the unfinished record are a hole in the file, which costs the sender nothing.
 TEST_F(LivingMemory, RecordsThatNeverEndAreCounted) {
     constexpr std::uint32_t record_bytes = 30'000'000;  // the longest that is allowed
     start();
@@ -90,7 +91,7 @@ TEST_F(LivingMemory, RecordsThatNeverEndAreCounted) {
     stop();
 }
 
-// More files and volumes of chunks than are followed, each of which begins and then stops.
+// Begins more files and volumes of chunks than the service follows, and never continues them.
 TEST_F(LivingMemory, WhatOnlyBeginsTakesNoPlaceFromWhatGoesOn) {
     start({.quiet_s = 60});
     const auto begun = [](std::string_view station) {

@@ -34,9 +34,9 @@ struct Share {
     unsigned in_ten_thousand;
 };
 
-// Shares of 10,000 files; the rest are volumes of invented stations. Kinds that cost the daemon a
-// second of processor time each, such as a bomb, are as rare as their sender would have to pay for
-// them.
+// Shares of 10,000 files; the rest are volumes of invented stations. Attacks that cost the daemon a
+// second of processor time each, such as a bomb, are rare, because their sender would have to pay
+// for them.
 constexpr std::array<Share, attack_count> shares = {{
     {Attack::invented, "invented", 3000},
     {Attack::known, "known", 300},
@@ -63,7 +63,7 @@ Claims small_claims(Claims claims) {
     return claims;
 }
 
-// `records` of 45 MB each, in some 90 bytes each.
+// Returns `records` compressed records of some 90 bytes; each unpacks to 45 MB.
 Bytes bomb_bytes(unsigned records) {
     static const Bytes stream = wire::bzip2(Bytes(45'000'000));
     const Bytes record =
@@ -75,7 +75,7 @@ Bytes bomb_bytes(unsigned records) {
     return all;
 }
 
-// Times that no real volume of the feed has: hours before it.
+// Returns a time that no real volume of the feed has: hours before the feed.
 UtcTime some_time(std::size_t number) {
     return now_utc() - hours{2} - milliseconds{static_cast<std::int64_t>(number) * 3001};
 }
@@ -92,7 +92,7 @@ void make_socket(const fs::path& path) {
 
 void append_bytes(const fs::path& path, const Bytes& bytes) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    if (file < 0) return;  // its directory was just renamed
+    if (file < 0) return;  // an attack has just renamed its directory
     if (::write(file, bytes.data(), bytes.size()) < 0)
         std::printf("%s: not written\n", path.c_str());
     ::close(file);
@@ -112,7 +112,7 @@ void remove_path(const fs::path& path) {
     fs::remove_all(path, ignored);
 }
 
-// Each name is derived from its number, so that few are written twice.
+// Returns a hostile name. It depends on `number`, so that few names repeat.
 std::string evil_name(std::uint64_t number, const std::string& station) {
     const std::string n = std::to_string(number);
     switch (number % 12) {
@@ -206,7 +206,7 @@ void HostileMix::make_bytes() {
     small_bombs_.push_back(bomb_bytes(1));
 }
 
-// In the directories of real stations, in the drop directory itself, or deeper.
+// Places the file in a directory of a real station, in the drop directory itself, or deeper.
 HostileMix::Standing HostileMix::place(std::string_view stem) {
     const std::string name = fmt::format("{}_{}", stem, ++number_);
     switch (below(8)) {
@@ -233,7 +233,7 @@ std::string HostileMix::some_station() {
                          : invented_station(below(invented_count));
 }
 
-// Writes in place, or under a dot-name and then renames.
+// Writes the file in place, or under a dot-name and then renames it.
 void HostileMix::write(const Standing& file, const Bytes& bytes) {
     const fs::path path = path_of(file);
     if (below(2) == 0) {
@@ -268,7 +268,7 @@ void HostileMix::strike_endless() {
     growing_.push_back(place(some_station()));
     const fs::path path = path_of(growing_.back());
     append_bytes(path, one_of(is_large ? endless_large_ : endless_small_));
-    // A hole in the place of a record that has not ended.
+    // Leave a hole in place of a record that has not ended.
     if (is_large && below(2) == 0) set_size(path, 25'000'000);
 }
 
@@ -290,11 +290,11 @@ void HostileMix::strike_chunk() {
         const bool is_invented = below(2) == 0;
         const std::string station =
             is_invented ? invented_station(below(invented_count)) : known_names_[volume.station];
-        // Numbers that the real feed does not reach.
+        // The real feed does not reach these numbers.
         volume.directory = options_.drop / station / std::to_string(100'000 + number_);
         const std::string time = format_compact(some_time(below(5000)));
         volume.name = time.substr(0, 8) + "-" + time.substr(9);
-        volume.next = 1 + static_cast<int>(below(3));  // some without their start
+        volume.next = 1 + static_cast<int>(below(3));  // some volumes lack their start
         std::error_code ignored;
         fs::create_directories(volume.directory, ignored);
     }
@@ -305,7 +305,7 @@ void HostileMix::strike_chunk() {
     append_bytes(path, records_[volume.station]);
 }
 
-// A directory is renamed and renamed back with everything in it; a file gets another name.
+// Renames a directory and renames it back, with everything in it, or gives a file another name.
 void HostileMix::strike_rename() {
     if (below(8) == 0) {
         fs::path& directory = directories_[below(directories_.size())];
@@ -351,7 +351,7 @@ void HostileMix::strike_sparse() {
     standing_.push_back(place(some_station() + "_sparse"));
     const fs::path path = path_of(standing_.back());
     append_bytes(path, one_of(unsettled_));
-    // One in twenty is within the allowed size of a raw file, and is read.
+    // One file in twenty is within the allowed size of a raw file, so the daemon reads it.
     const off_t size = below(20) == 0 ? off_t{200} << 20 : off_t{1} << (32 + below(9));
     set_size(path, size);
 }
@@ -452,7 +452,7 @@ void HostileMix::end() {
     thread_.join();
 }
 
-// Real volumes are in the directories of the stations. Everything else is the attacker's.
+// Removes everything but the real volumes, which are in the directories of the stations.
 void HostileMix::remove_all() {
     for (const Standing& file : standing_)
         remove_path(path_of(file));

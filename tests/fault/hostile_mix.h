@@ -1,8 +1,8 @@
 // tests/fault/hostile_mix.h -- a malicious writer: every kind of attack at once, chosen by a seed.
 //
-// It writes into a drop directory at a given rate, beside honest writers, below directories of its
-// own and below those of the stations. Its files claim invented or known stations, including the
-// real ones of the feed, at times that no real volume has. It never touches the files and
+// It writes into a drop directory at a given rate, beside honest writers, below its own directories
+// and below the directories of stations. Its files claim invented or known stations, including the
+// stations of the real feed, at times that no real volume has. It never touches the files and
 // directories of the honest writers, because no daemon could repair that. Only a limited number of
 // its files exist at a time; the oldest are removed first, and remove_all() removes everything. The
 // bytes are made in advance, so that writing costs little.
@@ -31,24 +31,24 @@ enum class Attack : std::uint8_t {
     invented,   // a volume of an unknown station, with or without a position
     known,      // a small volume that claims a known station
     endless,    // a file whose sweep never ends, of 5 or 50 MB unpacked, or an unfinished record
-    growth,     // some more bytes for one of these
+    growth,     // further bytes for an endless file
     unsettled,  // a file that cannot be gridded, has no end, or has no meaning
-    chunk,      // one of hundreds of volumes whose chunks come in turn, without end
-    rename,     // of a file or a directory, and back
-    link,       // symbolic, out, dangling, in loops
+    chunk,      // a chunk of one of hundreds of volumes, whose chunks come in turn without end
+    rename,     // a file or a directory is renamed, a directory also back
+    link,       // a symbolic link that leads out, dangles or loops
     special,    // a FIFO or a socket
-    sparse,     // GiB to TiB of holes
-    name,       // newlines, escapes, 255 bytes, names of other stations
-    clock,      // files of the past and the future, volumes of 1970 and 2049
-    bomb,       // a file that unpacks to far more
-    deleted,    // deleted right after it appeared
+    sparse,     // a file of GiB to TiB of holes
+    name,       // a name with newlines, escapes, 255 bytes or another station
+    clock,      // a file of the past or the future, or a volume of 1970 or 2049
+    bomb,       // a small file that unpacks to a huge one
+    deleted,    // a file that is deleted right after it appears
 };
 inline constexpr std::size_t attack_count = 14;
 [[nodiscard]] std::string_view name_of(Attack attack);
 
 struct MixOptions {
     std::filesystem::path drop;
-    std::filesystem::path outside;  // where links lead
+    std::filesystem::path outside;  // the target of links
     double rate = 1000;             // files a second
     std::uint32_t seed = 1;
     std::size_t most_standing = 50'000;
@@ -62,19 +62,20 @@ class HostileMix {
     ~HostileMix();
 
     void begin();
-    // Stops writing; all files stay.
+    // Stops writing, and keeps all files.
     void end();
     void remove_all();
 
-    // Returns how much was done of each kind. Call it after end().
+    // Returns the number of attacks of each kind. Call it after end().
     [[nodiscard]] const std::array<std::uint64_t, attack_count>& done() const { return done_; }
     [[nodiscard]] std::uint64_t all_done() const;
     [[nodiscard]] double seconds() const { return seconds_; }
 
   private:
-    // Directories are renamed meanwhile, so a file in one of `directories_` refers to it by index.
+    // A file in one of `directories_` refers to the directory by index, because attacks rename
+    // directories.
     struct Standing {
-        std::filesystem::path path;  // absolute, or below the directory
+        std::filesystem::path path;  // absolute, or relative to the directory
         std::optional<std::size_t> directory;
     };
     struct Volume {
@@ -88,7 +89,7 @@ class HostileMix {
     void strike();
     void strike(Attack attack);
     std::string some_station();
-    // Returns where the next file goes, and its name.
+    // Returns the directory and the name of the next file.
     Standing place(std::string_view stem);
     [[nodiscard]] std::filesystem::path path_of(const Standing& file) const;
     void write(const Standing& file, const Bytes& bytes);

@@ -1,5 +1,5 @@
-// Every attack at once, beside a real feed of 16 stations. Tests from outside that the bounds of
-// docs/reliability.md hold.
+// Runs every attack at once, beside a real feed of 16 stations, and tests from outside that the
+// bounds of docs/reliability.md hold.
 //
 //   STORMCELLAR_HOSTILE_SECONDS   duration (20; scripts/test --hostile: 1,800)
 //   STORMCELLAR_HOSTILE_RATE      hostile files a second (1,000)
@@ -28,16 +28,18 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using std::chrono::milliseconds;
 
-// The bounds.
+// The bounds of docs/reliability.md.
 constexpr double most_p95_s = 1, most_ready_s = 5;
 constexpr long most_resident_mib = 512;
-// Three for the database of each known station, as a feed of all stations needs, and some more.
+// Three descriptors for the database of each known station, as in a feed of all stations, and some
+// more.
 constexpr std::size_t most_descriptors_afterwards = 900;
 constexpr std::size_t queue_limit = 20'000;
 constexpr std::uint64_t cache_bytes = 1'000'000'000;
 constexpr std::uint64_t mib = std::uint64_t{1} << 20U;
 
-// Adds up what the plan gives to databases and growing volumes, and a reserve for all else.
+// Returns the descriptors that the plan assigns to databases and growing volumes, plus a reserve
+// for everything else.
 std::size_t most_descriptors() {
     constexpr std::size_t reserved = 256;
     const auto plan = daemon::DescriptorPlan::of_this_process();
@@ -51,7 +53,7 @@ std::string configuration() {
         queue_limit, cache_bytes);
 }
 
-// The maximum of everything, sampled four times a second.
+// The largest values, sampled four times a second.
 struct Peaks {
     std::size_t descriptors = 0, waiting = 0;
     std::uint64_t state_bytes = 0, cache_bytes = 0, unnamed_bytes = 0;
@@ -99,7 +101,7 @@ class Sampler {
     std::thread thread_;
 };
 
-// Latencies in seconds; volumes that were never gridded have none.
+// Returns latencies in seconds; volumes that were never gridded have none.
 struct Latencies {
     std::size_t volumes = 0, gridded = 0;
     double p50 = 0, p95 = 0, max = 0;
@@ -183,7 +185,8 @@ class HostileMixTest : public ::testing::Test {
         }
         EXPECT_EQ(missing, 0U) << when;
     }
-    // Each of their files is there once, complete, in the database of its station.
+    // Checks that each file of the volumes is cataloged once, as complete, in the database of its
+    // station.
     void expect_cataloged(const std::vector<RealVolume>& volumes) {
         const auto rows = catalog_rows(daemon_.catalog());
         std::size_t wrong = 0;
@@ -215,7 +218,7 @@ class HostileMixTest : public ::testing::Test {
 };
 
 TEST_F(HostileMixTest, RealStationsGoOnAsBefore) {
-    // In the short form, each station has at least two volumes.
+    // The period is short enough for at least two volumes of each station in the short form.
     RealFeed feed(daemon_.drop(), daemon_.cache(), seconds_ > 60 ? 25 : seconds_ * 0.4);
     HostileMix mix({.drop = daemon_.drop(),
                     .outside = daemon_.root() / "outside",
@@ -226,7 +229,7 @@ TEST_F(HostileMixTest, RealStationsGoOnAsBefore) {
     Sampler sampler(daemon_);
     feed.begin();
     mix.begin();
-    testing::pass_time(std::chrono::seconds{seconds_});  // as long as the attack is to last
+    testing::pass_time(std::chrono::seconds{seconds_});  // the attack lasts this long
     const auto volumes = feed.finish(10);
     mix.end();
     const Peaks peaks = sampler.end();

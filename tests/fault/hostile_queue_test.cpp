@@ -1,4 +1,5 @@
-// Files that would be read again and again: those that cannot be gridded, and chunks in turn.
+// Tests files that the service might read again and again: files that cannot be gridded, and chunks
+// of many volumes in turn.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -40,8 +41,8 @@ TEST_F(HostileCases, FilesThatCannotBeGriddedAreSettledAtOnceAndFillNoQueue) {
     stop();
 }
 
-// Counts how often files of some directories are opened, except those under a dot-name. The test's
-// own thread reads the events, often enough that the kernel loses none.
+// Counts how often files of some directories are opened, except files under a dot-name. The thread
+// of the test reads the events, often enough that the kernel drops none.
 class Openings {
   public:
     Openings() : events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {}
@@ -71,7 +72,7 @@ class Openings {
     std::size_t count_ = 0;
 };
 
-// More volumes of chunks than are followed at once, one chunk of each in turn.
+// Delivers more volumes of chunks than the service follows at once, one chunk of each in turn.
 TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
     constexpr int volumes = 350, chunks = 10;
     const UtcTime time = now_utc() - std::chrono::minutes{5};
@@ -79,7 +80,7 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
     const auto put_chunk = [&](int volume, int chunk) {
         Claims claims = claims_of("KTLX", time + seconds{volume % 100});
         claims.radials = 90;
-        claims.sweeps = chunks + 1;  // so that none of them ends
+        claims.sweeps = chunks + 1;  // so that no volume ends
         claims.is_varied = true;
         Bytes bytes = wire::ldm_record(sweep_messages(claims, static_cast<unsigned>(chunk)));
         if (chunk == 0) bytes = wire::join({file_header(claims), bytes});
@@ -99,7 +100,7 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
         for (int volume = 0; volume < volumes; ++volume) {
             put_chunk(volume, chunk);
             openings.count();
-            testing::pass_time(milliseconds{3});  // so that the daemon looks at each
+            testing::pass_time(milliseconds{3});  // so that the daemon handles each chunk
         }
     }
     expect_gridded("KFWS", put_good("KFWS"), 2 * prompt_s);

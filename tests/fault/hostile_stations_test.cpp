@@ -1,4 +1,5 @@
-// Files that claim unknown stations, or all known ones: descriptors, databases, grids.
+// Tests the descriptors, databases and grids that files of unknown stations, or of all known
+// stations, take.
 #include <chrono>
 #include <set>
 #include <string>
@@ -20,7 +21,7 @@ constexpr int few_descriptors = 512;
 
 class InventedStations : public HostileCases {
   protected:
-    // Limited as by a service manager, permanently.
+    // Limits the descriptors permanently, as a service manager does.
     InventedStations() {
         const std::string limit =
             std::to_string(few_descriptors) + ":" + std::to_string(few_descriptors);
@@ -52,7 +53,7 @@ TEST_F(InventedStations, TakeNoDescriptorsAndNoDatabases) {
     stop();
 }
 
-// There are more than the descriptors allow, if each station's database stayed open.
+// There are more stations than the descriptors allow if each station's database stayed open.
 TEST_F(InventedStations, ClaimsOfEveryKnownStationLeaveDescriptorsForTheRest) {
     start();
     for (const Station& station : all_stations()) {
@@ -71,7 +72,7 @@ TEST_F(InventedStations, ClaimsOfEveryKnownStationLeaveDescriptorsForTheRest) {
     stop();
 }
 
-// Databases made by a version that accepted every name.
+// Starts with databases of a version that accepted every name.
 TEST_F(InventedStations, AStateThatAnAttackLeftIsReadyAsSoon) {
     start();
     expect_gridded("KTLX", put_good("KTLX"));
@@ -122,7 +123,8 @@ TEST_F(HostileCases, AnInventedStationInsideAMosaicDoesNotEnterIt) {
     stop();
 }
 
-// A file that first names no station, or another one, and grows into one of an unknown station.
+// Tests a file that first names no station, or a known one, and then grows into a volume of an
+// unknown station.
 TEST_F(HostileCases, AnInventedStationHasNoLivingGridEither) {
     start();
     Claims claims = claims_of("KTLX", now_utc());

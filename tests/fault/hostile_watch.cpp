@@ -24,7 +24,7 @@ using std::chrono::milliseconds;
 
 constexpr std::uint64_t block = 512;  // the unit of st_blocks
 
-// Visits what can be read of a directory; entries that vanish meanwhile are left out.
+// Visits the readable entries below a directory; leaves out entries that vanish meanwhile.
 void for_each_entry(const fs::path& directory,
                     const std::function<void(const fs::directory_entry&)>& see) {
     std::error_code error;
@@ -97,7 +97,7 @@ double cpu_seconds(pid_t process) {
     const std::size_t behind_name = text.rfind(')');
     if (behind_name == std::string::npos) return 0;
     std::istringstream fields(text.substr(behind_name + 2));
-    constexpr int before_times = 11;  // counted from the state
+    constexpr int before_times = 11;  // fields from the state to the times
     for (int i = 0; i < before_times; ++i)
         fields >> text;
     double user = 0, system = 0;
@@ -157,7 +157,7 @@ bool comes_to_rest(const daemon::RunningDaemon& daemon, double seconds) {
     });
 }
 
-// The socket is closed after READY: nobody reads later messages, and the daemon must not block.
+// Close the socket after READY: nobody reads later messages, and the daemon must not block.
 double start_until_ready(daemon::RunningDaemon& daemon, const std::string& config) {
     const fs::path path = daemon.root() / "notify";
     fs::remove(path);

@@ -1,4 +1,4 @@
-// kill -9 at random moments, under load.
+// Kills the daemon (kill -9) at random moments under load.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// The leftovers of earlier kills are removed at the start.
+// Returns true if a write has begun in the cache. The start removes the leftovers of earlier kills.
 bool is_in_a_write(const std::filesystem::path& cache) {
     if (!std::filesystem::exists(cache)) return false;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(cache))
@@ -31,9 +31,8 @@ bool is_in_a_write(const std::filesystem::path& cache) {
     return false;
 }
 
-// The time of the kill ranges from before main() to the middle of the work. The longer it runs, the
-// more files arrive, but never so many that the daemon, which is killed before it has caught up,
-// falls behind for good.
+// The time of the kill ranges from before main() to the middle of the work. The longer the daemon
+// runs, the more files arrive, but so few that it catches up although it is killed again and again.
 TEST(Kill, AtRandomMomentsUnderLoad) {
     const int kills = number_of("STORMCELLAR_KILLS", 15);
     const auto seed = static_cast<std::uint32_t>(number_of("STORMCELLAR_SEED", 1));
@@ -72,7 +71,7 @@ TEST(Kill, AtRandomMomentsUnderLoad) {
     std::fflush(stdout);
 }
 
-// 2026-11-28: a tar that took all memory was met again at each start, until systemd gave up.
+// 2026-11-28: a tar that took all memory killed the process at each start, until systemd gave up.
 TEST(Kill, AFileThatEndsTheProcessIsLastAndThenGivenUp) {
     for (const int ends : {0, 5}) {
         daemon::RunningDaemon daemon;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr int gates = 160;  // of 250 m
 const std::vector<std::string> usual_stations = {"XFAA", "XFAB", "XFAC", "XFAD", "XFAE", "XFAF"};
 constexpr double latitude_deg = 35;
-constexpr double first_longitude_deg = -98;  // the next station is a degree farther east
+constexpr double first_longitude_deg = -98;  // each further station is a degree farther east
 constexpr double antenna_altitude_m = 380;
 
 level2::Volume pattern_of(const std::string& station, double longitude_deg) {
@@ -52,7 +52,7 @@ void expect(const Status& done) {
     if (!done) throw std::runtime_error(done.error().message);
 }
 
-// Writes like a script: under a dot-name, then renamed.
+// Writes a file as a script does: under a dot-name, then renames it.
 void put_whole(const Shipment& shipment) {
     const fs::path& file = shipment.delivered.files.front();
     const fs::path hidden = file.parent_path() / ("." + file.filename().native());
@@ -121,7 +121,7 @@ Shipment Shipments::volume(Way way) {
     return laid_out(way, pattern.station, start, pieces_of(encoded->joined()));
 }
 
-// Leaves out the last pieces, or for chunks one in the middle.
+// Leaves out the last pieces of a file, or a chunk in the middle.
 Shipment Shipments::part(Way way) {
     Shipment shipment = volume(way);
     shipment.delivered.contents = Contents::part;
@@ -149,7 +149,7 @@ std::optional<Shipment> Shipments::real(Way way) {
     if (real_.empty()) return std::nullopt;
     const Real& real = real_[static_cast<std::size_t>(number_) % real_.size()];
     if (way == Way::chunks && synth::has_ldm_records(real.bytes)) {
-        ++number_;  // number of the directory: every shipment has its own
+        ++number_;  // every shipment has a directory with its own number
         return laid_out(way, real.station, real.time, pieces_of(real.bytes));
     }
     Shipment shipment;
@@ -168,7 +168,7 @@ Shipment Shipments::next() {
     switch (random_() % 40) {
         case 0:
         case 1:
-            // The daemon waits half a minute for a lost chunk.
+            // The daemon waits half a minute for a missing chunk.
             return part(way == Way::chunks && !has_patience_ ? Way::growing : way);
         case 2:
         case 3:

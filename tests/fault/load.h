@@ -1,9 +1,9 @@
-// tests/fault/load.h -- the files that are written into a drop directory during faults.
+// tests/fault/load.h -- writes files into a drop directory during faults.
 //
-// They are small simulated volumes (message 31, two cuts of 360 radials) of several stations, each
-// at a time of its own; some of them cut short; junk; and, if there are any, real volumes under
-// names of their own. They are written in all four ways: whole by rename, growing and closed after
-// each piece, kept open, and one file for each chunk.
+// The files are small simulated volumes (message 31, two cuts of 360 radials) of several stations,
+// each with its own time, some of them truncated; junk; and real volumes, if there are any, under
+// new names. They are written in all four ways: whole by rename, growing and closed after each
+// piece, growing and kept open, and as one file for each chunk.
 #pragma once
 
 #include <atomic>
@@ -30,28 +30,30 @@ enum class Way { whole, growing, open, chunks };
 struct Shipment {
     Way way = Way::whole;
     std::vector<std::vector<std::byte>> pieces;
-    Delivered delivered;  // files: one for each piece of chunks, else one
+    Delivered delivered;  // `files` has one file for each piece of a volume in chunks, else one
 };
 
-// Returns [[station]] tables of the six stations that a load usually has.
+// Returns the [[station]] tables of the six stations of a usual load.
 [[nodiscard]] std::string usual_station_tables();
 
 class Shipments {
   public:
-    // Uses six stations and real volumes, or only these stations.
+    // Uses six stations and real volumes, or only the given stations.
     Shipments(std::filesystem::path drop, std::uint32_t seed,
               const std::vector<std::string>& stations = {});
 
-    // Returns the next one: usually a volume, sometimes a part of one, junk or a real volume.
+    // Returns the next shipment: usually a volume, sometimes a part of a volume, junk or a real
+    // volume.
     Shipment next();
-    // Chunks are only left out if there is time, because the daemon waits for them.
+    // Allows shipments that lack chunks. The daemon waits for missing chunks, so such a test takes
+    // longer.
     void have_patience() { has_patience_ = true; }
     // Returns a whole simulated volume.
     Shipment volume(Way way);
     Shipment junk();
     Shipment part(Way way);
-    // Returns a real volume. One without LDM records grows if chunks are requested. None if there
-    // are no data.
+    // Returns a real volume; none if there are no data. If chunks are requested but the volume has
+    // no LDM records, it comes as a growing file.
     std::optional<Shipment> real(Way way);
 
   private:
@@ -72,20 +74,21 @@ class Shipments {
     std::vector<Real> real_;
 };
 
-// Writes all of it at once. Throws if that fails.
+// Writes the whole shipment at once. Throws if that fails.
 void deliver(const Shipment& shipment);
 
-// A thread that writes one piece after another, of several shipments at a time.
+// A thread that writes the pieces of several shipments in turn.
 class Feed {
   public:
-    // `pause` follows each piece. Begins no more shipments than allow() has allowed in total.
+    // The thread pauses for `pause` after each piece. It begins at most as many shipments as
+    // allow() has allowed in total.
     Feed(Shipments shipments, std::uint32_t seed, std::chrono::microseconds pause);
     Feed(const Feed&) = delete;
     Feed& operator=(const Feed&) = delete;
     ~Feed();
 
     void allow(int shipments) { allowed_ = shipments; }
-    // Finishes what has begun, closes everything, and returns what was delivered.
+    // Finishes the shipments that have begun, closes all files, and returns the deliveries.
     std::vector<Delivered> finish();
     [[nodiscard]] int begun() const { return begun_; }
 

@@ -1,5 +1,5 @@
-// A machine that merges the parts of others ends between a part and its frames, or its disk fails
-// there once: the mosaic is afterwards, to the byte, what it would be without that.
+// Kills a machine that merges parts of other machines between a part and its frames, or makes its
+// disk fail there once. Afterward, the mosaic must have the same bytes as without the fault.
 #include <cerrno>
 #include <map>
 #include <utility>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::map<fs::path, std::vector<std::byte>>;
 
-// Two stations whose twelve parts make some twenty frames.
+// Merges twelve parts of two stations into some twenty frames.
 class Merging : public ::testing::Test {
   protected:
     Merging() {
@@ -49,7 +49,7 @@ class Merging : public ::testing::Test {
         }
         return files;
     }
-    // Returns what a machine makes if nothing disturbs it.
+    // Returns the files that a machine makes without a fault.
     [[nodiscard]] Files undisturbed() const {
         daemon::RunningDaemon daemon;
         daemon.start(configuration());
@@ -72,7 +72,7 @@ class Merging : public ::testing::Test {
     testing::TemporaryDirectory parts_;
 };
 
-// 2026-11-28: 11 of 12 runs that were killed ended with 10 to 21 of 26 frames without a radar.
+// 2026-11-28: after 11 of 12 kills, 10 to 21 of 26 frames lacked a radar.
 TEST_F(Merging, AKilledDaemonMakesTheFramesOfOneMachine) {
     const Files wanted = undisturbed();
     const int kills = number_of("STORMCELLAR_KILLS", 6);
@@ -80,7 +80,7 @@ TEST_F(Merging, AKilledDaemonMakesTheFramesOfOneMachine) {
         SCOPED_TRACE(kill);
         daemon::RunningDaemon daemon;
         daemon.start(configuration());
-        // Wait until so many grids stand, then kill at once.
+        // Wait until the cache has this many grids, then kill the daemon at once.
         const std::size_t until =
             2 + wanted.size() * static_cast<std::size_t>(kill) / static_cast<std::size_t>(kills);
         ASSERT_TRUE(testing::eventually([&] { return grids_of(daemon).size() >= until; }));
@@ -92,7 +92,7 @@ TEST_F(Merging, AKilledDaemonMakesTheFramesOfOneMachine) {
     }
 }
 
-// One failing call, and no restart.
+// Makes one call fail, without a restart.
 TEST_F(Merging, ADiskThatFailsOnceLeavesTheFramesOfOneMachine) {
     if (is_sanitized) GTEST_SKIP() << "the sanitizer must be loaded first";
     const Files wanted = undisturbed();

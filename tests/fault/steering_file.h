@@ -13,7 +13,7 @@ namespace stormcellar::fault {
 
 class SteeringFile {
   public:
-    // Calls of these kinds below these directories (three at most) are counted, and none fails.
+    // Counts calls of these kinds below these directories (three at most); no call fails yet.
     SteeringFile(const std::filesystem::path& file, const std::vector<std::filesystem::path>& below,
                  std::uint32_t kinds);
     SteeringFile(const SteeringFile&) = delete;
@@ -21,10 +21,11 @@ class SteeringFile {
     ~SteeringFile();
 
     Steering* operator->() const { return steering_; }
-    // From this call on, `count` calls fail; with UINT64_MAX, all until end().
+    // Makes `count` calls fail, beginning with call number `from`; with UINT64_MAX, all calls until
+    // end().
     void fail(std::uint64_t from, std::uint64_t count, int error_number);
     void end() { steering_->to = 0; }
-    // Returns the environment for the daemon.
+    // Returns the environment variables for the daemon.
     [[nodiscard]] std::map<std::string, std::string> environment() const;
 
   private:

@@ -1,5 +1,5 @@
-// Tests what can happen around the daemon: a full disk, no descriptors, a busy or damaged database,
-// a drop directory that vanishes and comes back, too many files, lost events.
+// Tests faults around the daemon: a full disk, no descriptors, a busy or damaged database, a drop
+// directory that vanishes and comes back, too many files, lost events.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -28,7 +28,8 @@ constexpr Way ways[] = {Way::whole, Way::growing, Way::open, Way::chunks};
 
 class Surroundings : public ::testing::Test {
   protected:
-    // Delivers this many volumes, in all ways in turn, and a real one and junk with every eighth.
+    // Delivers this many volumes, in all ways in turn, and a real volume and junk with every eighth
+    // volume.
     void deliver_some(int volumes) {
         for (int i = 0; i < volumes; ++i) {
             put(shipments_.volume(ways[i % 4]));
@@ -51,7 +52,7 @@ class Surroundings : public ::testing::Test {
         daemon_.start();
         expect_to_catch_up();
     }
-    // Delivers volumes that the daemon cannot store, about which it complains but goes on.
+    // Delivers volumes that the daemon cannot store. Expects that the daemon complains and goes on.
     void expect_complaints(std::initializer_list<const char*> texts) {
         deliver_some(8);
         EXPECT_TRUE(testing::eventually([&] { return complaints(texts) > 1; }))
@@ -70,7 +71,7 @@ class Surroundings : public ::testing::Test {
         return after;
     }
     bool log_says(const std::string& text) { return daemon_.running().wait_for_log(text); }
-    // Counts how often the log names one of the texts.
+    // Counts how often the log has one of the texts.
     std::size_t complaints(std::initializer_list<const char*> texts) {
         const std::string log = daemon_.running().log();
         std::size_t count = 0;
@@ -87,7 +88,7 @@ class Surroundings : public ::testing::Test {
     double seconds_ = 0;
 };
 
-// A file system of its own below a directory; it is unmounted with the object.
+// A file system of its own, mounted on a directory until the object is destroyed.
 class SmallDisk {
   public:
     SmallDisk(fs::path directory, const char* size) : directory_(std::move(directory)) {
@@ -126,7 +127,7 @@ TEST_F(Surroundings, AFullDisk) {
     expect_complaints(of_space);
     disk.free();
     expect_to_catch_up();
-    // Full at the start, too.
+    // The disk is also full at the next start.
     EXPECT_EQ(daemon_.stop(), 0) << daemon_.log_end();
     disk.fill();
     deliver_some(8);
@@ -143,7 +144,7 @@ TEST_F(Surroundings, AFullDisk) {
     stop_and_look();
 }
 
-// For example, if another part of the process or a small ulimit has taken them all.
+// Descriptors may run out because of another part of the process, or a small ulimit.
 TEST_F(Surroundings, NoDescriptorsLeft) {
     start_with(2);
     rlimit before{};
@@ -157,7 +158,8 @@ TEST_F(Surroundings, NoDescriptorsLeft) {
     stop_and_look();
 }
 
-// Longer than the ten seconds that a statement waits (catalog/station_opening.cpp).
+// The database is busy for longer than the ten seconds that a statement waits
+// (catalog/station_opening.cpp).
 TEST_F(Surroundings, ADatabaseThatAnotherProcessKeepsBusy) {
     start_with(6);
     {
@@ -172,7 +174,7 @@ TEST_F(Surroundings, ADatabaseThatAnotherProcessKeepsBusy) {
     stop_and_look();
 }
 
-// After a clean stop, everything is in the databases themselves, not in their write-ahead logs.
+// After a clean stop, all rows are in the databases themselves, not in their write-ahead logs.
 TEST_F(Surroundings, DatabasesThatAreDamagedUnderWay) {
     start_with(8);
     EXPECT_EQ(daemon_.stop(), 0) << daemon_.log_end();
@@ -185,7 +187,7 @@ TEST_F(Surroundings, DatabasesThatAreDamagedUnderWay) {
     fs::remove(catalog / "XFAD.sqlite");
     deliver_some(8);
     expect_to_catch_up();
-    // A log that is overwritten is noticed when it is read, which is after a crash.
+    // SQLite notices an overwritten log when it reads the log, which is after a crash.
     write_file(catalog / "XFAC.sqlite-wal", std::string(9000, 'x'));
     deliver_some(8);
     expect_to_catch_up();
@@ -206,9 +208,9 @@ TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
     fs::rename(away, daemon_.drop());
     deliver_some(4);
     expect_to_catch_up();
-    deliver_some(4);  // noticed by its events again
+    deliver_some(4);  // their events must arrive again
     expect_to_catch_up();
-    // Another directory in its place, into which the files are then written.
+    // Put another directory in its place, into which files are then written.
     fs::rename(daemon_.drop(), away);
     fs::create_directory(daemon_.drop());
     const std::uint64_t scans = daemon_.running().status()["scans"];
@@ -230,7 +232,7 @@ TEST_F(Surroundings, EventsThatTheKernelDropped) {
     limit >> most;
     daemon_.running().signal(SIGSTOP);
     const fs::path noise = daemon_.drop() / ".noise";
-    for (int events = 0; events <= most; events += 4) {  // created, written, closed, removed
+    for (int events = 0; events <= most; events += 4) {  // create, write, close, remove
         write_file(noise, "x");
         fs::remove(noise);
     }
@@ -241,7 +243,8 @@ TEST_F(Surroundings, EventsThatTheKernelDropped) {
     stop_and_look();
 }
 
-// They appear by one rename of a directory, while as many are being written, with volumes between.
+// One rename of a directory makes many files appear, while as many are being written, with volumes
+// in between.
 TEST_F(Surroundings, ManyFilesAtOnce) {
     const int files = number_of("STORMCELLAR_FAULT_FILES", 4000);
     const fs::path prepared = daemon_.running().root() / "prepared";

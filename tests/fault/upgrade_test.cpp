@@ -1,5 +1,5 @@
-// A configuration and a state of the time when every name of four letters was a station: with the
-// daemon of today they go on working, and the log says what has changed.
+// Runs the daemon with a configuration and a state of a version that accepted every name of four
+// letters as a station. They must still work, and the log must say what has changed.
 #include <string>
 
 #include "stormcellar/catalog/catalog.h"
@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A radar of the user's own, which is in no table.
+// A radar of the user, which is not in the table.
 constexpr const char* own_radar = "XABC";
 constexpr const char* own_radar_table =
     "[[station]]\nicao = \"XABC\"\nlatitude_deg = 35.3\nlongitude_deg = -97.3\n"
@@ -28,8 +28,8 @@ class Upgrade : public HostileCases {
         put(own_radar + format_compact(time), volume_bytes(claims));
         return time;
     }
-    // Makes the state that the daemon left when it still gridded whatever came. It did so for all
-    // stations; with "any" the daemon of today does so for 64.
+    // Makes the state of the old version, which gridded the files of any station. With "any", the
+    // present daemon does the same for 64 stations.
     void make_state_of_before() {
         start({.ingest = "stations = \"any\"\n"});
         old_volume_ = put_good("KTLX");
@@ -74,7 +74,7 @@ TEST_F(Upgrade, AnOldStateKeepsWorkingAndTheLogSaysWhatIsOfNoStation) {
     EXPECT_TRUE(fs::exists(daemon_.catalog() / "drop-directory"));
 }
 
-// The line of the log advises the user to add this table.
+// The log advises the user to add this table.
 TEST_F(Upgrade, WithATableOfItsOwnAnOldStationGoesOn) {
     make_state_of_before();
     start();
