@@ -11,7 +11,7 @@
 
 namespace stormcellar::testing {
 
-// `load_config` is the function of a service that reads its part of stormcellard.toml.
+// `load_config` is a service's function that reads its part of stormcellard.toml.
 template <auto load_config>
 class ConfigFile : public ::testing::Test {
   protected:

@@ -1,5 +1,5 @@
-// tests/fetch/mock_bucket.h -- a bucket on loopback that answers like Amazon S3, and makes the
-// faults that it is told to make.
+// tests/fetch/mock_bucket.h -- a bucket on loopback that answers like Amazon S3, with the faults
+// that a test sets.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ class MockBucket {
     enum class Fault {
         none,
         unavailable,  // 503
-        cut,          // the connection ends in the midst of the body
+        cut,          // the connection ends in the middle of the body
         longer,       // more bytes than the listing says
         shorter,      // a whole answer of fewer bytes than the listing says
         stalled,      // half of the body, and then nothing more
         missing,      // 404
         no_xml,       // for a listing: something other than XML
-        changed,      // 412: the contents differ from those that were requested
+        changed,      // 412: the object has changed
         other_part,   // 206, from another byte than requested
         endless_error,
     };

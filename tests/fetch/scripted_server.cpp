@@ -115,7 +115,8 @@ void ScriptedServer::serve() {
     }
 }
 
-// A test may ask thousands of times, and each thread that is not joined keeps its stack.
+// Joins the threads that have answered. A test may make thousands of requests, and a thread that is
+// not joined keeps its stack.
 void ScriptedServer::join_done() {
     answering_.remove_if([](Answering& one) {
         const bool is_done = one.is_done;

@@ -1,5 +1,4 @@
-// tests/fetch/scripted_server.h -- a server on the loopback that answers as a test says,
-// faults included.
+// tests/fetch/scripted_server.h -- a server on loopback that answers as a test says, with faults.
 #pragma once
 
 #include <atomic>
@@ -30,7 +29,7 @@ struct Asked {
 struct Reply {
     enum class Way {
         whole,
-        cut,    // the connection ends in the midst of the body
+        cut,    // the connection ends in the middle of the body
         hangs,  // half of the body, and then nothing more
         endless,
     };

@@ -1,4 +1,4 @@
-// A check of the configuration says as which user it was made.
+// A check of the configuration must say as which user it ran.
 #include "service/arguments.h"
 
 #include <gmock/gmock.h>
@@ -8,8 +8,8 @@
 namespace stormcellar {
 namespace {
 
-// 2026-11-28: stormcellar-pull did not say as whom it checked, and root, who may read everything,
-// was told that all is well.
+// 2026-11-28: stormcellar-pull did not say as which user it checked, so a check as root, who may
+// read everything, found no fault.
 TEST(ServiceArguments, TheCheckSaysAsWhom) {
     const std::string as = checked_as("stormcellar-pull", "stormcellar-pull");
     EXPECT_THAT(as, ::testing::StartsWith("checked as the user "));

@@ -1,4 +1,4 @@
-// tests/service/fake_notifier.h -- records what the service manager would be told.
+// tests/service/fake_notifier.h -- records the messages to the service manager.
 #pragma once
 
 #include <mutex>

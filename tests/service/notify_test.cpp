@@ -70,7 +70,7 @@ TEST(Watchdog, DoesNothingWhenThereIsNone) {
     EXPECT_FALSE(watchdog.next_time());
 }
 
-// Also without a watchdog, so that the log shows it.
+// A hang must be reported even without a watchdog, so that the log shows it.
 TEST(Watchdog, AHangIsNamedOnce) {
     for (const auto period :
          {std::optional<microseconds>{seconds{8}}, std::optional<microseconds>{}}) {

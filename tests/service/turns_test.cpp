@@ -1,4 +1,4 @@
-// The main loop of a service: turns, reloads, the watchdog and the end.
+// Tests the main loop of a service: turns, reloads, the watchdog and the end.
 #include "service/turns.h"
 
 #include <csignal>
@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::StartsWith;
 
-// Signals are sent before the loop begins, so that it takes one in each turn: SIGHUP first.
+// Sends signals before the loop begins, so that it takes one in each turn, SIGHUP first.
 class Turns : public ::testing::Test {
   protected:
     bool take(std::initializer_list<int> signals) {

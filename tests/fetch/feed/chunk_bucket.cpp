@@ -20,7 +20,7 @@ std::string key_of(const std::string& station, int volume, UtcTime time, int num
     return fmt::format("{}/{}/{}-{:03}-{}", station, volume, dashed_time(time), number, kind);
 }
 
-// Another process may write, rename and remove files there meanwhile; then it is read again.
+// Reads the directory again if another process writes, renames or removes files in it meanwhile.
 std::map<std::string, std::string> files_below(const std::filesystem::path& directory) {
     std::map<std::string, std::string> files;
     std::error_code error;

@@ -1,5 +1,5 @@
-// tests/fetch/feed/chunk_bucket.h -- the public chunk bucket on the loopback: it lists and gives as
-// Amazon S3 does, and does wrong what a test says.
+// tests/fetch/feed/chunk_bucket.h -- the public chunk bucket on loopback. It answers like Amazon
+// S3, with the faults that a test sets.
 #pragma once
 
 #include <chrono>
@@ -24,20 +24,20 @@ class ChunkBucket {
 
     [[nodiscard]] std::string url() const { return server_.url(); }
     void put(const std::string& key, std::string contents);
-    // Puts the chunks of the volume with these numbers, an S first; `end`: the last is an E.
-    // The contents of a chunk are its key.
+    // Puts chunks 1 to `chunks` of a volume. The first is an S; the last is an E if `has_end`. The
+    // contents of a chunk are its key.
     void put_volume(const std::string& station, int number, UtcTime time, int chunks,
                     bool has_end = true);
     void remove(const std::string& key);
-    // The listing says this size of the object, whatever its contents are.
+    // Makes listings give this size for the object, whatever its contents are.
     void say_size(const std::string& key, std::uint64_t bytes);
     void set_page(int keys) { page_ = keys; }
-    // Requests so far, as "LIST KTLX/494/" and "GET KTLX/494/20220317-000842-001-S".
+    // Returns the requests so far: "LIST KTLX/494/", "GET KTLX/494/20220317-000842-001-S".
     [[nodiscard]] std::vector<std::string> asked() const;
     [[nodiscard]] std::size_t count(std::string_view request) const;
     [[nodiscard]] std::map<std::string, std::string> objects() const;
 
-    // Changes answers; the text is as in asked(). Set before the first request.
+    // Changes answers; the text is the request as in asked(). Set it before the first request.
     std::function<testing::Reply(const std::string&, testing::Reply)> change =
         [](const std::string&, testing::Reply reply) { return reply; };
 
@@ -51,17 +51,18 @@ class ChunkBucket {
     [[nodiscard]] std::string listing(const testing::Asked& asked) const;
 
     int page_ = 1000;
-    mutable std::mutex mutex_;  // guards what follows
+    mutable std::mutex mutex_;  // guards the members below
     std::map<std::string, Object> objects_;
     std::vector<std::string> asked_;
     testing::ScriptedServer server_{[this](const testing::Asked& asked) { return answer(asked); }};
 };
 
-// "20220317-000842", as keys have it.
+// Returns the time as in keys: "20220317-000842".
 [[nodiscard]] std::string dashed_time(UtcTime time);
 [[nodiscard]] std::string key_of(const std::string& station, int volume, UtcTime time, int number,
                                  char kind);
-// The files below a directory, by their paths in it; temporary ones too.
+// Returns the contents of the files below a directory, by their relative paths, with temporary
+// files.
 [[nodiscard]] std::map<std::string, std::string> files_below(
     const std::filesystem::path& directory);
 

@@ -1,4 +1,4 @@
-// Keys of chunks become paths, and nothing else does.
+// Only keys of chunks may become paths.
 #include "fetch/feed/chunk_key.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ TEST(ChunkKey, NothingElseIsTaken) {
         EXPECT_FALSE(parse_chunk_key(key, now)) << key;
 }
 
-// Only a path of three parts without anything odd in it is taken, whatever a bucket names.
+// Only plain paths of three parts may be accepted, whatever a bucket lists.
 TEST(ChunkKey, OfChangedKeysOnlySuchAreTakenThatAreWrittenTheSame) {
     std::mt19937 chance(1);
     const std::string good = "KTLX/494/20220317-000842-001-S";

@@ -1,4 +1,4 @@
-// Chunks appear whole under LDM's names, and the limits are kept.
+// Chunks must appear whole under LDM's names, and within the limits.
 #include "fetch/feed/feed_drop.h"
 
 #include <fstream>
@@ -122,7 +122,7 @@ TEST_F(Dropping, AfterAPowerCutNoChunkIsThereInPart) {
     const std::vector<std::byte> bytes(100, std::byte{7});
     ASSERT_TRUE(drop->write(key("KTLX", 494, drop_now, 1), bytes));
     disk.power_cut();
-    std::ofstream(root() / "KTLX/494/20261128-120000-002-I");  // a name without its contents
+    std::ofstream(root() / "KTLX/494/20261128-120000-002-I");  // empty, as after a power cut
     FeedDrop again = open();
     EXPECT_FALSE(again.has(key("KTLX", 494, drop_now, 1), 100)) << "so it is fetched again";
     EXPECT_TRUE(files_below(root()).empty());

@@ -1,5 +1,5 @@
-// The real programs: the bucket plays real volumes, stormcellar-feed writes their chunks, and
-// stormcellard makes the same grids of them as of LDM's.
+// Runs the real programs: a bucket offers real volumes, stormcellar-feed writes their chunks, and
+// stormcellard must make the same grids from them as from chunks that LDM writes.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -29,7 +29,7 @@ constexpr const char* small_grids =
 
 class FeedPrograms : public ::testing::Test {
   protected:
-    // A set of real chunks, as the objects of a directory of the bucket.
+    // Returns a set of real chunks, as objects of a directory of the bucket.
     static std::map<std::string, std::string> chunks(const std::string& set,
                                                      const std::string& directory) {
         std::map<std::string, std::string> objects;
@@ -53,15 +53,15 @@ class FeedPrograms : public ::testing::Test {
     [[nodiscard]] bool wait_for_files(std::size_t count) const {
         return testing::eventually([&] { return files().size() >= count; });
     }
-    // Without temporary files.
+    // Returns the files without temporary files.
     [[nodiscard]] std::map<std::string, std::string> files() const {
         auto files = files_below(daemon_.drop());
         std::erase_if(files,
                       [](const auto& one) { return one.first.find("/.") != std::string::npos; });
         return files;
     }
-    // Returns what another daemon makes of the same chunks, written as LDM writes them; empty if it
-    // did not ingest all.
+    // Returns the grids that another daemon makes from the same chunks, written as LDM writes them;
+    // empty if it did not ingest all.
     static std::map<std::string, std::string> grids_by_ldm(
         const std::map<std::string, std::string>& objects, int volumes) {
         RunningDaemon daemon;
@@ -106,7 +106,7 @@ TEST_F(FeedPrograms, TheGridsAreTheBytesOfLdms) {
 
 TEST_F(FeedPrograms, KilledInTheMiddleOfAVolumeItLosesNothing) {
     STORMCELLAR_NEED_DATA();
-    // The bucket holds back an answer until the feed is killed that waits for it.
+    // The bucket holds back an answer until the feed, which waits for it, is killed.
     std::atomic<int> gets{0};
     std::atomic<bool> is_killed{true};
     bucket_.change = [&](const std::string& asked, testing::Reply reply) {

@@ -1,4 +1,4 @@
-// The bucket over HTTP: its chunks arrive whole, and its faults harm nothing.
+// Follows a bucket over HTTP. Chunks must arrive whole, and faults of the bucket must do no harm.
 #include "fetch/feed/feed_service.h"
 
 #include <fstream>
@@ -52,7 +52,7 @@ TEST_F(FeedingFrom, EverythingArrivesWithItsNames) {
 TEST_F(FeedingFrom, ListingsOfManyPagesAreRead) {
     bucket_.set_page(50);
     bucket_.put_volume("KTLX", 494, recent, 180);
-    bucket_.put_volume("KTLX", 494, recent - std::chrono::hours{90}, 10);  // of the last round
+    bucket_.put_volume("KTLX", 494, recent - std::chrono::hours{90}, 10);  // of the round before
     feed_.start();
     ASSERT_TRUE(feed_.wait_for_files(180));
     EXPECT_EQ(bucket_.count("GET "), 180U);
@@ -105,7 +105,8 @@ TEST_F(FeedingFrom, ABucketThatForbidsOrIsGoneIsNamed) {
     EXPECT_EQ(feed_.station().error, "");
 }
 
-// Each of these befalls chunk 3 of the newest volume every time; the others arrive.
+// Each of these faults affects every request for chunk 3 of the newest volume; the other chunks
+// must arrive.
 TEST_F(FeedingFrom, AChunkThatIsNoGoodIsGivenUpAndHoldsUpNoOther) {
     put_two_volumes();
     const Reply faults[] = {{403, "no", "", Reply::Way::whole},
@@ -157,7 +158,8 @@ TEST_F(FeedingFrom, SizesThatNoChunkHasAreNotAskedFor) {
     EXPECT_EQ(bucket_.count("GET " + key(2)) + bucket_.count("GET " + key(3)), 0U);
 }
 
-// A server may say one of these instead of a listing. It answers the next attempt well.
+// The server gives one of these answers instead of a listing, and a good listing at the next
+// attempt.
 TEST_F(FeedingFrom, ListingsThatAreNoneAreAskedForAgain) {
     std::string many;
     for (int i = 0; i < 1100; ++i)
@@ -183,7 +185,7 @@ TEST_F(FeedingFrom, ListingsThatAreNoneAreAskedForAgain) {
         ChunkBucket bucket;
         std::atomic<int> listings{0};
         bucket.change = [&](const std::string& asked, Reply reply) {
-            // Endless pages are four requests.
+            // Four requests ask for endless pages.
             return asked.starts_with("LIST") &&
                            ++listings <=
                                1 + 3 * (fault.body.find("more") != std::string::npos ? 1 : 0)
@@ -241,8 +243,8 @@ TEST_F(FeedingFrom, AStationThatFallsSilentIsNamedUntilItSendsAgain) {
     EXPECT_TRUE(feed_.station(1).is_silent) << "which the bucket does not have";
 }
 
-// 2026-11-28: after an outage at the start, the first answer of a search made the feed say that the
-// bucket has no volume of the station.
+// 2026-11-28: after an outage at the start, the feed took the first answer of a search as a sign
+// that the bucket has no volume of the station.
 TEST_F(FeedingFrom, AnOutageIsNoSilenceOfAStation) {
     feed_.config.silent_after = std::chrono::seconds{3};
     std::atomic<bool> is_down{true};
@@ -257,8 +259,8 @@ TEST_F(FeedingFrom, AnOutageIsNoSilenceOfAStation) {
     EXPECT_FALSE(feed_.station().is_silent);
 }
 
-// 2026-11-28: the bytes were looked at every 20 s alone, and a bucket that names new volumes all
-// the time brought three times what the limit allows.
+// 2026-11-28: the feed checked the bytes only every 20 s, and a bucket that kept listing new
+// volumes brought three times as many bytes as the limit allows.
 TEST_F(FeedingFrom, TheLimitOfBytesHoldsBetweenTwoLooksAtAges) {
     feed_.config.bytes = 8 * 16'384;
     feed_.config.between_prunes = std::chrono::hours{1};
@@ -276,7 +278,8 @@ TEST_F(FeedingFrom, AFullDiskIsNamedAndLosesNothing) {
     feed_.start(disk);
     ASSERT_TRUE(testing::eventually([&] { return feed_.station().failures > 0; }));
     EXPECT_THAT(feed_.station().error, HasSubstr("space"));
-    // 2026-11-28: each listing meanwhile said that the bucket answers again.
+    // 2026-11-28: each listing logged that the bucket answers again, although the disk was still
+    // full.
     ::testing::internal::CaptureStderr();
     ASSERT_TRUE(testing::eventually([&] { return feed_.station().failures > 2; }));
     EXPECT_THAT(::testing::internal::GetCapturedStderr(), Not(HasSubstr("again")));

@@ -1,4 +1,4 @@
-// tests/fetch/feed/made_keys.h -- the keys of a bucket in memory, listed as Amazon S3 does.
+// tests/fetch/feed/made_keys.h -- lists the keys of a bucket in memory as Amazon S3 does.
 #pragma once
 
 #include <set>
@@ -11,7 +11,7 @@ namespace stormcellar::feed {
 
 inline constexpr std::uint64_t made_size = 100;
 
-// All pages at once, as BucketClient passes them on.
+// Returns all pages as one, as BucketClient passes them on.
 [[nodiscard]] inline fetch::ListingPage listed(const std::set<std::string>& keys,
                                                const fetch::ListingQuestion& question) {
     fetch::ListingPage page;

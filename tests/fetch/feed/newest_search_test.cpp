@@ -1,4 +1,4 @@
-// The newest volume is found in rings of every shape, with few questions.
+// The search must find the newest volume in rings of every shape, with few questions.
 #include "fetch/feed/newest_search.h"
 
 #include <array>
@@ -31,7 +31,8 @@ Found search(const std::set<std::string>& keys) {
     return found;
 }
 
-// A station that made `kept` volumes, one each five minutes, the last one with number `newest`.
+// Returns the keys of a station that made `kept` volumes, one each five minutes; the last has
+// number `newest`.
 std::set<std::string> ring(int newest, int kept) {
     std::set<std::string> keys;
     for (int back = 0; back < kept; ++back) {
@@ -51,13 +52,13 @@ TEST(NewestSearch, FindsTheNewestOfAnyRing) {
         const int newest = round < 4
                                ? std::array{1, 2, 998, 999}.at(static_cast<std::size_t>(round))
                                : static_cast<int>(chance() % 999) + 1;
-        // A few volumes, part of a ring, a whole one, and more rounds than one.
+        // A few volumes, a part of a ring, a whole ring, and more than one round.
         for (const int kept : {2, 3, 17, 288, 998, 999, 1005, 1500}) {
             const Found found = search(ring(newest, kept));
             ASSERT_TRUE(found.start) << newest << ' ' << kept;
             EXPECT_EQ(found.start->number, before(newest)) << newest << ' ' << kept;
             EXPECT_LE(found.questions, 13);
-            // From that time on, the directory holds only the volume before the newest.
+            // From that time on, the directory has only the volume before the newest.
             const UtcTime wanted = noon - minutes{6};
             EXPECT_LE(found.start->from, wanted);
             EXPECT_GT(found.start->from, wanted - minutes{5 * 999});

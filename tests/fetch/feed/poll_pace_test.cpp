@@ -1,4 +1,4 @@
-// The bucket is asked at the right times: a made clock, no waiting.
+// Tests the times of listings with a simulated clock.
 #include "fetch/feed/poll_pace.h"
 
 #include <vector>
@@ -13,7 +13,7 @@ using std::chrono::seconds;
 
 constexpr milliseconds every{4000};
 
-// The most that fall into one minute.
+// Returns the largest number of times within one minute.
 std::size_t most_a_minute(const std::vector<SteadyTime>& times) {
     std::size_t most = 0;
     for (std::size_t first = 0, last = 0; last < times.size(); ++last) {

@@ -52,7 +52,7 @@ class RunningFeed {
         const std::scoped_lock lock(mutex_);
         return number < status_.stations.size() ? status_.stations[number] : StationStatus{};
     }
-    // The files that stormcellard would look at.
+    // Returns the files that stormcellard would see.
     [[nodiscard]] std::map<std::string, std::string> files() const {
         auto files = files_below(config.drop);
         std::erase_if(files,

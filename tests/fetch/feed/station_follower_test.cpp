@@ -1,4 +1,4 @@
-// A station is followed through all that may happen in the bucket: keys in memory, a made clock.
+// Follows a station through all events in a bucket in memory, with a simulated clock.
 #include "fetch/feed/station_follower.h"
 
 #include <algorithm>
@@ -15,13 +15,14 @@ using std::chrono::seconds;
 
 const UtcTime start = *parse_utc("2026-11-28T12:00:00Z", {});
 
-// Asks as StationFeed does: one listing a turn, all chunks of its answer at once.
+// Asks as StationFeed does: one listing a turn, then all new chunks of its answer.
 class Following : public ::testing::Test {
   protected:
     void begin(const std::vector<VolumeId>& written = {}) {
         follower_ = std::make_unique<StationFollower>("KTLX", written, steady_);
     }
-    // Asks `turns` times, four seconds apart. Returns what came, in its order.
+    // Asks `turns` times, four seconds apart. Returns the new chunks in the order in which they
+    // came.
     std::vector<std::string> turns(int turns) {
         std::vector<std::string> came;
         for (int i = 0; i < turns; ++i) {
@@ -39,7 +40,7 @@ class Following : public ::testing::Test {
         }
         return came;
     }
-    // Until nothing more comes.
+    // Does the same until no more chunks come.
     std::vector<std::string> all() {
         std::vector<std::string> came;
         for (int quiet = 0; quiet < 12;) {
@@ -57,7 +58,7 @@ class Following : public ::testing::Test {
     }
 
     std::set<std::string> keys_;
-    std::vector<std::string> questions_;  // their prefixes
+    std::vector<std::string> questions_;  // prefixes of the questions
     std::unique_ptr<StationFollower> follower_;
     SteadyTime steady_ = steady_now(), news_ = steady_;
     seconds elapsed_{0};
@@ -123,7 +124,7 @@ TEST_F(Following, AnEndThatNeverComesHoldsUpNothing) {
 }
 
 TEST_F(Following, AfterNumber999ComesNumber1) {
-    add_volume(keys_, 1, start - minutes{999 * 5}, 5);  // of the last round
+    add_volume(keys_, 1, start - minutes{999 * 5}, 5);  // of the round before
     begin({{start, 999}});
     add_volume(keys_, 999, start, 5);
     EXPECT_EQ(all().size(), 5U) << "the last round's is none of this one";

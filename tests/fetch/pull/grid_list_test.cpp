@@ -42,7 +42,7 @@ TEST(GridList, HasThePartsOfTheDomainsNewestFirst) {
         << "all domains";
 }
 
-// 2026-11-28: four megabytes of a list hold 67,000 names, and each was kept.
+// 2026-11-28: a list of four megabytes has 67,000 names, and the puller kept them all.
 TEST(GridList, HasTheNewestOfMoreThanAnyMachineHas) {
     std::string entries;
     for (std::size_t i = 0; i <= most_listed; ++i) {
@@ -68,8 +68,8 @@ TEST(GridList, LeavesOutWhatMakesNoSense) {
     }
 }
 
-// Every name that is taken from a list is that of a part of these domains and leads nowhere else,
-// whatever a machine sends.
+// Only names of parts of these domains may be accepted, and no path may lead elsewhere, whatever a
+// machine sends.
 TEST(GridList, OfMutantsOnlyPossibleNamesAreLeft) {
     const std::string good = R"({"grids":[)" + entry("us.KTLX", "REF", "2026-11-27T11:50:00Z") +
                              "," + entry("us.KINX", "VEL", "2026-11-27T11:55:00.250Z") +

@@ -1,4 +1,4 @@
-// Several machines at once, and the file that says how it goes.
+// Pulls from several machines at once, and tests the status file.
 #include "fetch/pull/pull_service.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ json status_of(const std::filesystem::path& directory) {
     return json::parse(begin, begin + bytes->size(), nullptr, false);
 }
 
-// The state of a machine once it is as expected, or after ten seconds.
+// Waits until the state of a machine is as expected, at most ten seconds. Returns the state.
 std::string state_of(PullService& service, const std::filesystem::path& directory,
                      std::size_t number, const std::string& expected) {
     std::string state;
@@ -55,7 +55,7 @@ TEST(PullService, OneMachineThatHangsHoldsUpNoOther) {
         const auto now = (*service)->longest_silence();
         return std::exchange(silence, now) > now;
     })) << "a transfer that hangs is seen to be alive";
-    service->reset();  // it waits for no machine, else it would take an hour
+    service->reset();  // must not wait for the machine, which would take an hour
 }
 
 TEST(PullService, AMachineThatIsAwayIsNamedAndAskedAgain) {

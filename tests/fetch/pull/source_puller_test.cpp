@@ -1,4 +1,4 @@
-// One machine is asked: what it has arrives whole, and what it does wrong harms nothing.
+// Pulls from one machine. Its grids must arrive whole, and its faults must do no harm.
 #include "fetch/pull/source_puller.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class OtherMachine {
     }
     // Makes grid `number` again with other cells.
     void make_again(std::size_t number) { write(names_.at(number), 5); }
-    // Changes each answer to a request for a file.
+    // These change the answers to requests for files, for lists, and for missing files.
     std::function<Reply(Reply)> of_files = [](Reply reply) { return reply; };
     std::function<Reply(Reply)> of_lists = [](Reply reply) { return reply; };
     std::function<Reply(Reply)> of_missing = [](Reply reply) { return reply; };
@@ -110,7 +110,7 @@ class Pulling : public ::testing::Test {
         return std::make_unique<SourcePuller>(PullSource{"north", other_.url(), {"us"}}, config_,
                                               std::move(*grids), stop_);
     }
-    // The limit is what the directory holds; two more grids wait.
+    // Sets the limit to the present bytes of the directory, and offers two more grids.
     void reach_the_limit() {
         const auto north = puller();
         ASSERT_TRUE(north->turn());
@@ -121,7 +121,7 @@ class Pulling : public ::testing::Test {
     [[nodiscard]] std::string pulled(std::size_t number) const {
         return text_of(north() / cache::relative_path(other_.name(number)));
     }
-    // Everything below the directory that is a file.
+    // Returns all files below the directory.
     [[nodiscard]] std::vector<std::string> files() const {
         std::vector<std::string> names;
         for (const auto& entry : fs::recursive_directory_iterator(north()))
@@ -147,7 +147,8 @@ TEST_F(Pulling, BringsWhatIsMissingAndAsksForNothingTwice) {
     EXPECT_EQ(north->pause(), config_.every);
     other_.server().forget_asked();
     ASSERT_TRUE(north->turn());
-    // The second list is the short one, of another address; the third has the tag of the second.
+    // The second request is for the short list, which has another URL; the third sends the tag of
+    // the second list.
     ASSERT_TRUE(north->turn());
     const auto asked = other_.server().asked();
     ASSERT_EQ(asked.size(), 2U);
@@ -168,8 +169,8 @@ TEST_F(Pulling, AYoungGridThatWasMadeAgainComesAgain) {
     EXPECT_TRUE(pulled(1) == other_.file(1));
 }
 
-// 2026-11-28: young grids were fetched again, up to 1,000 in a turn, and nothing looked at their
-// bytes meanwhile: a machine that made them anew, and larger, filled the disk.
+// 2026-11-28: a turn fetched up to 1,000 young grids again without checking their bytes: a machine
+// that made them again, but larger, filled the disk.
 TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
     other_.add(std::chrono::minutes{5}, 2);
     ASSERT_TRUE(puller()->turn());
@@ -181,8 +182,8 @@ TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
     EXPECT_EQ(std::ranges::count_if(other_.server().asked(), is_file), 1) << "of two young ones";
 }
 
-// 2026-11-28: at its limit of bytes a machine took one new grid and asked for one again in a turn,
-// so that it fell behind for good.
+// 2026-11-28: at the limit of bytes, each turn fetched only one new grid and one grid again, so the
+// puller fell behind for good.
 TEST_F(Pulling, AtItsLimitAllThatIsNewComesAndTheOldestGo) {
     reach_the_limit();
     ASSERT_TRUE(puller()->turn());
@@ -190,7 +191,7 @@ TEST_F(Pulling, AtItsLimitAllThatIsNewComesAndTheOldestGo) {
         EXPECT_EQ(pulled(number).empty(), number < 2) << number;
 }
 
-// 2026-11-28: a machine at its limit fetched the same grid in each turn, and removed it again.
+// 2026-11-28: at the limit, each turn fetched the same grid and removed it again.
 TEST_F(Pulling, AtItsLimitNothingIsFetchedInVainAgain) {
     reach_the_limit();
     const auto north = puller();
@@ -212,7 +213,7 @@ TEST_F(Pulling, WhatComesCutOrChangedIsRefusedAndComesLater) {
         [](Reply reply) { return reply.headers.clear(), reply; },
         [](Reply reply) { return reply.body = "<html>", reply; },
         [](Reply reply) { return reply.body.clear(), reply; },
-        // A whole grid, but another one than was asked for.
+        // A whole grid, but not the requested one.
         [&](Reply) {
             return Reply{200, other_.file(0), "ETag: \"x\"\r\n", Reply::Way::whole};
         },
@@ -245,8 +246,9 @@ TEST_F(Pulling, ABadGridWaitsAndHoldsUpNoOther) {
     EXPECT_TRUE(pulled(1) == other_.file(1));
 }
 
-// 2026-11-28: a list of 10,000 new names each turn, each answered with junk, left 165,000
-// directories in half a minute, a line of the log for each, and names in memory for hours.
+// 2026-11-28: a machine that listed 10,000 new names each turn and answered each request with junk
+// caused 165,000 directories in half a minute, a log line for each, and names that stayed in memory
+// for hours.
 TEST_F(Pulling, AMachineOfJunkIsLeftAloneAndLeavesNothing) {
     int turn = 0;
     other_.of_lists = [&](Reply reply) {
@@ -318,7 +320,7 @@ TEST_F(Pulling, AMachineThatHangsIsGivenUpAndATransferEndsWhenItMust) {
     EXPECT_NE(north->status().error, "");
     EXPECT_THAT(files(), ::testing::IsEmpty());
 
-    config_.stall = std::chrono::hours{1};  // the test would not end before
+    config_.stall = std::chrono::hours{1};  // so that only stop_ ends the transfer
     other_.server().forget_asked();
     const auto patient = puller();
     std::thread stopper([&] {
@@ -374,7 +376,7 @@ TEST_F(Pulling, TheOldestGiveWay) {
     EXPECT_TRUE(fs::is_empty(north())) << "directories without grids go, too";
 }
 
-// 2026-11-28: a machine was never asked again.
+// 2026-11-28: after memory had run out once, the client never made another request.
 TEST(HttpClient, GoesOnWhereMemoryWasShort) {
     const ScriptedServer server([](const Asked&) {
         Reply reply;
