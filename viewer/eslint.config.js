@@ -8,8 +8,8 @@ export default tseslint.config(
         languageOptions: { parserOptions: { project: './tsconfig.json' } },
         linterOptions: { reportUnusedDisableDirectives: 'error' },
         rules: {
-            // A "!" may follow an index or a call, if the code around it knows that the answer is there: loops over
-            // typed arrays would be full of checks that never fail. After a name it hides a case.
+            // Allow "!" after an index or a call, where the code around it knows that there is a value. Otherwise loops
+            // over typed arrays would need checks that never fail. Refuse "!" after a name, where it hides a case.
             '@typescript-eslint/no-non-null-assertion': 'off',
             'no-restricted-syntax': [
                 'error',
@@ -22,22 +22,22 @@ export default tseslint.config(
             // States of cells and kinds of bricks are numbers of a format, which typed arrays hold.
             '@typescript-eslint/no-unsafe-enum-assignment': 'off',
             '@typescript-eslint/no-unsafe-enum-comparison': 'off',
-            // "counts[i]! += 1" needs its "!", which this rule does not see.
+            // This rule would remove the "!" of "counts[i]! += 1", which TypeScript needs.
             '@typescript-eslint/no-unnecessary-type-assertion': 'off',
-            // A callback in one line is easy to read, and "return this.fail()" says that nothing follows.
+            // Allow callbacks in one line, and "return this.fail()", which shows that the function ends there.
             '@typescript-eslint/no-confusing-void-expression': 'off',
-            // An empty text is no answer, either.
+            // Allow "||" for texts, where an empty text counts as missing.
             '@typescript-eslint/prefer-nullish-coalescing': ['error', { ignorePrimitives: { string: true } }],
-            // Numbers in texts are usual.
+            // Allow numbers in template strings.
             '@typescript-eslint/restrict-template-expressions': ['error', { allowNumber: true }],
         },
     },
     {
-        // A wrong "!" ends a test, which is what a test is for.
+        // Allow any "!" in tests, because a wrong "!" makes the test fail.
         files: ['src/**/*.test.ts', 'src/testing/*.ts'],
         rules: {
             'no-restricted-syntax': 'off',
-            // What stands in for a server answers later, and a failure shows a place.
+            // Allow async functions without await, which replace a server, and arrays in the messages of failures.
             '@typescript-eslint/require-await': 'off',
             '@typescript-eslint/restrict-template-expressions': ['error', { allowNumber: true, allowArray: true }],
         },

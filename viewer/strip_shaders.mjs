@@ -1,4 +1,4 @@
-// Copies shaders without comments, indents and blank lines, because the page is small:
+// Copies shaders without comments, indents and blank lines, which keeps the page small.
 //   node strip_shaders.mjs FROM_DIRECTORY TO_DIRECTORY
 import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';

@@ -1,4 +1,4 @@
-// Puts the page together.
+// Creates all parts of the page.
 
 import { App } from './page/app';
 import { addCompass } from './page/compass';
@@ -53,7 +53,7 @@ function begin(): void {
     addEditor(app, drawing, editing, keys);
     addCompass(app, drawing);
     keys.add('Escape', () => pointers.use(null));
-    // Panels leave room for the head, however many lines it has.
+    // Tell the style sheet the height of the head, so that panels leave room for all its lines.
     const head = element('head');
     new ResizeObserver(() => document.documentElement.style.setProperty('--head', `${head.offsetHeight}px`)).observe(
         head,
@@ -61,7 +61,7 @@ function begin(): void {
     pointers.begin();
     keys.begin();
     window.addEventListener('hashchange', ({ newURL }) => app.takeAddress(new URL(newURL).hash));
-    // The stream is there before the lists, so that nothing is lost between them.
+    // Open the stream of events before asking for lists, so that no news between them is lost.
     void new Live(
         app,
         app.begin().catch((error: unknown) => app.fail(error)),

@@ -19,7 +19,7 @@ function texel(atlas: Atlas, x: number, y: number, z: number): [number, number] 
     return [atlas.texels[at]!, atlas.texels[at + 1]!];
 }
 
-// R over G by eight texels, as the texture unit makes it, at a place in cells.
+// Interpolates R and G of eight texels at a place in cells, as the texture unit does.
 function fetched(
     grid: PackedGrid,
     atlas: Atlas,
@@ -51,7 +51,7 @@ function fetched(
     return { share, mean: share > 0 ? sum / share : NaN };
 }
 
-// The same by eight cells of the grid itself.
+// Computes the same from eight cells of the grid.
 function wanted(grid: PackedGrid, place: [number, number, number]): { share: number; mean: number } {
     let [sum, share] = [0, 0];
     const base = place.map(Math.floor);
@@ -74,7 +74,7 @@ function wanted(grid: PackedGrid, place: [number, number, number]): { share: num
     return { share, mean: share > 0 ? sum / share : NaN };
 }
 
-test('a sample in the atlas is that of the cells, across bricks too, and no state becomes a value', () => {
+test('the atlas and the cells give the same sample, across bricks too, and no state becomes a value', () => {
     const grid = readPackedGrid(packedGrid(made));
     const atlas = makeAtlas(grid, mostTexels);
     let samples = 0;
@@ -194,7 +194,7 @@ test('the ground knows which columns were seen, and from how low', () => {
     );
 });
 
-test('columns without bricks know how far the next one with a brick is', () => {
+test('columns without bricks know how far the next column with a brick is', () => {
     const size = [20, 15, 3] as const;
     const indirection = new Uint32Array(20 * 15 * 3);
     const places = [

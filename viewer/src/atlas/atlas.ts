@@ -1,9 +1,10 @@
-// Bricks of a grid as one texture: each brick with values is stored with a border of its neighbors'
-// cells, so that the hardware interpolates across bricks. R is a code, G tells whether the cell has a
-// value: interpolated, R over G is the mean of the values alone, and states never become values.
+// Copies the bricks of a grid into one texture, the atlas. A brick with values has a slot with a border of its
+// neighbors' cells, so that the hardware interpolates across bricks. A cell with a value has its code in R and 255 in
+// G; any other cell has 0 in both. After interpolation R / G is the mean of the values alone, so that no state becomes
+// a value.
 //
-// Codes of two bytes are shown through eight bits (codeScale, codeOffset); exact codes stay in the
-// packed grid, which the probe reads.
+// The atlas has codes of eight bits (shown codes). Codes of two bytes are scaled to them by codeScale and codeOffset;
+// readings use the exact codes of the packed grid.
 
 import { BrickKind, PackedGrid, firstValueCode } from '../wire/packed_grid';
 
@@ -22,8 +23,8 @@ export function slotOf(entry: number): number {
     return (entry & slotBits) - 1;
 }
 
-// Writes into the words of columns without a brick how many columns away the nearest one with a brick is: 1
-// for a neighbor, and at most 7. A ray leaves at once all columns that are nearer.
+// Writes into the words of each column of bricks without a slot how many columns away the nearest column with a slot
+// is: 1 for a neighbor, 7 for all that are farther. A ray skips all nearer columns at once.
 export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [number, number, number]): void {
     const reach = new Uint8Array(bx * by).fill(mostReach);
     for (let i = 0; i < indirection.length; ++i) if (slotOf(indirection[i]!) >= 0) reach[i % (bx * by)] = 0;
@@ -34,7 +35,7 @@ export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [num
                 reach[y * bx + x] = Math.min(reach[y * bx + x]!, reach[ny * bx + nx]! + 1);
         }
     };
-    // The first pass looks at the neighbors before each column in the order of rows, the second at those behind.
+    // The first pass looks at the neighbors that come before a column in row order, the second at those after it.
     const before = [
         [-1, 0],
         [-1, -1],
@@ -66,15 +67,16 @@ export interface Atlas {
     slots: [number, number, number]; // bricks along each axis
     brickCount: number; // in the atlas
     texels: Uint8Array; // RG, x fastest
-    // One word for each brick of the grid, x fastest. The low 21 bits hold 0 for none, else 1 + its slot. The bits
-    // 21 to 23 hold how often the grid was halved whose brick the slot has; without a slot, 0 or what putReaches()
-    // writes. The highest byte holds the greatest shown code of the cells that a sample in the brick can use.
+    // One word for each brick of the grid, x fastest. Bits 0 to 20 hold 1 + the number of its slot, or 0 if it has
+    // none. Bits 21 to 23 hold the number of halvings of the slot's brick; without a slot, they hold the distance that
+    // putReaches() writes, or 0. Bits 24 to 31 hold an upper bound of the shown codes that a sample in the brick can
+    // use.
     indirection: Uint32Array;
     bricks: [number, number, number];
     // code = codeOffset + codeScale * shown code
     codeScale: number;
     codeOffset: number;
-    least: number; // codes of values; least > greatest: there is none
+    least: number; // least code of a value; without values it is above `greatest`
     greatest: number;
     // Number of values of each shown code.
     histogram: Uint32Array;
@@ -87,13 +89,13 @@ export const blockEdge = 4; // cells
 export const blocksAlong = 4; // of a brick
 export const blocksABrick = blocksAlong ** 3;
 
-// Along an axis a texel belongs to the block of its cell. The first texel of a block belongs to the block
-// before it, too, because a sample uses the cell before it and the next one. No sample uses the border before
-// the slot's own cells.
+// Along an axis, a texel belongs to the block of its cell. The first texel of a block also belongs to the previous
+// block, because a sample between two cells uses both. No sample uses the border before the slot's own cells.
 const firstBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.max(0, (texel - 2) >> 2));
 const lastBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.min(blocksAlong - 1, (texel - 1) >> 2));
 
-// Puts the greatest shown codes of the blocks of a slot whose first texel is `corner` into `blocks`, from `to` on.
+// Writes the greatest shown code of each block of a slot into `blocks`, from index `to` on, where `blocks` must be 0.
+// `corner` is the index of the slot's first texel.
 export function measureBlocks(
     { texels, width, height }: Pick<Filling, 'texels' | 'width' | 'height'>,
     corner: number,
@@ -124,8 +126,8 @@ export function brickIndex(grid: PackedGrid, x: number, y: number, z: number): n
     return (x * grid.bricks[1] + y) * grid.bricks[2] + z;
 }
 
-// Returns the greatest code of a value in a brick and in those that lie above it along any axis, because a
-// sample in the brick uses their first cells; 0 without values.
+// Returns the greatest code of a value in a brick and in its seven next neighbors along x, y and z, because a sample in
+// the brick uses their first cells; 0 without values.
 function greatestAbout(grid: PackedGrid, x: number, y: number, z: number): number {
     let greatest = 0;
     for (let dx = 0; dx < 2; ++dx) {
@@ -152,7 +154,7 @@ export function rangeOfCodes(grid: PackedGrid): [number, number] {
     return [least, greatest];
 }
 
-// Returns the numbers of slots along each axis, in a box that is nearly a cube.
+// Returns the number of slots along each axis of a texture that is nearly a cube and holds `count` slots.
 function slotsFor(count: number, mostTexels: number): [number, number, number] {
     const most = Math.floor(mostTexels / paddedEdge);
     const side = Math.min(most, Math.max(1, Math.ceil(Math.cbrt(count))));
@@ -161,12 +163,12 @@ function slotsFor(count: number, mostTexels: number): [number, number, number] {
     return [most, most, Math.ceil(count / (most * most))];
 }
 
-// Cells of one brick; null where it has no values, or they are not there.
+// Returns the codes of a brick, which begin at index `from`; null if the brick has no values or its codes are not here.
 export type CellsOf = (brick: number) => { codes: Uint8Array | Uint16Array; from: number } | null;
 
 // Source of the bricks of a grid, and the texels to which they are copied.
 export interface Filling {
-    grid: PackedGrid; // its table alone is read
+    grid: PackedGrid; // only its table is read
     cellsOf: CellsOf;
     shownOf: Uint8Array; // shown code of each code of a value
     texels: Uint8Array;
@@ -182,8 +184,8 @@ interface Run {
     count: number;
 }
 
-// The runs along an axis of the cells [16 b - 1, 16 b + 17). Beyond the grid the outermost cells go on, as
-// the slicer has it.
+// Returns the runs of the cells [edge b - 1, edge b + 17) along an axis. Cells beyond the grid repeat its outermost
+// cells, as in the slicer.
 function runsAlong(b: number, edge: number, cells: number): Run[] {
     const runs: Run[] = [];
     for (let i = 0; i < paddedEdge; ++i) {
@@ -196,8 +198,8 @@ function runsAlong(b: number, edge: number, cells: number): Run[] {
     return runs;
 }
 
-// Copies what a slot takes from one brick with values. `corner` is the slot's first texel. Returns true if there was
-// any value in it.
+// Copies the values of the cells that a slot takes from one brick. `corner` is the index of the slot's first texel.
+// Returns true if any of the cells has a value.
 function copyRuns(
     filling: Filling,
     cells: { codes: Uint8Array | Uint16Array; from: number },
@@ -209,7 +211,7 @@ function copyRuns(
     const edge = grid.brickEdge;
     const { codes } = cells;
     let hasValues = false;
-    // Write texels in their order; a brick is small enough to be read in any.
+    // Write texels in memory order. The order of reads does not matter, because a brick fits into the cache.
     for (let z = 0; z < zs.count; ++z) {
         for (let y = 0; y < ys.count; ++y) {
             let from = cells.from + (xs.from * edge + ys.from + y) * edge + zs.from + z;
@@ -226,8 +228,8 @@ function copyRuns(
     return hasValues;
 }
 
-// Copies a brick and one cell of its neighbors on each side into the slot whose first texel is `corner`. The slot stays
-// 0 where they have no values. Returns true if it has any.
+// Copies the values of a brick, and of one cell of its neighbors on each side, into the slot whose first texel has the
+// index `corner`. Texels of cells without values stay as they were. Returns true if the slot got any value.
 export function fillSlot(filling: Filling, bx: number, by: number, bz: number, corner: number): boolean {
     const { grid } = filling;
     const edge = grid.brickEdge;
@@ -276,7 +278,8 @@ export function histogramOf(grid: PackedGrid, shownOf: Uint8Array): Uint32Array 
     return histogram;
 }
 
-// `mostTexels` is the greatest side of a 3D texture here. Errors: a RangeError if the grid needs more.
+// Makes the atlas of a whole grid. `mostTexels` is the greatest side of a 3D texture on this device. Throws a
+// RangeError if the grid needs a larger texture.
 export function makeAtlas(grid: PackedGrid, mostTexels: number): Atlas {
     const [least, greatest] = rangeOfCodes(grid);
     const shown = shownCodes(grid, least, greatest);
@@ -337,7 +340,7 @@ export const enum Coverage {
 }
 const lowM = 3000;
 
-// Lowers `lowest`, the lowest level of each column that was seen, by the cells of one brick.
+// Lowers the numbers of `lowest`, which is the lowest seen level of each column, where one brick has a lower seen cell.
 function lowerByBrick(grid: PackedGrid, bx: number, by: number, bz: number, lowest: Uint16Array): void {
     const edge = grid.brickEdge;
     const brick = brickIndex(grid, bx, by, bz);

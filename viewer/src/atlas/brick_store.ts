@@ -1,7 +1,5 @@
-// The cells of a grid that is too large to be held as a whole: tables of the grid and of its halved ones,
-// the codes of columns of bricks as they come, and the texels that are made of them.
-//
-// A column is known when its codes are there, or when it has none.
+// Stores parts of a grid that is too large to be held as a whole: the tables of the grid and of its halved grids, and
+// the codes of the columns of bricks that have come. Makes texels of these codes.
 
 import { BrickKind, PackedBricks, PackedGrid } from '../wire/packed_grid';
 import { Filling, ShownCodes, fillSlot, paddedEdge } from './atlas';
@@ -18,7 +16,7 @@ export interface MadeColumn {
     x: number;
     y: number;
     hasValues: boolean[]; // of its bricks, from the bottom
-    texels: Uint8Array; // of the bricks that have values, one behind the other, each 18 x 18 x 18
+    texels: Uint8Array; // of the bricks that have values, one brick after the other, each 18 x 18 x 18
 }
 
 export const brickTexelBytes = 2 * paddedEdge ** 3;
@@ -28,7 +26,7 @@ export class BrickStore {
 
     constructor(readonly shown: ShownCodes) {}
 
-    // Takes the table of a level, and all codes if the grid has them.
+    // Takes the table of a level, and its codes if the grid is whole.
     addLevel(grid: PackedGrid): void {
         const level: StoredLevel = { grid, columns: new Map() };
         this.levels.set(grid.halvings, level);
@@ -40,7 +38,8 @@ export class BrickStore {
         if (level) this.addCodes(level, bricks.first, bricks.end, bricks.firstBlock, bricks.codes);
     }
 
-    // Blocks stand in the order of the table, so that those of a column follow each other.
+    // Stores the codes of the bricks [first, end), whose first block has the number `firstBlock`. Blocks follow each
+    // other in the order of the table, so the blocks of a column are one run.
     private addCodes(level: StoredLevel, first: number, end: number, firstBlock: number, codes: Codes): void {
         const { grid, columns } = level;
         const layers = grid.bricks[2];
@@ -62,7 +61,7 @@ export class BrickStore {
         level?.columns.delete(x * level.grid.bricks[1] + y);
     }
 
-    // Makes the texels of a column. Neighbors whose codes are not here lend no values.
+    // Makes the texels of a column. Where the codes of a neighbor are not here, its cells count as having no values.
     make(levelNumber: number, x: number, y: number): MadeColumn {
         const { grid, columns } = this.levels.get(levelNumber)!;
         const layers = grid.bricks[2];

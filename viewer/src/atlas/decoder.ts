@@ -1,4 +1,4 @@
-// Asks the worker, as a function that answers later.
+// Sends requests to the worker, and returns a promise of each answer.
 
 import { Answers, Numbered, WorkerAnswer, WorkerRequest } from './worker';
 
@@ -22,7 +22,7 @@ export class Decoder {
         };
     }
 
-    // Asks the worker, which takes the bytes of the request.
+    // Sends a request to the worker. Its bytes move to the worker, so the caller cannot use them afterwards.
     ask<Kind extends WorkerRequest['kind']>(request: WorkerRequest & { kind: Kind }): Promise<Answers[Kind]> {
         const number = ++this.count;
         return new Promise<Answers[Kind]>((done, failed) => {

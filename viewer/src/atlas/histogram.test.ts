@@ -35,7 +35,7 @@ test('each value of the grid is counted once, in its column', () => {
     assert.equal(histogram[4], (slow.get(first + 8) ?? 0) + (slow.get(first + 9) ?? 0), 'what lies beyond is left out');
 });
 
-test('without its codes a grid has the histogram of what is shown', () => {
+test('a grid without codes has the histogram of its shown codes', () => {
     for (const codeBytes of [1, 2] as const) {
         const grid = readPackedGrid(slantedGrid(20, 18, 17, codeBytes, codeBytes === 1 ? 1 : 30));
         const atlas = makeAtlas(grid, 2048);

@@ -1,10 +1,10 @@
-// Counts how often each value occurs in a grid, from its exact codes. If these are not all here, counts how
-// often it occurs in what is shown of the grid from far away, through eight bits.
+// Counts how often each value occurs in a grid. A whole grid is counted by its exact codes, a grid in parts by the
+// shown codes (eight bits) of its first halved grid.
 
 import { Atlas } from './atlas';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
-// Counts the cells of each code of a value. Cells of a brick beyond the grid have no values.
+// Returns the number of cells of each code; 0 for codes that are no values.
 export function countCodes(
     grid: PackedGrid,
     atlas: Pick<Atlas, 'histogram' | 'codeOffset' | 'codeScale'>,
@@ -27,8 +27,8 @@ export function countCodes(
     return counts;
 }
 
-// Counts in at most `most` columns of equal width from `low` to `high`, each with as many codes as the others;
-// values beyond are left out.
+// Returns the number of cells in each of at most `most` columns of equal width from `low` to `high`. Values outside of
+// this range are not counted.
 export function histogramOf(
     grid: PackedGrid,
     counts: Uint32Array,

@@ -1,20 +1,20 @@
-// Grids as the renderer takes them: whole, or in parts.
+// Declares grids as the renderer takes them: whole, or in parts.
 
 import { PackedGrid } from '../wire/packed_grid';
 import { Atlas } from './atlas';
 import { MadeColumn } from './brick_store';
 import { Pyramid } from './pyramid';
 
-// Grid with what the graphics processor needs to draw it.
+// A grid, and what the renderer needs to draw it.
 export interface LoadedGrid {
     grid: PackedGrid;
     atlas: Atlas;
-    coverage: Uint8Array; // of a grid in parts: of its first halved grid
-    stream: GridInParts | null;
+    coverage: Uint8Array; // if the grid is in parts, the coverage of its first halved grid
+    stream: GridInParts | null; // null: the grid is whole
 }
 
-// Grid of which only the table and a halved grid are there; the rest is fetched as the view needs it. Its
-// atlas is empty at first.
+// A grid too large to be loaded as a whole. At first only its table and one halved grid are here; the view fetches
+// the bricks that it needs. The atlas is empty at first.
 export interface GridInParts {
     key: string;
     domain: string;
@@ -22,7 +22,7 @@ export interface GridInParts {
     time: string;
     pyramid: Pyramid;
     shownOf: Uint8Array; // shown code of each code
-    level: number; // how often the first halved grid was halved
-    first: MadeColumn[]; // all columns of it that have values
-    isClear: boolean; // it shows clear air, if it is of reflectivity
+    level: number; // number of halvings of the first halved grid
+    first: MadeColumn[]; // all columns with values of the first halved grid
+    isClear: boolean; // result of isClearAir(), which counts for reflectivity only
 }

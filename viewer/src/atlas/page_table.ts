@@ -1,10 +1,9 @@
-// Makes the indirection of a grid whose bricks come at several levels: each brick of the grid gets the finest one that
-// is here.
+// Makes the indirection of a grid in parts. Each brick of the grid gets the finest resident brick that covers it.
 
 import { pageEntry, putReaches } from './atlas';
 import { Pyramid } from './pyramid';
 
-// Bricks of one column of a level, from the bottom; a slot of -1 stands for a brick without values.
+// A column of bricks of a level that is in the atlas. Slots are from the bottom; -1 is a brick without values.
 export interface ResidentColumn {
     level: number;
     x: number;
@@ -12,11 +11,11 @@ export interface ResidentColumn {
     slots: Int32Array;
 }
 
-// A sample of a brick of level n takes cells that lie within 1.5 x 2^n cells of the grid: within the next
-// brick of the level n - 3 on.
+// A sample in a brick of level n uses cells at most 1.5 x 2^n cells of the grid away. So the bound over a brick of
+// level n - 3, which is 2 x 2^n cells wide, and its neighbors holds for all cells that the sample uses.
 const finerBy = 3;
 
-// Fills `entries`, x fastest. `shownOf`: the shown code of each code.
+// Fills `entries`, one for each brick of the grid, x fastest. `shownOf` has the shown code of each code.
 export function paintPages(
     entries: Uint32Array,
     pyramid: Pyramid,

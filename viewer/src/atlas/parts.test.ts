@@ -1,4 +1,4 @@
-// Grids in parts: what is read of them, and the texels that are made of columns of bricks as they come.
+// Tests grids in parts: how they are read, and which texels are made of the columns of bricks that have come.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
@@ -31,7 +31,7 @@ const whole = readPackedGrid(packedGrid(made));
 const [, columnsY, layers] = whole.bricks;
 const tableOf = (grid: PackedGrid): PackedGrid => ({ ...grid, codes: new Uint8Array(0), states: new Uint8Array(0) });
 
-// The bricks of columns [first, end), as the server sends them.
+// Returns the bricks of the columns [first, end), as the server sends them.
 function bricksOf(grid: PackedGrid, first: number, end: number): PackedBricks {
     const stored = (until: number) => grid.kind.subarray(0, until).filter((kind) => kind === BrickKind.codes).length;
     const [from, to] = [stored(first * layers), stored(end * layers)];
@@ -69,7 +69,7 @@ test('the table of a grid is read without its cells', () => {
     assert.throws(() => readPackedBricks(table), /no bricks/);
 });
 
-// The form in which states stand beside codes of values alone, made of the plain one.
+// Returns the packed form that has codes for cells with values only, and states for all cells.
 function valuesAlone(bytes: Uint8Array): Uint8Array {
     const grid = readPackedGrid(bytes);
     const view = new DataView(bytes.buffer);
@@ -129,7 +129,7 @@ test('a range of bricks is read', () => {
     assert.throws(() => readPackedBricks(bytes.slice(0, bytes.length - 1)), /cut/);
 });
 
-test('cells of a range of bricks are those of the whole grid', () => {
+test('a range of bricks has the same cells as the whole grid', () => {
     const states = (until: number) => whole.kind.subarray(0, until).filter((kind) => kind === BrickKind.states).length;
     for (const column of [0, 7, 13]) {
         const firstStates = states(column * layers);
@@ -147,7 +147,7 @@ test('cells of a range of bricks are those of the whole grid', () => {
     }
 });
 
-test('columns that come one by one make the texels of the whole grid', () => {
+test('columns that come one at a time make the texels of the whole grid', () => {
     const atlas = makeAtlas(whole, 2048);
     const store = storeOf(whole);
     for (let column = whole.bricks[0] * columnsY - 1; column >= 0; --column)
@@ -161,7 +161,7 @@ test('columns that come one by one make the texels of the whole grid', () => {
                 const entry = atlas.indirection[(z * columnsY + y) * whole.bricks[0] + x]!;
                 if (!hasValues[z]) continue;
                 const one = texels.subarray(from, (from += brickTexelBytes));
-                if (slotOf(entry) < 0) continue; // values below it alone, which no sample in it uses
+                if (slotOf(entry) < 0) continue; // only its lower neighbors have values, and no sample uses these
                 const [px, py, pz] = placeOfSlot(slotOf(entry), atlas.slots);
                 for (let row = 0; row < paddedEdge ** 2; ++row) {
                     const at =
@@ -180,7 +180,7 @@ test('columns that come one by one make the texels of the whole grid', () => {
     assert(compared > 10);
 });
 
-test('a neighbor that is not there lends no values, and one that is dropped neither', () => {
+test('a neighbor that has not come, or was dropped, counts as having no values', () => {
     const store = storeOf(whole);
     const valued = [...whole.kind.keys()].find((i) => whole.kind[i] === BrickKind.codes)!;
     const column = Math.floor(valued / layers);
@@ -209,7 +209,7 @@ test('the pyramid bounds every cell of every halved grid', () => {
     assert.equal(levelWithin(pyramid, 0), 6);
 });
 
-test('a brick of the grid has the finest column that is there', () => {
+test('a brick of the grid shows the finest column that has come', () => {
     const pyramid: Pyramid = pyramidOf(tableOf(whole));
     const entries = new Uint32Array(whole.kind.length);
     const shownOf = Uint8Array.from({ length: 65536 }, (_, code) => Math.min(code, 255));
@@ -237,7 +237,7 @@ test('a brick of the grid has the finest column that is there', () => {
     assert.equal(slotOf(entryAt(2, 0, 0)), -1, 'nothing is there yet');
 });
 
-test('slots of what was used longest ago are given to what is wanted', () => {
+test('wanted columns get the slots of the least recently used columns', () => {
     const pool = new SlotPool(6);
     const all = [true, true];
     for (const x of [0, 1, 2]) pool.take(0, x, 0, all, new Set());
@@ -259,7 +259,7 @@ test('slots of what was used longest ago are given to what is wanted', () => {
     assert.equal(new Set(held).size, held.length, 'no slot is given twice');
 });
 
-test('columns are asked for in few ranges, and not more between them than is worth it', () => {
+test('columns are asked for in few ranges, which skip few columns that nobody wants', () => {
     const weights = [10, 10, 0, 0, 10, 90, 10, 10];
     const ranges = (columns: number[], skipped: number, most: number) =>
         rangesOf(columns, 3, (column) => weights[column]!, skipped, most).map(({ first, end }) => `${first}-${end}`);

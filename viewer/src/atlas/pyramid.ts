@@ -1,7 +1,7 @@
-// Derives from the table of a grid which bricks can hold values, and how large, in the grids that are made by
-// halving its columns and rows.
+// Derives from the table of a grid which bricks of its halved grids can hold values, and bounds these values. Halving
+// merges 2 x 2 columns of cells into one.
 //
-// A level is the number of halvings. A column of bricks has all bricks above one place; its number is
+// A level is a number of halvings. A column of bricks is all bricks above one place; its number is
 // x * (bricks along y) + y, as in the packed form.
 
 import { BrickKind, PackedGrid } from '../wire/packed_grid';
@@ -12,9 +12,9 @@ export interface Level {
     columns: [number, number]; // of bricks, along x and y
     // Upper bound of the codes of values in each brick, z fastest, then y, then x; 0 without values.
     greatest: Uint16Array;
-    // The same bound over each brick and all that touch it.
+    // Upper bound over each brick and the bricks that touch it.
     about: Uint16Array;
-    // Number of bricks in each column that can show anything.
+    // Number of bricks in each column whose `about` is not 0.
     shown: Uint8Array;
 }
 
@@ -41,7 +41,8 @@ function halved(from: Level, layers: number): Level {
     return withNeighbors(columns, greatest, layers);
 }
 
-// Maps each number to the greatest of it and its neighbors along an axis of `count` numbers, `stride` apart.
+// Returns for each number the greatest of the number and its two neighbors along an axis. The axis has `count` numbers,
+// which are `stride` apart.
 function widened(from: Uint16Array, count: number, stride: number): Uint16Array {
     return from.map((code, i) => {
         const place = Math.floor(i / stride) % count;
@@ -70,7 +71,7 @@ export function bricksShown(level: Level): number {
     return level.shown.reduce((sum, count) => sum + count, 0);
 }
 
-// Finds the finest level with at most `mostBricks` bricks that can show anything; the coarsest if there is none.
+// Returns the finest level with at most `mostBricks` bricks that can show anything; the coarsest if none is so small.
 export function levelWithin(pyramid: Pyramid, mostBricks: number): number {
     const found = pyramid.levels.findIndex((level) => bricksShown(level) <= mostBricks);
     return found < 0 ? mostHalvings : found;

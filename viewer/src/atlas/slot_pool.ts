@@ -1,5 +1,5 @@
-// Keeps which column of bricks has which slots of the atlas. If there is no room, the columns that were used
-// longest ago give way; pinned ones never do.
+// Assigns slots of the atlas to columns of bricks. If slots run out, the least recently used columns lose theirs, but
+// never the pinned columns.
 
 import { ResidentColumn } from './page_table';
 
@@ -33,8 +33,8 @@ export class SlotPool {
         this.pinned.add(key);
     }
 
-    // Gives a slot to each brick whose `hasValues` is true. Columns of `wanted` do not give way either.
-    // Returns null if there is no room.
+    // Gives a slot to each brick of a column whose `hasValues` is true. Columns with a key in `wanted` keep their
+    // slots. Returns null if there is no room.
     take(
         level: number,
         x: number,

@@ -34,7 +34,7 @@ test('a view of the whole takes cells about as wide as a pixel', () => {
     );
 });
 
-test('a view of a part takes the grid itself, where it looks, from the middle outward', () => {
+test('a near view takes cells of the grid itself, of the visible part, from the middle outward', () => {
     const wanted = wantedColumns(placed(8), pyramid, [0, 3], 1e6);
     assert(wanted.length > 3 && wanted.length < 40);
     for (const { level, x, y } of wanted) {
@@ -44,7 +44,7 @@ test('a view of a part takes the grid itself, where it looks, from the middle ou
     for (let i = 1; i < wanted.length; ++i) assert(wanted[i]!.away >= wanted[i - 1]!.away);
 });
 
-test('what is far in a perspective is coarser than what is near', () => {
+test('in perspective, far columns are coarser than near ones', () => {
     const wanted = wantedColumns(placed(1, 60, 80), pyramid, [0, 3], 1e6);
     const middleOf = ({ y, level }: { y: number; level: number }) => (y + 0.5) * 2 ** level;
     const mean = (list: number[]) => list.reduce((sum, one) => sum + one, 0) / list.length;
@@ -67,7 +67,7 @@ test('each place is covered once', () => {
     }
 });
 
-test('no more is wanted than there is room for', () => {
+test('the wanted columns fit into the room', () => {
     for (const room of [300, 60, 10, 0]) {
         const bricks = wantedColumns(placed(2), pyramid, [0, 3], room)
             .filter(({ level }) => level < 3)
@@ -80,7 +80,7 @@ test('no more is wanted than there is room for', () => {
     }
 });
 
-test('nothing finer is wanted than is allowed', () => {
+test('no column is finer than the finest allowed level', () => {
     assert(wantedColumns(placed(30), pyramid, [1, 3], 1e6).every(({ level }) => level === 1));
 });
 

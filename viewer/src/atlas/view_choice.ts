@@ -1,5 +1,5 @@
-// Chooses the columns of bricks that a view needs, and their levels: all in the picture, no finer than the
-// picture shows them, and no more than there is room for.
+// Chooses the columns of bricks that a view needs, and their levels. They cover the visible part of the grid, are no
+// finer than pixels show, and fit into the room.
 
 import { ViewGeometry, Vec3 } from '../camera/geometry';
 import { Pyramid } from './pyramid';
@@ -10,10 +10,10 @@ export interface WantedColumn {
     x: number;
     y: number;
     key: string;
-    away: number; // of its middle from the middle of the picture, in pixels
+    away: number; // distance from its middle to the middle of the picture, in pixels; 0 if it reaches behind the camera
 }
 
-// A grid as it lies in drawn space.
+// A view, and the sizes of a grid's bricks and cells.
 export interface Placed {
     geometry: ViewGeometry;
     edge: number; // of a brick, in cells
@@ -25,7 +25,7 @@ export const finestPixels = 1.5;
 
 interface Extent {
     isSeen: boolean;
-    pixelsACell: number; // of the grid itself
+    pixelsACell: number; // width of a cell of level 0
     away: number;
 }
 
@@ -57,7 +57,7 @@ function extentOf(placed: Placed, level: number, x: number, y: number): Extent {
         [left, right] = [Math.min(left, pixel[0]), Math.max(right, pixel[0])];
         [top, bottom] = [Math.min(top, pixel[1]), Math.max(bottom, pixel[1])];
     }
-    // A box that reaches behind the camera may be anywhere in the picture, unless it is there as a whole.
+    // A box that reaches behind the camera may be anywhere in the picture; a box all behind it is not seen.
     const isSeen = left <= right && (isBehind || (right >= 0 && left <= width && bottom >= 0 && top <= height));
     const metersPerPixel = geometry.isPerspective
         ? Math.max(nearest, geometry.nearM) / geometry.focalPixels
@@ -90,9 +90,9 @@ function collect(
     return found;
 }
 
-// Returns the columns that the view needs, of the levels from the finest to the coarsest, sorted from the
-// middle of the picture outward. At most `room` of their bricks are finer than the coarsest level: takes
-// coarser cells until they fit.
+// Returns the columns that the view needs, sorted from the middle of the picture outward. `levels` are the finest and
+// the coarsest level to choose from. At most `room` bricks are finer than the coarsest level; if more are needed, takes
+// coarser cells.
 export function wantedColumns(
     placed: Placed,
     pyramid: Pyramid,
@@ -114,7 +114,8 @@ export function wantedColumns(
     }
 }
 
-// Returns all columns that a view shows, with or without echo, each of the level that is worth it.
+// Returns all columns that a view shows, with or without echo, each of the coarsest level whose cells are at most
+// `mostPixels` wide.
 export function seenColumns(placed: Placed, pyramid: Pyramid, mostPixels: number): WantedColumn[] {
     return collect(placed, pyramid, [0, pyramid.levels.length - 1], mostPixels, () => true);
 }

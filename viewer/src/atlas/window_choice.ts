@@ -1,5 +1,5 @@
-// Chooses which window of a grid in parts to ask for (`window` of docs/web/packed-grid.md): all that a view,
-// a line or a ray meets, as fine as it is worth, and no more than there is room for.
+// Chooses which window of a grid in parts to ask for (`window` of docs/web/packed-grid.md). A window covers all that a
+// view, a line or a ray meets, and is halved until it is within limits.
 
 import { Plane, cellSizeM } from '../earth/projection';
 import { PackedGrid } from '../wire/packed_grid';
@@ -11,7 +11,7 @@ export interface Bounds {
     x: [number, number];
     y: [number, number];
 }
-// Columns of bricks of the grid that was halved `level` times, both ends included.
+// Columns of bricks of the grid after `level` halvings, both ends included.
 export interface BrickWindow extends Bounds {
     level: number;
 }
@@ -20,14 +20,14 @@ export interface WindowLimits {
     bytes: number; // of codes and states
 }
 
-// The server refuses more.
-const mostBricks = 16384;
+const mostBricks = 16384; // the server refuses larger windows
 const statesBlockBytes = 1024;
 
 const clipped = (from: number, to: number, count: number): [number, number] | null =>
     to < 0 || from >= count ? null : [Math.max(0, from), Math.min(count - 1, to)];
 
-// Returns the columns about points of the plane; null if all points are beyond one side of the grid.
+// Returns the columns and rows of the grid that hold all points; null without points, or if all points are beyond one
+// side of the grid.
 export function boundsAbout(points: readonly Plane[], grid: PackedGrid): Bounds | null {
     const size = cellSizeM(grid);
     const along = (axis: 0 | 1, count: number) => {
@@ -40,7 +40,7 @@ export function boundsAbout(points: readonly Plane[], grid: PackedGrid): Bounds 
 
 type Table = Pick<PackedGrid, 'nx' | 'ny' | 'brickEdge' | 'codeBytes'>;
 
-// Returns the window of a level about the bounds, wider by `more` cells of the level on each side.
+// Returns the window of a level that holds the bounds and `more` cells of the level on each side.
 function windowOf(bounds: Bounds, level: number, more: number, pyramid: Pyramid, { brickEdge }: Table): BrickWindow {
     const cell = 2 ** level;
     const columns = pyramid.levels[level]!.columns;
@@ -70,7 +70,8 @@ function fits(
     return bytes <= limits.bytes;
 }
 
-// `finest` is the level of the finest grid that is worth it. If no level fits, returns the coarsest all the same.
+// Returns the window about the bounds of the finest level that fits the limits, from the level `finest` on. If none
+// fits, returns the window of the coarsest level.
 export function windowAbout(
     bounds: Bounds,
     finest: number,
@@ -85,7 +86,7 @@ export function windowAbout(
     }
 }
 
-// Returns the window that a view shows of the grid, with echo or not; null if it shows nothing of it.
+// Returns the window of the part of the grid that a view shows, with or without echo; null if the view shows none.
 export function windowSeen(placed: Placed, pyramid: Pyramid, table: Table, limits: WindowLimits): BrickWindow | null {
     const seen = seenColumns(placed, pyramid, finestPixels);
     if (seen.length === 0) return null;
@@ -103,7 +104,7 @@ export function windowSeen(placed: Placed, pyramid: Pyramid, table: Table, limit
     return windowAbout(bounds, finest, 0, pyramid, table, limits);
 }
 
-// Returns true if a window covers another one of the same level, so that the page need not ask for that.
+// Returns true if `window` covers `other` and has the same level, so that the page need not ask for `other`.
 export function holds(window: BrickWindow, other: BrickWindow): boolean {
     const covers = (one: [number, number], two: [number, number]) => one[0] <= two[0] && one[1] >= two[1];
     return window.level === other.level && covers(window.x, other.x) && covers(window.y, other.y);

@@ -1,4 +1,5 @@
-// Windows of a grid in parts: which one is asked for, and that layers and readings made of one are those of the grid.
+// Tests which windows of a grid in parts the page asks for, and that layers and readings of a window are the same as
+// those of the whole grid.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
@@ -33,7 +34,7 @@ const grid = readPackedGrid(packedGrid(made));
 const pyramid: Pyramid = pyramidOf(grid);
 const plenty = { columns: 1e9, bytes: 1e9 };
 
-// Cuts as the server does: each cell is the greatest of 2^level x 2^level, and the center stays where it is.
+// Cuts a window as the server does: each cell is the greatest of 2^level x 2^level cells.
 function cut({ level, x, y }: BrickWindow): PackedGrid {
     const cell = 2 ** level;
     const [x0, y0] = [x[0] * 16, y[0] * 16];
@@ -70,7 +71,7 @@ function viewOf(zoom: number, tiltDeg: number, fieldOfViewDeg: number): ViewGeom
 }
 const placed = (geometry: ViewGeometry) => ({ geometry, edge: 16, cellSizeM: cellSizeM(grid) });
 
-test('a window lies on the plane of its grid where its cells do', () => {
+test('a window has the same place on the plane as its cells in the grid', () => {
     for (const window of [
         { level: 0, x: [2, 5], y: [1, 3] },
         { level: 1, x: [1, 4], y: [0, 1] },
@@ -87,7 +88,7 @@ test('a window lies on the plane of its grid where its cells do', () => {
     assert.deepEqual([all.westM, all.northM], [-75000, 50500]);
 });
 
-test('a view asks for all that it shows, no finer than it shows it, and for what there is room for', () => {
+test('a view asks for its visible part, no finer than pixels show, within the limits', () => {
     for (const geometry of [viewOf(6, 0, 0), viewOf(6, 55, 40), viewOf(1, 0, 0)]) {
         const window = windowSeen(placed(geometry), pyramid, grid, plenty)!;
         const { westM, southM, eastM, northM } = extentOf(cellsOf(window));
@@ -115,7 +116,7 @@ test('a view asks for all that it shows, no finer than it shows it, and for what
     assert.equal(windowSeen(placed(away), pyramid, grid, plenty), null);
 });
 
-test('what is held is not asked for again', () => {
+test('a window inside of one that has come is not asked for again', () => {
     const window: BrickWindow = { level: 1, x: [1, 4], y: [0, 2] };
     assert(holds(window, { level: 1, x: [2, 4], y: [0, 0] }));
     assert(!holds(window, { level: 1, x: [2, 5], y: [0, 0] }) && !holds(window, { level: 0, x: [2, 4], y: [0, 0] }));
@@ -123,7 +124,7 @@ test('what is held is not asked for again', () => {
     assert.deepEqual(windowQuery({ level: 0, x: [3, 3], y: [0, 9] }), { window: '3-3,0-9' });
 });
 
-test('flat layers of a window are those of the grid', () => {
+test('a window and its grid have the same flat layers', () => {
     const window: BrickWindow = { level: 0, x: [2, 6], y: [1, 4] };
     const part = cut(window);
     for (const [one, other] of [
@@ -142,7 +143,7 @@ test('flat layers of a window are those of the grid', () => {
     }
 });
 
-test('a section of a window is that of the grid, where the line asks for all that it crosses', () => {
+test('a window about a line gives the same section as the grid', () => {
     const plane = planeOf(grid);
     const [from, to] = [plane.toPlace([-30000, -20000]), plane.toPlace([40000, 20000])];
     const points = [plane.toPlane(from)!, plane.toPlane(to)!];
@@ -171,7 +172,7 @@ test('a section of a window is that of the grid, where the line asks for all tha
     );
 });
 
-test('what a ray meets in its window is what it meets in the grid', () => {
+test('a ray meets the same cells in its window as in the grid', () => {
     const geometry = viewOf(3, 60, 40);
     const { halfXM, halfYM, bottomM, topM } = boxOf(grid);
     const box = { westM: -halfXM, eastM: halfXM, southM: -halfYM, northM: halfYM, bottomM, topM };
@@ -193,7 +194,7 @@ test('what a ray meets in its window is what it meets in the grid', () => {
     assert(met > 20);
 });
 
-// 2026-11-28: after one failed answer a plane was empty for good, as if there were no storm.
+// 2026-11-28: after one failed answer, a plane stayed empty, as if there were no storm.
 test('a window that failed is asked for again, and a frame waits for it', async () => {
     Object.assign(globalThis, { document: { baseURI: 'http://localhost/view/' } });
     const { Windows } = await import('../page/windows');
@@ -230,7 +231,7 @@ test('a window that failed is asked for again, and a frame waits for it', async 
     assert(windows.isWaiting);
     await next;
     assert.deepEqual([windows.isWaiting, seen(first)?.grid === grid], [false, true]);
-    // 2026-11-29: a grid that is there as a whole was said to be as coarse as the one in parts before it.
+    // 2026-11-29: the page said that a whole grid was as coarse as the grid in parts that it showed before.
     const coarse = { ...grid, halvings: 2 };
     windows.seen({ grid: coarse, stream: null } as unknown as LoadedGrid, 'layers', viewOf(1, 0, 0), false);
     const other = { grid, stream: null } as unknown as LoadedGrid;

@@ -1,4 +1,4 @@
-// Decodes grids and makes their atlas, away from the page's thread.
+// Decodes grids and makes their atlases, in a thread of its own.
 
 import { BrickStore, MadeColumn } from './brick_store';
 import { Atlas, ShownCodes, coverageOf, histogramOf, makeAtlas, rangeOfCodes, shownCodes } from './atlas';
@@ -12,9 +12,10 @@ interface Column {
     y: number;
 }
 
-// 'grid': a grid, or the table of one that is too large, of which `key` then names the store; 'level': a
-// halved grid of it; 'table': the table of one; 'bricks': some of a level's; 'make': columns of texels; 'drop':
-// columns whose codes are not needed; 'forget': the whole store; 'cells': a grid of which no atlas is wanted.
+// 'grid' brings a whole grid, or the table of a grid in parts, for which the worker then makes a store with the name
+// `key`. For such a store, 'level' brings a whole halved grid, 'table' the table of a halved grid, and 'bricks' some of
+// its bricks; 'make' asks for the texels of columns, 'drop' drops the codes of columns, and 'forget' the whole store.
+// 'cells' brings a grid that needs no atlas.
 export type WorkerRequest =
     | { kind: 'grid'; key: string; bytes: ArrayBuffer; mostTexels: number }
     | { kind: 'level'; key: string; bytes: ArrayBuffer }
@@ -39,11 +40,11 @@ export interface WholeLevel {
     columns: MadeColumn[];
     coverage: Uint8Array;
     histogram: Uint32Array;
-    isClear: boolean; // it shows clear air, if it is of reflectivity
+    isClear: boolean; // result of isClearAir(), which counts for reflectivity only
 }
 type Nothing = Record<string, never>;
 
-// Answers by the kind of their request.
+// Types of the answers, by kind of request.
 export interface Answers {
     grid: WholeGrid | GridTable;
     level: WholeLevel;
@@ -70,7 +71,7 @@ function takeGrid(key: string, bytes: ArrayBuffer, mostTexels: number): WholeGri
     return { grid, pyramid: pyramidOf(grid), shown };
 }
 
-// All columns of a level.
+// Stores a whole halved grid, and makes the texels of all its columns with values.
 function takeLevel(store: BrickStore, bytes: ArrayBuffer): WholeLevel {
     const grid = readPackedGrid(new Uint8Array(bytes));
     store.addLevel(grid);
@@ -114,7 +115,7 @@ function answerTo(request: WorkerRequest): WorkerAnswer {
     }
 }
 
-// Returns the buffers that go to the page without a copy. Codes and states may share one.
+// Returns the buffers that move to the page without a copy. Codes and states may share a buffer, which is listed once.
 function buffersOf(answer: WorkerAnswer): ArrayBufferLike[] {
     const arrays: Uint8Array[] = 'columns' in answer ? answer.columns.map((column) => column.texels) : [];
     if ('atlas' in answer) arrays.push(answer.atlas.texels);

@@ -8,7 +8,7 @@ import { Box, Camera, ViewGeometry, usualCamera } from './geometry';
 const box: Box = { halfXM: 230000, halfYM: 230000, bottomM: 0, topM: 16000 };
 const geometryOf = (camera: Camera) => new ViewGeometry(box, camera, 3, 800, 600);
 
-test('turning goes round and stops at the horizon and above', () => {
+test('the azimuth wraps around, and the tilt stops at the horizon and straight above', () => {
     let camera = usualCamera;
     for (let i = 0; i < 40; ++i) camera = orbited(camera, 100, -100);
     assert(camera.azimuthDeg >= 0 && camera.azimuthDeg < 360);
@@ -17,7 +17,7 @@ test('turning goes round and stops at the horizon and above', () => {
     assert.equal(camera.tiltDeg, 0);
 });
 
-test('the place under the pointer stays there while it zooms', () => {
+test('zooming keeps the place under the pointer', () => {
     for (const camera of [usualCamera, { ...usualCamera, tiltDeg: 0 }, { ...usualCamera, azimuthDeg: 30, zoom: 4 }]) {
         const before = geometryOf(camera);
         const place = before.ground(620, 410)!;
@@ -36,7 +36,7 @@ test('zooming is bounded', () => {
     assert(camera.zoom >= 0.01 && camera.zoom < most);
 });
 
-test('moving takes what was under the pointer along', () => {
+test('moving keeps the same place under the pointer', () => {
     for (const camera of [
         { ...usualCamera, tiltDeg: 0 },
         { ...usualCamera, azimuthDeg: 120 },
@@ -49,14 +49,14 @@ test('moving takes what was under the pointer along', () => {
     }
 });
 
-test('named views are where their names say, and keep the rest', () => {
+test('a named view sets the direction of the camera, and keeps the rest', () => {
     const camera: Camera = { ...usualCamera, zoom: 7, lookAtM: [1, 2, 3] };
     assert.deepEqual([namedView(camera, 'top').tiltDeg, namedView(camera, 'east').azimuthDeg], [0, 90]);
     assert.equal(namedView(camera, 'south').zoom, 7);
     assert.deepEqual(namedView(camera, 'south').lookAtM, [1, 2, 3]);
 });
 
-test('Top is a map: things aloft are drawn above their places, with north up (2026-11-28: a sweep was 4.1 km off at 184 km)', () => {
+test('Top is a map: echo aloft is drawn over its place, with north up (2026-11-28: a sweep was 4.1 km off at 184 km)', () => {
     const seen: Camera = { ...usualCamera, fieldOfViewDeg: 40, azimuthDeg: 75, tiltDeg: 60, zoom: 1.5 };
     const map = namedView(seen, 'top');
     assert.equal(isMap(map), true);
@@ -73,7 +73,7 @@ test('Top is a map: things aloft are drawn above their places, with north up (20
     assert(north![1] < south![1] && Math.abs(north![0] - south![0]) < 1e-6);
 });
 
-test('a drag moves a map, and turns what is no map; with Shift the other way round (2026-11-28: the map was soon turned by 122°)', () => {
+test('a drag moves a map and turns other views; with Shift it does the opposite (2026-11-28: a drag turned the map by 122°)', () => {
     const map = namedView({ ...usualCamera, fieldOfViewDeg: 40 }, 'top');
     const moved = dragged(map, geometryOf(map), [60, -40], 2, false);
     assert.deepEqual([moved.azimuthDeg, moved.tiltDeg], [180, 0]);

@@ -1,4 +1,4 @@
-// Applies mouse, keys and fingers to a camera: pure functions from a camera to the next one.
+// Applies mouse, keys and fingers to a camera. Each function returns a new camera.
 
 import { ranges } from '../facts';
 import { Camera, Vec3, ViewGeometry, plus } from './geometry';
@@ -30,7 +30,7 @@ export function lookAtOf(camera: Camera, geometry: ViewGeometry): Vec3 {
 export function panned(camera: Camera, geometry: ViewGeometry, dx: number, dy: number): Camera {
     const at = lookAtOf(camera, geometry);
     const scale = geometry.metersPerPixel;
-    // Along the ground, ahead of the camera; looked at from the side, a pixel upward is farther.
+    // A pixel upward is a way ahead along the ground. It is longer the more the camera looks from the side.
     const ahead: Vec3 = [
         -Math.sin((camera.azimuthDeg * Math.PI) / 180),
         -Math.cos((camera.azimuthDeg * Math.PI) / 180),
@@ -40,14 +40,14 @@ export function panned(camera: Camera, geometry: ViewGeometry, dx: number, dy: n
     return { ...camera, lookAtM: plus(plus(at, -dx * scale, geometry.right), (dy * scale) / foreshortened, ahead) };
 }
 
-// A map is seen straight from above and without perspective, so that each thing is drawn above its place,
-// however high it is.
+// Returns true if the camera looks straight down without perspective. Echo at any height is then drawn over its place
+// on the ground.
 export function isMap(camera: Camera): boolean {
     return camera.tiltDeg === 0 && camera.fieldOfViewDeg === 0;
 }
 
-// Applies a plain drag, or one with Shift or the right button (`isOther`). A plain drag moves a map and turns
-// every other view; the other drag does the opposite.
+// Applies a drag. `isOther` is true for a drag with Shift or the right button. A plain drag moves a map and turns any
+// view that is not a map; a drag with `isOther` does the opposite.
 export function dragged(
     camera: Camera,
     geometry: ViewGeometry,
@@ -64,7 +64,7 @@ export function zoomed(camera: Camera, geometry: ViewGeometry, factor: number, x
     const under = x === undefined || y === undefined ? null : geometry.ground(x, y);
     const center = geometry.ground(geometry.width / 2, geometry.height / 2);
     if (!under || !center) return { ...camera, zoom };
-    // The place under the pointer stays there.
+    // Keep the place under the pointer.
     const share = 1 - camera.zoom / zoom;
     return {
         ...camera,
@@ -74,7 +74,8 @@ export function zoomed(camera: Camera, geometry: ViewGeometry, factor: number, x
 }
 
 export type NamedView = 'top' | 'south' | 'east' | 'north' | 'west' | 'oblique';
-// The view from the top is a map with north up. A user who leaves a map sees in perspective again.
+// Turns the camera to a named view. The view from the top is a map with north up; other views that a user opens from a
+// map have perspective.
 export function namedView(camera: Camera, view: NamedView): Camera {
     const [azimuthDeg, tiltDeg] = {
         top: [180, 0],

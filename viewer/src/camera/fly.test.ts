@@ -14,12 +14,12 @@ const geometryOf = (camera: Camera) => new ViewGeometry(view.box, camera, view.e
 const apart = (a: Vec3, b: Vec3) => Math.hypot(...minus(a, b));
 const camera: Camera = { azimuthDeg: 200, tiltDeg: 70, zoom: 1, fieldOfViewDeg: 60, lookAtM: [12000, -5000, 3000] };
 
-test('the eye is where it shall be', () => {
+test('withEye() puts the eye at the given place', () => {
     const eye: Vec3 = [-40000, 10000, 9000];
     assert.ok(apart(geometryOf(withEye(camera, view, eye)).eye, eye) < 1e-6);
 });
 
-test('turning leaves the eye where it is, and looks elsewhere', () => {
+test('turning keeps the eye and changes the direction', () => {
     const next = turned(camera, view, 30, 10);
     assert.ok(apart(geometryOf(next).eye, geometryOf(camera).eye) < 1e-6);
     assert.deepEqual([next.azimuthDeg, next.tiltDeg], [230, 80]);
@@ -34,7 +34,7 @@ test('moving goes along the view, and never below the ground', () => {
     assert.ok(Math.abs(low.eye[2] - (low.groundM * view.exaggeration + 200)) < 1e-6);
 });
 
-test('a flight begins where the picture seems to be seen from', () => {
+test('a flight begins with nearly the same picture', () => {
     for (const from of [
         usualCamera,
         { ...camera, zoom: 6 },
@@ -43,7 +43,7 @@ test('a flight begins where the picture seems to be seen from', () => {
         const off = takenOff(from, view);
         assert.ok(off.fieldOfViewDeg > 0 && off.zoom === 1);
         const [before, after] = [geometryOf(from), geometryOf(off)];
-        // The point in the middle stays there, and what surrounds it is as large.
+        // The point in the middle stays there, and its surroundings have the same size.
         const target: Vec3 = from.lookAtM
             ? [from.lookAtM[0], from.lookAtM[1], from.lookAtM[2] * view.exaggeration]
             : before.middle;
@@ -54,6 +54,6 @@ test('a flight begins where the picture seems to be seen from', () => {
     }
 });
 
-test('high up a flight is fast, near the ground slow', () => {
+test('a flight is fast high up and slow near the ground', () => {
     assert.ok(speedOf(withEye(camera, view, [0, 0, 60000]), view) > speedOf(withEye(camera, view, [0, 0, 3000]), view));
 });

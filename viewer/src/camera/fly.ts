@@ -1,5 +1,5 @@
-// Flying: the eye moves, and turns where it is. The camera has no eye of its own, so we move the point that
-// it looks at until the eye is in its place.
+// Moves and turns the eye of the camera in a flight. A camera does not store its eye, so these functions move the point
+// that it looks at until the eye is at the wanted place.
 
 import { ranges } from '../facts';
 import { Box, Camera, Vec3, ViewGeometry, minus, plus } from './geometry';
@@ -23,7 +23,7 @@ export function withEye(camera: Camera, window: Window, eye: Vec3): Camera {
 
 const flownFieldDeg = 60;
 
-// Returns the camera that begins a flight: a perspective whose eye is where the picture seems to be seen from.
+// Returns the camera that begins a flight. It has perspective, and shows nearly the same picture as before.
 export function takenOff(camera: Camera, window: Window): Camera {
     const now = geometryOf(camera, window);
     const lookAt = camera.lookAtM;
@@ -46,7 +46,7 @@ export function turned(camera: Camera, window: Window, rightDeg: number, upDeg: 
     return withEye(next, window, eye);
 }
 
-// Moves the eye by drawn meters ahead, to the right and upward, but leaves it at least 200 of them above the ground.
+// Moves the eye by drawn meters ahead, to the right and upward. Keeps it at least 200 drawn meters above the ground.
 export function flown(camera: Camera, window: Window, aheadM: number, rightM: number, upM: number): Camera {
     const now = geometryOf(camera, window);
     const eye = plus(plus(now.eye, aheadM, now.forward), rightM, now.right);
@@ -54,7 +54,7 @@ export function flown(camera: Camera, window: Window, aheadM: number, rightM: nu
     return withEye(camera, window, [eye[0], eye[1], Math.max(ground + 200, eye[2] + upM)]);
 }
 
-// Returns the speed of a flight in drawn meters a second: slower near the ground.
+// Returns the speed of a flight in drawn meters a second. It is lower near the ground.
 export function speedOf(camera: Camera, window: Window): number {
     const { eye, groundM } = geometryOf(camera, window);
     return Math.min(200_000, Math.max(4_000, 0.6 * (eye[2] - groundM * window.exaggeration)));

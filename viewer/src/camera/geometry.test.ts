@@ -38,7 +38,7 @@ test('from the south, east is right and north is up', () => {
     assert(geometry.project([0, 0, 1000])![1] < middle[1]);
 });
 
-test('at zoom 1 the box just fits, for each camera that looks from outside', () => {
+test('at zoom 1 the box just fits if the camera is outside of it', () => {
     for (const camera of cameras.filter((one) => one.zoom === 1)) {
         const geometry = new ViewGeometry(box, camera, 5, 796, 532);
         let [across, down] = [0, 0];
@@ -83,12 +83,12 @@ test('another point to look at comes to the middle and keeps the scale', () => {
     assert.equal(geometry.metersPerPixel, new ViewGeometry(box, usualCamera, 3, 400, 300).metersPerPixel);
 });
 
-test('cells end half a level beyond the first and the last', () => {
+test('cells reach half a level beyond the first and the last level', () => {
     assert.deepEqual(heightRange([500, 1000, 2000]), { bottomM: 250, topM: 2500 });
     assert.deepEqual(heightRange([3000]), { bottomM: 2500, topM: 3500 });
 });
 
-test('the depths that the picture shows hold every place of the box in it, and not much more', () => {
+test('the shown depths hold every visible place of the box, and not much more', () => {
     const box: Box = { halfXM: 2e6, halfYM: 1e6, bottomM: 500, topM: 19000 };
     for (const camera of [
         {

@@ -1,14 +1,14 @@
-// Positions of points of a grid in the picture: the same camera as `stormcellar frame` has
+// Computes where points of a grid are in the picture, with the same camera as `stormcellar frame`
 // (include/stormcellar/render/view_geometry.h).
 //
-// Drawn space: x east, y north, z = height above sea level times the exaggeration, in meters from the
-// middle of the grid. Pixels: (0, 0) is the top left corner.
+// Drawn space has x to the east and y to the north, in meters from the middle of the grid. Its z is the height above
+// sea level in meters, times the exaggeration. Pixel (0, 0) is the top left corner.
 
 export type Vec3 = [number, number, number];
 
 export interface Camera {
-    azimuthDeg: number; // from where it looks; 180 is from the south
-    tiltDeg: number; // from the vertical: 0 straight down, 90 along the ground
+    azimuthDeg: number; // direction from the scene to the camera; 180 looks from the south
+    tiltDeg: number; // from the vertical: 0 looks straight down, 90 along the ground
     zoom: number; // 1: the whole grid fits into the picture
     fieldOfViewDeg: number; // across the picture at zoom 1; 0: orthographic
     lookAtM: Vec3 | null; // east, north, and height above sea level; null: the middle of the box
@@ -54,7 +54,7 @@ export class ViewGeometry {
     readonly right: Vec3;
     readonly up: Vec3;
     readonly forward: Vec3;
-    readonly eye: Vec3; // where depth is 0: the camera, or the middle of the box
+    readonly eye: Vec3; // point of depth 0: the camera in perspective, else the middle of the box
     readonly middle: Vec3;
     readonly focalPixels: number; // 0: orthographic
     readonly metersPerPixel: number; // at the middle of the box
@@ -148,8 +148,8 @@ export class ViewGeometry {
         return [near, Math.max(far, near + nearest)];
     }
 
-    // Returns the depths between which the picture shows the box, or the part of it in the picture. The depths at which
-    // rays meet a plane are least and greatest in corners of the picture.
+    // Returns the least and the greatest depth of the visible part of the box. Over the picture, the depth at which
+    // rays meet a plane is least and greatest in corners.
     get shownDepths(): [number, number] {
         const corners: [number, number][] = [
             [0, 0],
@@ -185,7 +185,7 @@ export class ViewGeometry {
         return [0.5 * this.width + dot(p, this.right) * scale, 0.5 * this.height - dot(p, this.up) * scale];
     }
 
-    // Returns the way of a pixel's ray in a meter of depth.
+    // Returns by how much a pixel's ray moves for each meter of depth.
     along(x: number, y: number): Vec3 {
         if (!this.isPerspective) return this.forward;
         const a = (x - 0.5 * this.width) / this.focalPixels;

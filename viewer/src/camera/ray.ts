@@ -1,10 +1,10 @@
-// The ray through a pixel of the picture, as places by their depth ahead of the camera (see ViewGeometry).
+// Computes places along the ray through a pixel, by their depth ahead of the camera (see ViewGeometry).
 
 import { Vec3, ViewGeometry } from './geometry';
 
 export class Ray {
-    readonly start: Vec3; // of depth 0, in drawn space
-    readonly way: Vec3; // for each meter of depth
+    readonly start: Vec3; // place at depth 0, in drawn space
+    readonly way: Vec3; // how far the ray moves for each meter of depth
 
     constructor(
         readonly geometry: ViewGeometry,
@@ -23,7 +23,7 @@ export class Ray {
     heightM(depth: number): number {
         return (this.start[2] + depth * this.way[2]) / this.geometry.exaggeration;
     }
-    // Returns the depth at which the ray passes a height; not finite if it never does.
+    // Returns the depth at which the ray passes a height; not finite for a level ray.
     depthAt(heightM: number): number {
         return (heightM * this.geometry.exaggeration - this.start[2]) / this.way[2];
     }

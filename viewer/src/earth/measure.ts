@@ -1,7 +1,7 @@
-// Distances, azimuths and areas on the ellipsoid of WGS84.
+// Computes distances, azimuths and areas on the ellipsoid of WGS84.
 //
-// Accuracy: distances as geodesic() has them, to millimeters; areas to some 1e-6, since sides are followed by
-// geodesics in steps, on the sphere of equal area.
+// Distances are accurate to millimeters, as geodesic() is. Areas are accurate to some 1e-6, because each side is
+// divided into steps along its geodesic, which are straight on the sphere of equal area.
 
 import { Place, destination, geodesic } from './projection';
 
@@ -14,7 +14,7 @@ const longestStepM = 20_000;
 
 export interface Leg {
     distanceM: number;
-    azimuthDeg: number; // at its beginning, from north by east
+    azimuthDeg: number; // at its beginning, clockwise from north
 }
 
 export function legOf(from: Place, to: Place): Leg {
@@ -28,7 +28,7 @@ function equalAreaSine(latitudeDeg: number): number {
     return (1 - e2) * (sine / (1 - e2 * sine * sine) - Math.log((1 - e * sine) / (1 + e * sine)) / (2 * e));
 }
 
-// Returns the area of a polygon whose sides are geodesics and that holds no pole.
+// Returns the area of a polygon whose sides are geodesics. It must not hold a pole.
 export function areaM2(corners: Place[]): number {
     if (corners.length < 3) return 0;
     const points: Place[] = corners.flatMap((from, i) => {

@@ -25,8 +25,9 @@ test('a geodesic has the length of the meridian and of the equator', () => {
     );
 });
 
-// Flinders Peak to Buninyong, the usual example, on WGS84 instead of GRS80 (which changes micrometers).
-test('a geodesic is that of the tables', () => {
+// Compares with the usual example, from Flinders Peak to Buninyong. It is on GRS80, which differs from WGS84 by
+// micrometers here.
+test('a geodesic agrees with the published example', () => {
     const flinders = { latitudeDeg: -(37 + 57 / 60 + 3.7203 / 3600), longitudeDeg: 144 + 25 / 60 + 29.5244 / 3600 };
     const buninyong = { latitudeDeg: -(37 + 39 / 60 + 10.1561 / 3600), longitudeDeg: 143 + 55 / 60 + 35.3839 / 3600 };
     const { distanceM, azimuth } = geodesic(flinders, buninyong);
@@ -51,7 +52,7 @@ test('destination and geodesic undo each other', () => {
     }
 });
 
-test('every projection comes back to its place, off its center too', () => {
+test('every projection and its inverse return to the same place, off its center too', () => {
     for (const projection of [0, 1, 2]) {
         const plane = planeOf({
             ...grid,
@@ -92,7 +93,7 @@ test('a conic is true to scale along its parallels', () => {
     }
 });
 
-test('cells of degrees have the meters of the center', () => {
+test('cells in degrees are drawn with the size that they have at the center', () => {
     const [east, north] = cellSizeM({
         ...grid,
         projection: projections.latitude_longitude.number,

@@ -1,8 +1,8 @@
-// Positions of places on the earth on a grid's plane, in meters from the middle of the grid, and back.
+// Converts places on the earth to a grid's plane, in meters from the middle of the grid, and back.
 //
-// Azimuthal equidistant by geodesics of WGS84 (Vincenty 1975, to millimeters except near the antipode),
-// Lambert conformal conic of the ellipsoid (Snyder 1987, pp 107-109), and latitude and longitude with
-// the meters at the center, as the pictures have it.
+// There are three projections: azimuthal equidistant by geodesics of WGS84 (Vincenty 1975, to millimeters except near
+// the antipode), Lambert conformal conic of the ellipsoid (Snyder 1987, pp 107-109), and latitude and longitude, whose
+// degrees are drawn everywhere as long as at the center, as in pictures.
 
 import { projections } from '../facts';
 import { GridPlace } from '../wire/packed_grid';
@@ -73,7 +73,7 @@ export function geodesic(from: Place, to: Place): Geodesic {
     };
 }
 
-// Returns the place at a distance and an azimuth from another.
+// Returns the place at a distance and an azimuth from the place `from`.
 export function destination(from: Place, azimuth: number, distanceM: number): Place {
     if (distanceM === 0) return from;
     const u1 = Math.atan((1 - f) * Math.tan(from.latitudeDeg * radians));
@@ -172,7 +172,7 @@ function lambert(center: Place, parallelsDeg: [number, number]): GridPlane {
     };
 }
 
-// Returns the number that packed grids have for a projection. Throws an Error for any other name.
+// Returns the number of a projection in packed grids. Throws an Error for an unknown name.
 export function projectionNamed(name: string): number {
     const found = Object.entries(projections).find(([own]) => own === name);
     if (!found) throw new Error(`${name}: no such projection`);
@@ -192,7 +192,7 @@ export function cellSizeM(grid: GridPlace): [number, number] {
     return [grid.spacing * east, grid.spacing * north];
 }
 
-// Returns half of what the grid covers to the east and to the north, in drawn meters.
+// Returns half of the grid's extent to the east and to the north, in drawn meters.
 export function halfWidthsM(grid: GridPlace): [number, number] {
     const [width, height] = cellSizeM(grid);
     return [0.5 * grid.nx * width, 0.5 * grid.ny * height];
@@ -211,7 +211,7 @@ function projected({ projection, parallelsDeg }: GridPlace, center: Place): Grid
     }
 }
 
-// The plane has its origin in the middle of the grid, which may lie off its center.
+// Returns a grid's plane. Its origin is the middle of the grid, which may be off the center of the projection.
 export function planeOf(grid: GridPlace): GridPlane {
     const center: Place = { latitudeDeg: grid.centerDeg[0], longitudeDeg: grid.centerDeg[1] };
     const own = projected(grid, center);
@@ -226,7 +226,8 @@ export function planeOf(grid: GridPlace): GridPlane {
     };
 }
 
-// Returns the place of the middle of a grid on the plane of another one with the same center, such as a window of it.
+// Returns where the middle of `grid` is on the plane of the grid `plane`. Both have the same center of projection, as a
+// window and its grid do.
 export function middleOn(plane: GridPlace, grid: GridPlace): Plane {
     const [whole, own] = [cellSizeM(plane), cellSizeM(grid)];
     return [

@@ -1,5 +1,5 @@
-// Measures how much of the air was not seen, and how much is range folded, in coarse cells of 4 x 4 columns
-// and 2 levels, as render/volume/haze.h does.
+// Measures in coarse cells of 4 x 4 columns and 2 levels which share of the air was not seen, and which share is range
+// folded, as render/volume/haze.h does.
 
 import { CellState, PackedGrid } from '../wire/packed_grid';
 import { levelCodes } from './level_codes';
@@ -9,9 +9,10 @@ export const airCellsUp = 2;
 
 export interface Air {
     size: [number, number, number]; // along x, y, z
-    // Two bytes for each coarse cell, x fastest: the shares of not seen and of range folded, 0 to 255.
+    // Two bytes for each coarse cell, x fastest. They are the share of cells that were not seen and the share of range
+    // folded cells, both of 255.
     shares: Uint8Array;
-    hasFolded: boolean; // some of it is range folded
+    hasFolded: boolean; // some cell is range folded
 }
 
 export function airOf(grid: PackedGrid): Air {
@@ -24,7 +25,7 @@ export function airOf(grid: PackedGrid): Air {
     const layer = size[0] * size[1];
     const codes = new Uint16Array(grid.nx * grid.ny);
     for (let z = 0; z < size[2]; ++z) {
-        const counts = new Uint16Array(3 * layer); // of not seen, range folded, and all
+        const counts = new Uint16Array(3 * layer); // numbers of cells not seen, range folded, and in all
         for (let level = z * airCellsUp; level < Math.min(grid.nz, (z + 1) * airCellsUp); ++level) {
             levelCodes(grid, level, codes);
             for (let y = 0, at = 0; y < grid.ny; ++y) {

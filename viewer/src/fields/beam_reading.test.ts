@@ -8,7 +8,7 @@ import { GridFacts } from '../wire/api';
 
 const site = { latitudeDeg: 35.33, longitudeDeg: -97.28, altitudeM: 389, icao: 'KTLX' };
 
-test('the beam to a point is the one that leads there', () => {
+test('beamTo() is the inverse of beamAt()', () => {
     for (const elevationDeg of [0.5, 4, 19.5, 60]) {
         for (const rangeM of [1000, 50000, 230000]) {
             const { arcM, heightM } = beamAt(site, elevationDeg, rangeM);
@@ -18,7 +18,7 @@ test('the beam to a point is the one that leads there', () => {
     }
 });
 
-test('the nearest site, the nearest sweep, the moment of the radial and the audit of its range are told', () => {
+test('a reading has the nearest site, the nearest sweep, the time of the radial and the audit of its range', () => {
     const facts = {
         provenance: {
             source_files: [],

@@ -1,4 +1,5 @@
-// Finds the beam that saw a point of a grid, when it did, and what the grid's own audit says of values there.
+// Finds the beam that saw a point of a grid, the time at which it did, and the error that the grid's audit states for
+// values there.
 
 import { Place, geodesic } from '../earth/projection';
 import { GridFacts, SweepTime } from '../wire/api';
@@ -9,14 +10,15 @@ export interface BeamReading {
     icao: string;
     rangeM: number;
     azimuthDeg: number;
-    elevationDeg: number; // of the beam that meets the point
-    widthM: number; // of the beam there, between the points of half power
-    sweepDeg: number | null; // the nearest sweep; null where the grid does not say when its sweeps were
-    timeMs: number | null; // when it saw the azimuth of the point
-    rms: number | null; // of the grid's values against the gates of that sweep and range, in the audit's unit
+    elevationDeg: number; // of a beam through the point
+    widthM: number; // width of the beam at the point, between half-power points
+    sweepDeg: number | null; // elevation of the nearest sweep; null if the facts list no sweeps
+    timeMs: number | null; // time at which that sweep saw the azimuth of the point; null if unknown
+    // Difference of the grid from the gates of the nearest audited sweep at this range; null if unknown.
+    rms: number | null;
 }
 
-// Between half powers, as grid::beam_width_of() has it: of the WSR-88D and of the TDWR, whose names begin with T.
+// Returns the beam width between half-power points, as grid::beam_width_of() does. Names of TDWRs begin with T.
 const beamWidthDeg = (icao: string): number => (icao.startsWith('T') && icao !== 'TJUA' ? 0.55 : 0.95);
 const radians = Math.PI / 180;
 
@@ -38,7 +40,7 @@ function timeOf(sweep: SweepTime, azimuthDeg: number): number | null {
     return Date.parse(sweep.start) + (1000 * (((turned % 360) + 360) % 360)) / Math.abs(sweep.degrees_per_s);
 }
 
-// Returns the site nearest to a place, and the way from it; null without sites.
+// Returns the site nearest to a place, and the geodesic from the site to the place; null without sites.
 export function nearestTo(
     sites: Site[],
     place: Place,
@@ -50,7 +52,8 @@ export function nearestTo(
     );
 }
 
-// Reads the beam of the site that is nearest to the point; null without sites. `facts` may still be on their way.
+// Returns the beam of the site that is nearest to the point; null without sites. If `facts` is null, sweep, time and
+// rms are null.
 export function beamReading(sites: Site[], facts: GridFacts | null, place: Place, heightM: number): BeamReading | null {
     const first = nearestTo(sites, place);
     if (!first) return null;

@@ -12,7 +12,7 @@ test('weak echo is clear air, storms are not (2026-11-28: clear air looked as if
     assert.equal(isClearAir({ ...grid, firstValue: grid.firstValue + 30 }), false); // up to 46 dBZ
 });
 
-test('of a halved grid, the area of echo is an estimate (2026-11-28: grids in parts had no rule)', () => {
+test('the area of echo in a halved grid is an estimate (2026-11-28: grids in parts had no rule)', () => {
     const grid = readPackedGrid(slantedGrid(16, 16, 1));
     const [few, many] = [60, 200].map((count) => ({
         ...grid,
@@ -26,7 +26,7 @@ test('of a halved grid, the area of echo is an estimate (2026-11-28: grids in pa
     assert.equal(isClearAir({ ...many!, halvings: 1 }), false); // 200 to 800 km2
 });
 
-test('range folded air veils velocities unless it is told not to (2026-11-28: it looked clear)', () => {
+test('range folded air veils a volume of velocities unless the user turns it off (2026-11-28: it looked clear)', () => {
     for (const [moment, veils] of [
         ['VEL', true],
         ['SW', true],

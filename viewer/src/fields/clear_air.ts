@@ -1,6 +1,6 @@
-// A grid of reflectivity shows clear air if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less
-// than 60 km2, by the greatest values of columns (render/view/echo_outline.h). The cells of a halved grid are
-// the greatest of those that they stand for, so areas are estimates: of the 4^n columns of a cell 2^n count.
+// Decides whether a grid of reflectivity shows clear air: it has echo, but column maxima reach 20 dBZ on less than 150
+// km2, and 30 dBZ on less than 60 km2 (render/view/echo_outline.h). In a grid that was halved n times, a cell is the
+// greatest of 4^n cells, so the areas are estimates: it counts as 2^n cells.
 
 import { cellSizeM } from '../earth/projection';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -10,7 +10,7 @@ const limits = [
     { dbz: 30, km2: 60 },
 ];
 
-// Returns as soon as an area reaches its limit, which takes a few bricks in a storm.
+// Returns true for clear air. Stops as soon as an area reaches its limit, which in a storm takes a few bricks.
 export function isClearAir(grid: PackedGrid): boolean {
     const [width, height] = cellSizeM(grid);
     const cellKm2 = (width * height) / 1e6 / 2 ** grid.halvings;

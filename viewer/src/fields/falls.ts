@@ -1,22 +1,22 @@
-// Finds in which direction and how steeply the values fall in each part of a volume, for its light. This is
-// the field of render/volume/shade_field.h before the sun and the view enter, so that it is made once for a
-// grid: 2 x 2 columns and single levels, averaged, smoothed along each axis by 1-4-6-4-1.
+// Computes in which direction and how steeply the values of a volume fall, for its light. This is the part of
+// render/volume/shade_field.h that depends neither on the sun nor on the view, so it is computed once for a grid. Cells
+// are averaged over 2 x 2 columns, and smoothed along each axis by 1-4-6-4-1.
 //
-// Values are those of reflectivity from 0 to 60 dBZ (or from the lowest color of the table, if that is
-// lower); of other moments 30 wherever there is a value. Air without echo counts as 0. Cells that were
-// not seen or are range folded take the value of the nearest seen cell of their column.
+// Reflectivity counts from 0 dBZ, or from the lowest color of the table if that is lower, up to 60 dBZ. A value of any
+// other moment counts as 30, and no echo as 0. Cells that were not seen or are range folded do not count; where no cell
+// of an average counts, it is copied from the level below, or from the lowest level that has one.
 
 import { BrickKind, CellState, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
 export const fallCellsAcross = 2;
-// A byte of 128 is no fall. Another byte stands for a root c from -1 to 1, and so for a fall of c |c| times
-// the steepest one between the neighbors on both sides.
+// Greatest difference between the two neighbors of a cell that a byte can hold. A byte b is a fall of c |c| times this
+// difference, where c is (b - 128) / 127.
 export const steepestFall = 64;
 
 export interface Falls {
     size: [number, number, number]; // along x, y, z
-    // Four bytes for each coarse cell, z fastest, then y, then x: the falls to the east, to the north and
-    // upward, and 255 where there is any echo within reach, else 0.
+    // Four bytes for each coarse cell, z fastest, then y, then x. They are the falls to the east, to the north and
+    // upward, and 255 if the smoothed value is above 0, else 0.
     bytes: Uint8Array;
 }
 
@@ -68,7 +68,7 @@ function fillHoles(means: Float32Array, counts: Float32Array): void {
     for (let z = first + 1; z < means.length; ++z) if (counts[z] === 0) means[z] = means[z - 1]!;
 }
 
-// Smooths rows of `count` numbers that are `stride` apart, one after the other from `starts`.
+// Smooths rows of `count` numbers that are `stride` apart. `starts` visits the first index of each row.
 function smooth(
     values: Float32Array,
     count: number,

@@ -25,7 +25,7 @@ function mixed(mixer: Mixer, ...parts: [CellState, number, number][]): [CellStat
     return [mixer.state, mixer.value];
 }
 
-test('weights decide between cells, and states never enter a value', () => {
+test('the weights of cells decide the state, and a mean counts values only', () => {
     const mixer = new Mixer('mean');
     assert.deepEqual(mixed(mixer, [3, 40, 0.5], [1, 0, 0.5]), [CellState.value, 40]);
     assert.deepEqual(mixed(mixer, [3, 40, 0.4], [1, 0, 0.6]), [CellState.noEcho, 0]);
@@ -35,12 +35,12 @@ test('weights decide between cells, and states never enter a value', () => {
     assert.deepEqual(mixed(mixer), [CellState.notSeen, 0]);
 });
 
-test('velocities are those of the heaviest cell, phases go round', () => {
+test('velocities take the heaviest cell, and phases average on a circle', () => {
     assert.deepEqual(mixed(new Mixer('heaviest'), [3, -30, 0.4], [3, 28, 0.6]), [CellState.value, 28]);
     assert.deepEqual(mixed(new Mixer('circle'), [3, 350, 0.5], [3, 20, 0.5]), [CellState.value, 5]);
 });
 
-test('a plane at a level is that level, and between two it mixes them', () => {
+test('a plane at a level equals that level, and a plane between two levels mixes them', () => {
     const atLevel = planeField(grid, 'REF', grid.levelsM[7]!)!;
     const between = planeField(grid, 'REF', grid.levelsM[7]! + 100)!;
     let values = 0;
@@ -60,7 +60,7 @@ test('a plane at a level is that level, and between two it mixes them', () => {
     assert.deepEqual(levelsAbout([500, 1000], 300), { lower: 0, upper: 0, upperShare: 0 });
 });
 
-test('the maximum of a column is that of its cells', () => {
+test('the maximum of a column is its greatest cell', () => {
     const field = maximumField(grid);
     for (let y = 0; y < grid.ny; ++y) {
         for (let x = 0; x < grid.nx; ++x) {
@@ -98,7 +98,7 @@ test('a section goes through the cells on its way', () => {
     assert.deepEqual([beyond.inGrid[50], beyond.inGrid[60]], [1, 0]);
 });
 
-test('air that was not seen and range folded air are told by coarse cells', () => {
+test('coarse cells have the shares of unseen and of range folded air', () => {
     const own = readPackedGrid(
         packedGrid({
             nx: 20,
@@ -117,7 +117,7 @@ test('air that was not seen and range folded air are told by coarse cells', () =
     assert.deepEqual(at(3, 2, 2), [255, 0]);
 });
 
-test('values fall away from where they are greatest, and unseen air is no side', () => {
+test('values fall away from their greatest, and unseen air makes no fall', () => {
     // A ball of echo about column (32, 32), level 8; its lower half was not seen.
     const ball = (x: number, y: number, z: number) => Math.max(0, 60 - 3 * Math.hypot(x - 32, y - 32, 2 * (z - 8)));
     const own = readPackedGrid(

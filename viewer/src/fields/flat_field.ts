@@ -1,8 +1,8 @@
-// Flat cuts of a grid, from its exact codes: a plane at one height and the maxima of columns, as the
-// products `cappi` and `composite` of the pictures have them.
+// Cuts flat fields from the exact codes of a grid: a plane at one height, and the maxima of columns. They agree with
+// the products `cappi` and `composite` of pictures.
 //
-// A field has a state and a value for each of its places, x fastest, y from the south on. Its values are
-// 0 where the state is none.
+// A field has a state and a value for each of its places, x fastest, y from the south on. The value is 0 unless the
+// state is CellState.value.
 
 import { heightRange } from '../camera/geometry';
 import { CellState, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -28,8 +28,8 @@ export interface LevelPair {
     upperShare: number;
 }
 
-// Returns the levels about a height; null where the grid has no cells. The cells of the outermost levels reach half a
-// level beyond them.
+// Returns the levels below and above a height; null if the grid has no cells there. The cells of the outermost levels
+// reach half a level beyond them.
 export function levelsAbout(levelsM: ArrayLike<number>, heightM: number): LevelPair | null {
     const { bottomM, topM } = heightRange(levelsM);
     if (!(heightM >= bottomM && heightM <= topM)) return null;
@@ -41,7 +41,7 @@ export function levelsAbout(levelsM: ArrayLike<number>, heightM: number): LevelP
     return { lower: upper - 1, upper, upperShare: (heightM - below) / (levelsM[upper]! - below) };
 }
 
-// Cuts the plane at a height above sea level; null where the grid has no cells.
+// Cuts the plane at a height above sea level; null if the grid has no cells at this height.
 export function planeField(grid: PackedGrid, moment: string, heightM: number): FlatField | null {
     const levels = levelsAbout(grid.levelsM, heightM);
     if (!levels) return null;
@@ -68,7 +68,7 @@ export function planeField(grid: PackedGrid, moment: string, heightM: number): F
 
 // Finds the greatest value of each column.
 export function maximumField(grid: PackedGrid): FlatField {
-    // Codes rank as the product has it: a value before range folded, that before no echo, that before not seen.
+    // The greatest code is also the right state: values rank above range folded, no echo and not seen, in this order.
     const greatest = new Uint16Array(grid.nx * grid.ny);
     const codes = new Uint16Array(greatest.length);
     for (let z = 0; z < grid.nz; ++z) {

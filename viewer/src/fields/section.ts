@@ -1,5 +1,5 @@
-// A vertical section between two places, as render/products/section.h has it: along the geodesic,
-// bilinear between columns and straight between levels, by the status rule.
+// Cuts a vertical section along the geodesic between two places, as render/products/section.h does. Values are bilinear
+// between columns and linear between levels; the status rule decides the state.
 
 import { heightRange } from '../camera/geometry';
 import { Place, Plane, cellSizeM, destination, geodesic, planeOf } from '../earth/projection';
@@ -9,15 +9,14 @@ import { Mixer, mixingOf } from './status_rule';
 
 export interface Section {
     lengthM: number;
-    bottomM: number; // sea level, or the lowest cells if these lie below it
+    bottomM: number; // sea level, or the bottom of the lowest cells if that is lower
     topM: number;
-    field: FlatField; // columns along the way, rows from the bottom up
-    inGrid: Uint8Array; // 1 for columns of the field that lie in the grid
-    // Positions of both ends of each column of the field, one more than there are columns.
-    ends: Plane[];
+    field: FlatField; // columns from the first place to the second, rows from the bottom up
+    inGrid: Uint8Array; // 1 for columns of the field that are in the grid, else 0
+    ends: Plane[]; // where columns begin, and where the last one ends; NaN where the plane has no place
 }
 
-// Returns the two cells about a place along an axis, and the share of the second; null beyond the cells.
+// Returns the two cells on both sides of a place along an axis, and the weight of the second; null beyond the cells.
 function neighbors(at: number, count: number): [number, number, number] | null {
     if (!(at >= -0.5 && at <= count - 0.5)) return null;
     const inside = Math.min(count - 1, Math.max(0, at));
@@ -26,7 +25,7 @@ function neighbors(at: number, count: number): [number, number, number] | null {
 }
 
 interface Corners {
-    codes: Uint16Array[]; // of four columns, by level
+    codes: Uint16Array[]; // of the four columns about a place, by level
     weights: number[];
 }
 

@@ -1,9 +1,12 @@
-// Finds state and value between cells of a grid, by the status rule of the pictures (render/products/cell_mixer.h).
+// Finds state and value of a place between cells of a grid, by the status rule of pictures
+// (render/products/cell_mixer.h).
 //
-// The cells give a place the weights of values, no echo, range folded and not seen. If more than half was not
-// seen, the place was not seen; else range folded where that is the largest part; else no echo where it
-// outweighs the values; else it is the mean of the values alone. The phase is averaged on its circle. For
-// velocities the value that weighs most counts, because a grid does not tell their circle.
+// The cells about a place give weights to the four states. The place is
+//   - not seen if that weighs more than all other states together, or if nothing has weight;
+//   - else range folded if that weighs more than values, and more than no echo;
+//   - else no echo if that weighs more than values;
+//   - else the mean of the values alone. Phases average on a circle. Velocities take the heaviest value, because a grid
+//     does not say at which velocity they alias.
 
 import { MomentFacts, momentFacts } from '../wire/moments';
 import { CellState } from '../wire/packed_grid';
@@ -19,7 +22,7 @@ export class Mixer {
     state: CellState = CellState.notSeen; // of the last result()
     value = 0;
 
-    private weights = new Float64Array(4); // of each state
+    private weights = new Float64Array(4); // by state
     private values = new Float64Array(mostParts);
     private shares = new Float64Array(mostParts);
     private count = 0;

@@ -8,7 +8,8 @@ import { PackedError } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
 import { placeAbout } from '../testing/written_grid';
 
-// A sweep as docs/web/packed-grid.md has it: radials at some azimuths, the code of a gate tells both.
+// Returns a packed sweep (docs/web/packed-grid.md) with radials at these azimuths. The code of each gate depends on
+// radial and gate.
 function packedSweep(azimuths: number[], gateCount: number): Uint8Array {
     const [radialsAt, codesAt] = [128, 128 + 32 * azimuths.length];
     const view = new DataView(new ArrayBuffer(codesAt + azimuths.length * gateCount));
@@ -31,7 +32,7 @@ function packedSweep(azimuths: number[], gateCount: number): Uint8Array {
     return new Uint8Array(view.buffer);
 }
 
-test('a packed sweep is read as its document has it', () => {
+test('a packed sweep is read as docs/web/packed-grid.md says', () => {
     const sweep = readPackedSweep(packedSweep([10, 11, 12], 20));
     assert.equal(sweep.firstGateM, 2000);
     assert.equal(sweep.codes[20 * 2 + 5], 19);
@@ -40,7 +41,7 @@ test('a packed sweep is read as its document has it', () => {
     assert.throws(() => readPackedSweep(new Uint8Array(200)), PackedError);
 });
 
-test('each azimuth has its nearest radial, and a gap has none', () => {
+test('each azimuth has its nearest radial, and azimuths in a gap have none', () => {
     const azimuths = Array.from({ length: 360 }, (_, i) => (i + 200.25) % 360).filter(
         (azimuth) => azimuth < 90 || azimuth > 95,
     );
@@ -54,7 +55,7 @@ test('each azimuth has its nearest radial, and a gap has none', () => {
     }
 });
 
-test('a beam of half a degree is where the formula of Doviak and Zrnic has it', () => {
+test('the height of a beam at half a degree agrees with the formula of Doviak and Zrnic', () => {
     const radius = (4 / 3) * 6371e3;
     const { arcM, heightM } = beamAt({ latitudeDeg: 35, altitudeM: 400 }, 0.5, 200000);
     const height =
@@ -65,7 +66,7 @@ test('a beam of half a degree is where the formula of Doviak and Zrnic has it', 
     );
 });
 
-test('the cone stands about its site', () => {
+test('the cone is around its site', () => {
     const plane = planeOf(placeAbout([35.3331, -97.2777]));
     const sweep = readPackedSweep(packedSweep([0, 90, 180, 270], 100));
     const { corners, triangles } = coneOf(sweep, plane);
@@ -84,13 +85,13 @@ test('the cone stands about its site', () => {
     assert(Math.max(...triangles) < corners.length / 5);
 });
 
-test('of a split cut the half that pictures take is shown, and each can be chosen (2026-11-28: reflectivity was shown of the Doppler half)', () => {
+test('a split cut shows the half that pictures take, and either half can be chosen (2026-11-28: reflectivity came from the Doppler half)', () => {
     const row = (sweep: number, elevation_deg: number, ...moments: string[]) => ({
         sweep,
         elevation_deg,
         moments: moments.map((text) => ({ moment: text.replace('!', ''), chosen: text.endsWith('!') })),
     });
-    // Two split cuts, the lower one repeated, and a cut that is whole; the server says which of them pictures take.
+    // Two split cuts, the lower of which is repeated, and a whole cut. The server says which cuts pictures take.
     const rows = [
         row(0, 0.48, 'REF', 'ZDR'),
         row(1, 0.5, 'REF', 'VEL'),
@@ -116,7 +117,7 @@ test('of a split cut the half that pictures take is shown, and each can be chose
     );
 });
 
-test('of several sites the nearest to a place is meant', () => {
+test('the site nearest to a place is chosen', () => {
     const plane = planeOf(placeAbout([35, -97]));
     const site = (icao: string, latitudeDeg: number, longitudeDeg: number) => ({
         icao,

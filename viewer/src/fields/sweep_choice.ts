@@ -4,12 +4,12 @@ import { GridPlane, Plane } from '../earth/projection';
 import { SweepRow } from '../wire/api';
 import { Site } from '../wire/packed_grid';
 
-const sameElevationDeg = 0.2; // as include/stormcellar/grid/sweep_choice.h has it
+const sameElevationDeg = 0.2; // as in include/stormcellar/grid/sweep_choice.h
 
 const has = (row: SweepRow, moment: string): boolean => row.moments.some((one) => one.moment === moment);
 const isSameElevation = (one: number, other: number): boolean => Math.abs(one - other) <= sameElevationDeg;
 
-// Returns the cuts that have the moment, by rising elevation, and at one elevation in the order of their times.
+// Returns the cuts that have the moment, by rising elevation; cuts of one elevation are in the order of the volume.
 export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
     const rising = rows.filter((row) => has(row, moment)).sort((a, b) => a.elevation_deg - b.elevation_deg);
     const groups: SweepRow[][] = [];
@@ -21,12 +21,13 @@ export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
     return groups.flatMap((group) => group.sort((a, b) => a.sweep - b.sweep));
 }
 
-// Returns true if `stormcellar frame --product ppi` takes this cut of its elevation.
+// Returns true if `stormcellar frame --product ppi` draws this cut of all cuts at its elevation.
 export const isChosen = (row: SweepRow, moment: string): boolean =>
     row.moments.some((one) => one.moment === moment && one.chosen === true);
 
-// Returns the cut to show: the one with the number, if this volume has it at that elevation; else the nearest
-// to the elevation of those that pictures take, or of all if they take none. Null if none has the moment.
+// Returns the cut to show; null if no cut has the moment. This is the cut `number` if it is at the elevation and has
+// the moment. Otherwise it is the cut nearest to the elevation among the cuts that pictures take, or among all cuts if
+// pictures take none.
 export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, number: number | null): SweepRow | null {
     const having = rows.filter((row) => has(row, moment));
     const named = having.find((row) => row.sweep === number && isSameElevation(row.elevation_deg, elevationDeg));
@@ -39,7 +40,7 @@ export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, nu
     );
 }
 
-// Returns the purpose of a half of a split cut; empty for a whole cut.
+// Returns the purpose of a half of a split cut; an empty text for a whole cut.
 export function kindOf(row: SweepRow, rows: SweepRow[]): 'surveillance' | 'doppler' | '' {
     const isDoppler = has(row, 'VEL');
     const isSplit = rows.some(

@@ -1,7 +1,7 @@
-// Puts a sweep in its place: the radial of each azimuth, and the cone that holds the gates.
+// Places a sweep over the earth: finds the radial of each azimuth, and the cone of its gates.
 //
-// A gate is where the beam of the sweep's mean elevation has its slant range: a straight ray over a sphere
-// of 4/3 of the Gaussian earth radius (docs/geometry.md).
+// All gates are drawn at the sweep's mean elevation. A beam is a straight line over a sphere of 4/3 of the Gaussian
+// earth radius (docs/geometry.md).
 
 import { Plane, GridPlane, Place, destination } from '../earth/projection';
 import { PackedSweep } from '../wire/packed_sweep';
@@ -22,7 +22,7 @@ interface Antenna {
     altitudeM: number;
 }
 
-// Returns the place of a slant range on a beam: the arc along the earth at sea level, and the height above it.
+// Returns where a beam is at a slant range: the arc along the earth at sea level, and the height above sea level.
 export function beamAt(site: Antenna, elevationDeg: number, rangeM: number): { arcM: number; heightM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const antenna = radius + site.altitudeM;
@@ -46,8 +46,8 @@ export function beamTo(site: Antenna, arcM: number, heightM: number): { elevatio
 export const azimuthSteps = 7200; // of a turn
 export const noRadial = 65535;
 
-// Finds the nearest radial for each step of azimuth; noRadial in gaps. Where neighbors are more than one and
-// a half spacings apart, each reaches half a spacing, and nothing was seen in between.
+// Finds the nearest radial for each step of azimuth. A gap is where two radials are more than one and a half median
+// spacings apart; steps in a gap that are more than half a spacing from both radials get noRadial.
 export function radialsByAzimuth({ azimuthsDeg, gateCounts }: PackedSweep): Uint16Array {
     const order = [...azimuthsDeg.keys()]
         .filter((i) => gateCounts[i]! > 0 && Number.isFinite(azimuthsDeg[i]!))
@@ -79,7 +79,7 @@ export interface Cone {
     triangles: Uint32Array;
 }
 
-const turns = 360; // corners of a ring
+const turns = 360; // steps of azimuth around a ring
 const rings = 48;
 
 export function coneOf(sweep: PackedSweep, plane: GridPlane): Cone {

@@ -22,7 +22,7 @@ import {
 const view: MapView = { center: [0.25, 0.4], scale: 4096, width: 800, height: 600 };
 const place = (latitudeDeg: number, longitudeDeg: number) => ({ latitudeDeg, longitudeDeg });
 
-test('places are where the tiles have them', () => {
+test('places are in the right tiles', () => {
     // An example of the OpenStreetMap wiki, "Slippy map tilenames": zoom 17.
     const [x, y] = mapPoint(place(51.51202, 0.02435));
     assert.equal(Math.floor(x * 2 ** 17), 65544);
@@ -37,7 +37,7 @@ test('places are where the tiles have them', () => {
     }
 });
 
-test('a point under the pointer stays there while the map is scaled, and follows a drag', () => {
+test('the point under the pointer stays there while the map is scaled or dragged', () => {
     const at = pointAt(view, 100, 450);
     const [x, y] = pixelOf(scaledMap(view, 1.7, 100, 450), at);
     assert.ok(Math.hypot(x - 100, y - 450) < 1e-6);
@@ -45,7 +45,7 @@ test('a point under the pointer stays there while the map is scaled, and follows
     assert.ok(Math.hypot(dx - 130, dy - 430) < 1e-6);
 });
 
-test('the map cannot be lost', () => {
+test('the map cannot be dragged out of sight', () => {
     let now = view;
     for (let i = 0; i < 50; ++i) now = scaledMap(draggedMap(now, 0, 900), 0.5);
     assert.ok(now.scale >= 256 && now.center[1] >= 0 && now.center[1] <= 1);
@@ -53,7 +53,7 @@ test('the map cannot be lost', () => {
     assert.ok(now.scale <= 256 * 2 ** 13);
 });
 
-test('a fit shows every point beside what the page covers, across the antimeridian too', () => {
+test('a fit shows every point where the page covers nothing, across the antimeridian too', () => {
     for (const places of [
         [place(35, -97), place(47, -122), place(25, -80)],
         [place(13.5, 144.8), place(21.9, -159.6)],
@@ -95,7 +95,7 @@ test('a box holds the places that are drawn in it', () => {
 });
 
 // 2026-11-28: with one radar west of the date line, the start map had no land east of it.
-test('a box goes on across the date line when it grows, and holds what lies there', () => {
+test('a box grows across the date line, and holds boxes there', () => {
     const grown = grownBox({ west: 130, south: 0, east: 230, north: 60 }, 0.5);
     assert.deepEqual(grown, { west: 80, south: -30, east: 280, north: 85 });
     assert.ok(holdsBox(grown, { west: -170, south: 0, east: -130, north: 60 }));
@@ -115,7 +115,7 @@ test('the box about a longitude is no wider than its places', () => {
     assert.deepEqual(east, { west: 177, south: 50, east: 181, north: 52 });
 });
 
-test('a radar is of the view if its circle meets it (2026-11-28: of nearer views, radars beside them were forgotten)', () => {
+test('a radar belongs to a view that its circle meets (2026-11-28: near views left out radars beside them)', () => {
     const view: MapView = {
         center: mapPoint({ latitudeDeg: 40, longitudeDeg: -100 }),
         scale: 256 * 2 ** 10,

@@ -1,7 +1,8 @@
-// Positions of places on the start map: Web Mercator, as the tiles have it.
+// Converts between places, points and pixels of the start map, which is in Web Mercator like its tiles.
 //
-// A point of the map is [x, y] in the square of the earth: x from 0 at 180 degrees west to 1, y from 0 in
-// the north to 1. Longitudes repeat: x + 1 is the same place. Pixels: (0, 0) is the top left corner.
+// A point of the map is [x, y]; the earth is a square with x from 0 at 180 degrees west to 1 at 180 degrees east, and y
+// from 0 in the north to 1 in the south. Longitudes repeat, so x + 1 is the same place. Pixel (0, 0) is the top left
+// corner.
 
 import { Place } from '../earth/projection';
 
@@ -9,7 +10,7 @@ export type MapPoint = [number, number];
 
 export interface MapView {
     center: MapPoint;
-    scale: number; // pixels of the whole earth
+    scale: number; // width of the whole earth in pixels
     width: number; // pixels
     height: number;
 }
@@ -42,7 +43,7 @@ export function placeOfPoint([x, y]: MapPoint): Place {
     return { latitudeDeg, longitudeDeg: ((((x % 1) + 1) % 1) * 360 || 0) - 180 };
 }
 
-// Returns the copy of a point that is nearest to another, across the antimeridian too.
+// Returns the copy of `point` nearest to `to`, across the antimeridian too.
 export function nearestCopy(point: MapPoint, to: MapPoint): MapPoint {
     return [point[0] + Math.round(to[0] - point[0]), point[1]];
 }
@@ -65,7 +66,7 @@ export function draggedMap(view: MapView, dx: number, dy: number): MapView {
     return held({ ...view, center: [view.center[0] - dx / view.scale, view.center[1] - dy / view.scale] });
 }
 
-// Scales a view, and keeps the point under (x, y) there.
+// Scales a view. The point under the pixel (x, y) stays there, unless that would drag the map out of sight.
 export function scaledMap(view: MapView, factor: number, x = view.width / 2, y = view.height / 2): MapView {
     const fixed = pointAt(view, x, y);
     const next = held({ ...view, scale: view.scale * factor });
@@ -73,7 +74,7 @@ export function scaledMap(view: MapView, factor: number, x = view.width / 2, y =
     return held({ ...next, center: [next.center[0] + fixed[0] - now[0], next.center[1] + fixed[1] - now[1]] });
 }
 
-// Returns the least x from which all points follow within one turn of the earth, by the widest gap between them.
+// Returns the x, from 0 to 1, of the first point east of the widest gap between the points.
 function westernmost(points: MapPoint[]): number {
     const xs = points.map(([x]) => ((x % 1) + 1) % 1).sort((a, b) => a - b);
     let widest = xs[0]! + 1 - xs[xs.length - 1]!;
@@ -88,7 +89,8 @@ function westernmost(points: MapPoint[]): number {
     return first;
 }
 
-// Returns a view of all points. `clear` are the pixels at each side (left, top, right, bottom) that the page covers.
+// Returns a view of all points, or of the whole earth without points. `clear` is how many pixels the page covers at the
+// left, top, right and bottom.
 export function fittedMap(
     points: MapPoint[],
     width: number,
@@ -122,7 +124,7 @@ export interface Tile {
     side: number;
 }
 
-// Returns the tiles that the view shows, at the zoom whose pixels are nearest to the view's.
+// Returns the tiles that the view shows, at the zoom whose pixels are nearest in size to the pixels of the view.
 export function tilesOf(view: MapView): Tile[] {
     const zoom = Math.min(deepestZoom, Math.max(0, Math.round(Math.log2(view.scale / tileSide))));
     const count = 2 ** zoom;
@@ -139,7 +141,7 @@ export function tilesOf(view: MapView): Tile[] {
     return tiles;
 }
 
-// Returns the degrees between two pixels of a view.
+// Returns the box with corners at two pixels of a view.
 export function boxBetween(view: MapView, a: [number, number], b: [number, number]): MapBox {
     const [west, north] = pointAt(view, Math.min(a[0], b[0]), Math.min(a[1], b[1]));
     const [east, south] = pointAt(view, Math.max(a[0], b[0]), Math.max(a[1], b[1]));
@@ -154,7 +156,7 @@ export function boxBetween(view: MapView, a: [number, number], b: [number, numbe
 
 const turned = (degrees: number): number => ((degrees % 360) + 360) % 360;
 
-// Returns the box of places about a longitude.
+// Returns the smallest box that holds all places, whose longitudes are within 180 degrees of `middleDeg`.
 export function boxAbout(middleDeg: number, places: Place[]): MapBox {
     const longitudes = places.map((place) => middleDeg - 180 + turned(place.longitudeDeg - middleDeg + 180));
     const latitudes = places.map((place) => place.latitudeDeg);
@@ -166,7 +168,8 @@ export function boxAbout(middleDeg: number, places: Place[]): MapBox {
     };
 }
 
-// Returns a box with a margin at each side, as a share of its own sides; no wider than the earth.
+// Returns a box with a margin at each side. The margin is a share of the side's length, but the box gets no wider than
+// the earth, and reaches no farther than 85 degrees north and south.
 export function grownBox({ west, south, east, north }: MapBox, share: number): MapBox {
     const wide = Math.min(360, east - west);
     const dx = Math.min(share * wide, (360 - wide) / 2);

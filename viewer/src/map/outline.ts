@@ -23,7 +23,7 @@ function halvesM(facts: GridFacts): [number, number] {
     return [(facts.nx * width) / 2, (facts.ny * height) / 2];
 }
 
-// Returns the corners, and points between them, because a side is not straight on another map.
+// Returns points along the border of a grid. Each side has several, because it is not straight on another map.
 export function outlineOf(facts: GridFacts): Place[] {
     const plane = planeOf(geometryOf(facts));
     const [x, y] = halvesM(facts);
@@ -42,7 +42,7 @@ export function outlineOf(facts: GridFacts): Place[] {
     });
 }
 
-// Returns the largest circle about the middle that a radar's own grid holds.
+// Returns points of the largest circle about the center that fits into a radar's own grid.
 export function circleOf(facts: GridFacts): Place[] {
     const center: Place = { latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] };
     const radiusM = Math.min(...halvesM(facts));

@@ -35,12 +35,12 @@ const cities: City[] = [
 ];
 const names = (text: string): string[] => search(stations, cities, text).map((one) => one.station.icao);
 
-test('what the server says of stations becomes places; without a place there is none', () => {
+test('stations become places, except stations without a position', () => {
     assert.equal(stationPlaces([{ station: 'XXXX', newest_volume: null, newest_grid: null, moments: [] }]).length, 0);
     assert.deepEqual([stations[0]!.ageS, stations[3]!.ageS, stations[3]!.hasGrids], [120, 90, false]);
 });
 
-test('a word finds an ICAO, a town, and the stations near a city', () => {
+test('a search finds stations by ICAO, by town, and near a city', () => {
     assert.deepEqual(names(''), ['KTLX', 'KINX', 'KLBB', 'TOKC']);
     assert.deepEqual(names('klbb'), ['KLBB']);
     assert.deepEqual(names('tlx'), ['KTLX']);
@@ -52,7 +52,7 @@ test('a word finds an ICAO, a town, and the stations near a city', () => {
     assert.deepEqual(names('qqq'), []);
 });
 
-test('a pointer means the nearest station within reach', () => {
+test('a pointer chooses the nearest station within reach', () => {
     const pixels: [number, number][] = [
         [10, 10],
         [50, 10],
@@ -62,7 +62,7 @@ test('a pointer means the nearest station within reach', () => {
     assert.equal(nearestPixel(pixels, 200, 200, 30), -1);
 });
 
-test('an arrow leads to the next station in its direction', () => {
+test('an arrow key leads to the next station in its direction', () => {
     const pixels: [number, number][] = [
         [10, 10],
         [50, 14],
@@ -75,7 +75,7 @@ test('an arrow leads to the next station in its direction', () => {
     assert.equal(pixelToward(pixels, pixels[0]!, [-1, 0]), -1);
 });
 
-test('outlines lie where the grid ends', () => {
+test('outlines follow the border of the grid', () => {
     const facts: GridFacts = {
         id: '',
         time: '',

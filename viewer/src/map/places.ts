@@ -1,4 +1,4 @@
-// Lists the places of the start map, and finds the one that a pointer, a key or a word means.
+// Lists the stations on the start map, and finds a station by pointer, by key or by name.
 
 import { City, Station } from '../wire/api';
 import { Place, geodesic } from '../earth/projection';
@@ -6,13 +6,13 @@ import { Place, geodesic } from '../earth/projection';
 export interface StationPlace extends Place {
     icao: string;
     name: string; // of the town, with its state
-    ageS: number | null; // of the newest grid, else of the newest volume; null: there is neither
+    ageS: number | null; // of the newest grid, else of the newest volume; null without both
     hasGrids: boolean;
     moments: string[];
-    newestGrid: string | null; // its time
+    newestGrid: string | null; // time of the newest grid
 }
 
-// Returns the stations with a known place. Only the list of domains has the others.
+// Returns the stations whose position is known. Others are only in the list of domains.
 export function stationPlaces(stations: Station[]): StationPlace[] {
     return stations.flatMap((one) => {
         const { latitude_deg: latitudeDeg, longitude_deg: longitudeDeg } = one;
@@ -48,8 +48,8 @@ export function nearestPixel(pixels: Pixel[], x: number, y: number, reach: numbe
     return best;
 }
 
-// Returns the index of the pixel that an arrow key leads to from another: near, and little aside of the way; -1 if
-// there is none.
+// Returns the index of the pixel that an arrow key leads to; -1 if none is in its direction. Prefers pixels that are
+// near `from` and close to the line in the key's direction.
 export function pixelToward(pixels: Pixel[], from: Pixel, [wx, wy]: Pixel): number {
     let best = -1;
     let least = Infinity;
@@ -77,8 +77,8 @@ export function isInside(polygon: Pixel[], x: number, y: number): boolean {
 
 export interface Found {
     station: StationPlace;
-    near: string | null; // the city that was searched for
-    distanceM: number; // from it
+    near: string | null; // name of the city that the search found; null: it found the station itself
+    distanceM: number; // from that city; 0 without a city
 }
 
 const stationsOfACity = 3;
@@ -91,7 +91,8 @@ const simple = (text: string): string =>
         .toLowerCase()
         .trim();
 
-// Finds stations by their ICAO or name, then the nearest stations to cities of that name.
+// Finds stations by ICAO or name, and then the nearest stations to cities whose name begins with the text. An empty
+// text finds all stations.
 export function search(stations: StationPlace[], cities: City[], text: string): Found[] {
     const wanted = simple(text);
     const own = (station: StationPlace): Found => ({ station, near: null, distanceM: 0 });

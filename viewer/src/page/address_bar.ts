@@ -1,20 +1,20 @@
-// Writes the view into the address of the page: at once, or now and then while something moves. Browsers take long to
+// Writes the view into the address of the page, at once or, while something moves, now and then. Browsers take long to
 // show an address, and some refuse to do it often.
 
 import { ViewState, stateOf } from '../scene/view_state';
 import { namesOf } from '../tables/units';
 import { rememberedUnits } from './remembered';
 
-const afterMs = 150; // less than the picture waits until it is fine
+const afterMs = 150; // less than a view rests before its fine picture
 const everyMs = 1000; // while something moves
 
-// Returns the view of an address. If it names no units, takes those that the user had last.
+// Returns the view of an address. If the address names no units, takes the units that the user chose last.
 export function stateOfAddress(hash = location.hash): ViewState {
     const state = stateOf(hash);
     return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
 }
 
-// Returns the text that stands for the time but is none; empty if the address has a time, or none at all.
+// Returns the time parameter of the address if it is not a time; otherwise an empty text.
 export function timeThatIsNone(hash = location.hash): string {
     const time = new URLSearchParams(hash.slice(1)).get('time') ?? '';
     return time !== '' && time !== 'latest' && stateOf(hash).time === 'latest' ? time.slice(0, 40) : '';
@@ -30,7 +30,7 @@ export class AddressBar {
         window.clearTimeout(this.timer);
         const isLate = performance.now() - this.writtenAt > everyMs;
         const { hash } = location;
-        // Keep an address that was typed meanwhile.
+        // Do not overwrite an address that the user types before the timer fires.
         this.timer = window.setTimeout(() => location.hash === hash && this.write(), isLate ? 0 : afterMs);
     }
     write(): void {
@@ -38,7 +38,7 @@ export class AddressBar {
         this.writtenAt = performance.now();
         history.replaceState(null, '', `#${this.address()}`);
     }
-    // Drops an address that waits to be written.
+    // Cancels writeSoon().
     drop(): void {
         window.clearTimeout(this.timer);
     }

@@ -1,11 +1,11 @@
-// Loads ahead what is shown next: grids, and what is drawn beside them.
+// Loads ahead what is shown next: grids, and the data of layers.
 
 import { nextOf } from '../time/player';
 import { App } from './app';
 import { Loader } from './loader';
 
-const loadedAhead = 12; // of a loop
-const betweenAhead = 3; // of what is made on request
+const loadedAhead = 12; // times during playback
+const betweenAhead = 3; // times among these whose grids are made on request
 
 export class Ahead {
     constructor(private app: App) {}
@@ -21,7 +21,7 @@ export class Ahead {
         const loaded = await app.showing.load(time);
         if (!isLeft()) await app.alongside(app.showing.shownOf(time, loaded), isAhead);
     }
-    // Loads the neighbors in time, so that a step shows at once, and more of them while a loop plays.
+    // Loads the times before and after, so that a step shows at once, or during playback the next times.
     load(): void {
         const { app } = this;
         const { times, at, isPlaying } = app.player;
@@ -29,12 +29,12 @@ export class Ahead {
         const next = isPlaying
             ? Array.from({ length: loadedAhead }, (_, i) => nextOf(app.player, i + 1))
             : [at + 1, at - 1];
-        // The server computes halved grids, so ask for one grid in parts after the other.
+        // Load grids in parts one at a time, because the server computes their halved grids.
         const isInParts = app.shown?.loaded.stream != null;
         let before = Promise.resolve();
         for (const [i, index] of next.entries()) {
             const time = times[index ?? -1];
-            // The server makes frames between volumes on request, so ask for none that may not be shown.
+            // Load only the next few frames between volumes, because the server makes them on request.
             if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
                 if (!isLeft())

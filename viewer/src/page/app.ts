@@ -1,6 +1,6 @@
-// Holds the state of the page: the view, the domain and moment that are chosen, and which grid is shown. Panels and
-// pointers change it through its methods, and hear what happened. Showing loads the wanted time, Playback chooses it,
-// and News takes what the server tells.
+// Holds the state of the page: the view, the chosen domain and moment, and the shown grid. Panels and pointers change
+// the state through methods of App, and App tells them what happened. Showing loads the wanted time, Playback chooses
+// it, and News handles news of the server.
 
 import { Camera } from '../camera/geometry';
 import { LoadedGrid } from '../atlas/loaded_grid';
@@ -21,10 +21,17 @@ import { Showing } from './showing';
 import { TableBook } from './table_book';
 import { texts } from './texts';
 
-// 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from where;
-// 'units': the units of texts; 'time': the times, or which of them is wanted; 'restored': the graphics
-// processor forgot all; 'map': the map of all stations is opened or left; 'cells': more of a grid in parts, or
-// of the layers, is there; 'notice': what a user must know of the server, the radars, or what was asked for.
+// Kinds of changes, and what changes:
+//   choices   the domain, or its list of moments
+//   shown     the shown grid
+//   view      how the grid is shown
+//   camera    the camera
+//   units     the units of texts
+//   time      the list of times, or the wanted time
+//   restored  the WebGL context, which lost all its data
+//   map       whether the map of all stations is open
+//   cells     data of layers have come
+//   notice    messages about the server, the radars, or data that the user asked for
 export type Happening =
     'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells' | 'notice';
 
@@ -40,16 +47,17 @@ export interface Shown {
 export class App {
     state: ViewState = stateOfAddress();
     domains: Domain[] = [];
-    book: TableBook | null = null; // once the server has told its tables
+    book: TableBook | null = null; // null until the server's tables have come
     shown: Shown | null = null;
-    isOnMap = false; // of all stations, where a domain is chosen
-    // Fetches what else a picture of `next` needs. Until it has come, the one before stays. Null: it is there.
+    isOnMap = false; // the map of all stations is open
+    // Fetches the data other than its grid that a picture of `next` needs, and resolves when they have come; null if
+    // they are here. The shown picture stays until then.
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
-    isShownWhole: () => boolean = () => true; // the picture has all of what is shown
-    isGraphicsLost = false; // nothing can be drawn
+    isShownWhole: () => boolean = () => true; // returns true if all layers of the picture have come
+    isGraphicsLost = false; // the WebGL context is lost
     readonly server = new ServerState(() => this.tell('notice'));
-    missed = ''; // what was asked for and is not there
-    missedTime = ''; // a time of that
+    missed = ''; // message about what the user asked for and the server does not have
+    missedTime = ''; // time that this message names; empty if it names none
     readonly timeline = new Timeline(
         this.state.time === 'latest',
         () => this.state.betweenS,
@@ -62,10 +70,10 @@ export class App {
     readonly showing = new Showing(this);
     readonly playback = new Playback(this);
     readonly news = new News(this);
-    choices = 0; // how often a domain and moment were chosen
-    askedMoment = ''; // what choose() was asked for, which may not be there
+    choices = 0; // counts choices of a domain and moment, to recognize answers to an older choice
+    askedMoment = ''; // last argument of choose(), which the server may not have
     private askedDomain = '';
-    unreadTime = timeThatIsNone(); // of the address
+    unreadTime = timeThatIsNone(); // time parameter of the address if it is not a time
     private heard = new Map<Happening, (() => void)[]>();
     private addressBar = new AddressBar(() => addressOf(this.state));
 
@@ -107,7 +115,7 @@ export class App {
     get table(): ColorTable | undefined {
         return this.book?.of(this.state, this.state.moment);
     }
-    // Color table of what is drawn: while another moment comes, the old one keeps its colors.
+    // Returns the color table of the shown moment, which stays in the picture until another moment has come.
     get shownTable(): ColorTable | undefined {
         return this.shown ? this.book?.of(this.state, this.shown.moment) : undefined;
     }
@@ -145,8 +153,8 @@ export class App {
         return new URL(`#${addressOf({ ...state, time })}`, location.href).href;
     }
 
-    // Takes an address that was typed, or that going back in the browser brought. Meanwhile the page may have written
-    // another one.
+    // Shows the view of an address that the user typed or went back to. Pass the address of the event, because the page
+    // may write another address before it handles the event.
     takeAddress(hash: string): void {
         const [next, unreadTime] = [stateOfAddress(hash), timeThatIsNone(hash)];
         if (next.domain === '' && this.domains.length > 1) return this.openMap();
@@ -157,7 +165,7 @@ export class App {
         void this.choose(next.domain, next.moment);
     }
 
-    // -- what is shown
+    // -- the shown grid
 
     async begin(): Promise<void> {
         const [, known] = await Promise.all([this.findDomains(), tables()]);
@@ -172,7 +180,7 @@ export class App {
         this.domains = [...found, ...this.domains.filter((domain) => isRegion(domain.domain))];
         if (this.missed === '' || this.missedTime !== '' || this.unreadTime !== '') return;
         if (this.isAskedThere) this.miss('');
-        // Sites that reach it may have come.
+        // Sites that reach the region may have come since it was asked for.
         else if (isRegion(this.askedDomain))
             void this.findRegion(this.askedDomain).then(
                 () => this.missedTime === '' && this.isAskedThere && this.miss(''),
@@ -198,12 +206,12 @@ export class App {
         [this.missed, this.missedTime] = [text, time];
         this.tell('notice');
     }
-    // Says that a time is not there, beside what else is missed.
+    // Adds a message that the server does not have a time.
     missTime(time: string): void {
         this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
     }
 
-    // Makes a region a domain, with its sites and times. Errors: the server's answer for its box.
+    // Asks the server for a region, and adds it to the domains. Errors are as in region().
     async findRegion(domain: string): Promise<void> {
         const found = await region(domain);
         this.domains = [...this.domains.filter((one) => one.domain !== domain), found];
@@ -246,8 +254,9 @@ export class App {
         await this.choose(domain, this.state.moment);
     }
 
-    // Shows a domain and a moment of it. If the domain is not there, opens the map of all. If there is only
-    // one domain, or no such moment, shows the first one, and the page says so.
+    // Shows a moment of a domain. If the server does not have the domain, opens the map of all stations, or shows the
+    // only domain if there is just one. If the domain does not have the moment, shows its first moment. A message tells
+    // what is missing.
     async choose(domain: string, moment: string): Promise<void> {
         this.miss('');
         [this.askedDomain, this.askedMoment] = [domain, moment];
@@ -257,7 +266,7 @@ export class App {
                 await this.findRegion(domain);
             } catch (error) {
                 if (choice !== this.choices) return;
-                // The region is asked for again when the server answers.
+                // Keep the region as the domain, so that it is asked for again when the server answers.
                 if (error instanceof TypeError) {
                     this.leaveMap();
                     this.state.domain = domain;
@@ -281,7 +290,7 @@ export class App {
         const moments = (this.domain?.moments ?? []).map((one) => one.moment);
         const before = this.state.moment;
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
-        // The threshold is a number in the unit of its moment.
+        // Drop the threshold with its moment, whose unit it has.
         if (before !== '' && this.state.moment !== before) this.state.least = null;
         const missed = [
             isThere ? '' : texts.notice.otherDomain(domain, this.state.domain),
@@ -293,7 +302,7 @@ export class App {
         this.miss(missed.filter(Boolean).join(' '));
         return this.showing.showChosen();
     }
-    // Returns to the domain and moment that are shown. The threshold of another moment is in another unit, so it goes.
+    // Chooses the shown domain and moment again. Drops the threshold if the moment changes.
     private backToShown(): void {
         const { shown, state } = this;
         if (shown)

@@ -1,4 +1,4 @@
-// The colors with their values, beside the picture.
+// Draws the bar of colors and their values beside the picture.
 
 import { colorOf } from '../tables/color_table';
 import { ColorTable } from '../wire/color_tables';
@@ -7,7 +7,7 @@ import { shades } from '../renderer/shades';
 import { fontOf, penOf, textScale } from './dom';
 import { haloed } from './labels';
 
-// The distance between marks of an axis, so that there are about eight.
+// Returns a round distance between the marks of an axis, so that there are about eight.
 export function stepOf(range: number): number {
     const rough = range / 8;
     const power = 10 ** Math.floor(Math.log10(rough));
@@ -19,7 +19,7 @@ export class ColorBar {
 
     constructor(private canvas: HTMLCanvasElement) {}
 
-    // Draws nothing if the same bar is there already.
+    // Draws the bar, unless it is already drawn.
     show(table: ColorTable, unit: ShownUnit, least: number | null): void {
         const { clientWidth, clientHeight } = this.canvas;
         const wanted = [

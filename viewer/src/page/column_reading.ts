@@ -1,4 +1,4 @@
-// Reads the column at a place from the exact codes.
+// Reads a column of cells from the exact codes of a grid.
 
 import { cellSizeM } from '../earth/projection';
 import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -11,7 +11,7 @@ export interface LevelReading {
 export interface ColumnReading {
     levels: LevelReading[]; // from the bottom
     greatest: { heightM: number; value: number } | null;
-    seenM: [number, number] | null; // between these heights the column was seen
+    seenM: [number, number] | null; // heights of the lowest and the highest seen cell
 }
 
 // Returns the column whose cells hold a point of the plane; null beyond the grid.

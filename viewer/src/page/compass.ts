@@ -1,4 +1,4 @@
-// Shows north in the picture, also in a saved one. A press turns north up.
+// Shows where north is in the picture, also in a saved picture. A press turns north up.
 
 import { shades } from '../renderer/shades';
 import { App } from './app';

@@ -1,12 +1,12 @@
-// Helpers of the panels for the document.
+// Helps panels to find and make elements of the document.
 
 // eslint-disable-next-line @typescript-eslint/no-unnecessary-type-parameters -- callers name the kind of their element
 export function element<T extends HTMLElement>(id: string): T {
     return document.getElementById(id) as T;
 }
 
-// Returns how much larger than usual texts are: on large screens, and where the user wants them so. The style
-// sheet sets it as the size of the root's font, which is usually 10 pixels.
+// Returns the size of texts relative to the usual size. The style sheet sets it by the font size of the root, which is
+// usually 10 pixels, and larger on large screens or if the user has set a larger font.
 export function textScale(): number {
     return parseFloat(getComputedStyle(document.documentElement).fontSize) / 10;
 }
@@ -15,12 +15,13 @@ export function fontOf(pixels: number, weight: 'normal' | 'bold' = 'normal'): st
     return `${weight} ${pixels}px "DejaVu Sans", system-ui, sans-serif`;
 }
 
-// Returns how many pixels of the picture a pixel of the page is wide.
+// Returns the number of pixels of the screen in a pixel of the page.
 export function pixelRatio(): number {
     return window.devicePixelRatio || 1;
 }
 
-// Makes a canvas as fine as the screen shows it. Returns a pen whose pixels are larger where texts are.
+// Gives a canvas as many pixels as the screen shows of it. Returns a pen that draws in pixels of the page, which are
+// larger if texts are larger.
 export function penOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
     const ratio = pixelRatio();
     canvas.width = Math.round(canvas.clientWidth * ratio);
@@ -53,7 +54,7 @@ export function button(id: string, text: string, action: () => void): HTMLButton
     return made;
 }
 
-// Escape in a panel closes it, and the keyboard is where the panel was opened.
+// Makes Escape close a panel, and move the focus to the control that opened it.
 export function leaveByEscape(panel: HTMLElement, openerId: string, close: () => void): void {
     panel.addEventListener('keydown', (event) => {
         if (event.key !== 'Escape') return;
@@ -63,7 +64,7 @@ export function leaveByEscape(panel: HTMLElement, openerId: string, close: () =>
     });
 }
 
-// A button that shows a sign; its name is a text.
+// Makes a button that shows a sign. Its name is for screen readers.
 export function labeledButton(id: string, sign: string, name: string, action: () => void): HTMLButtonElement {
     const made = button(id, sign, action);
     made.setAttribute('aria-label', name);
@@ -75,7 +76,7 @@ export function paragraph(text: string): HTMLParagraphElement {
     return make('p', {}, text);
 }
 
-// Fills a list with names, of which one is chosen.
+// Fills a list with names, and chooses one of them.
 export function putOptions(
     select: HTMLSelectElement,
     names: string[],

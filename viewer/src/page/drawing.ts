@@ -1,4 +1,5 @@
-// Draws the picture: the scene, and over it the names and what a tool marks. Coarser while it moves.
+// Draws the picture: the scene, and over it names and the marks of tools. Draws the scene faster and less exactly while
+// the view moves.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewGeometry } from '../camera/geometry';
@@ -23,7 +24,7 @@ const movingFrameMs = 50;
 const mostMovingDE = 20;
 const leastStillAfterMs = 180;
 const mostStillAfterMs = 1000;
-const leastBetweenMs = 150; // of pictures as bricks come
+const leastBetweenMs = 150; // between pictures while bricks come
 const longestWishMs = 30_000;
 
 // Draws over the picture in pixels of the page.
@@ -31,12 +32,12 @@ export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) =>
 
 export class Drawing {
     readonly labels = element<HTMLCanvasElement>('labels');
-    // If a processor draws, a browser paints text and lines faster without WebGL.
+    // Let the browser paint on the processor if there is no graphics processor, which is faster then.
     private pen = this.labels.getContext('2d', { willReadFrequently: this.renderer.isSoftware })!;
     private bar = new ColorBar(element<HTMLCanvasElement>('bar'));
     private overlays: Overlay[] = [];
-    drawn: DrawnLayers | null = null; // what stands beside the volume in the picture
-    readonly pictureChanged: (() => void)[] = []; // called when another one was drawn
+    drawn: DrawnLayers | null = null; // layers of the last picture
+    readonly pictureChanged: (() => void)[] = []; // called after each picture
     private ground = new Ground(this.app, this.renderer, () => this.draw());
     private streaming = new Streaming(
         this.renderer,
@@ -52,7 +53,7 @@ export class Drawing {
         (error) => this.app.fail(error),
     );
     readonly layers = new LayerMaker(this.app, this.windows, () => this.app.cellsCame());
-    private lookedAt = ''; // the view whose bricks were asked for
+    private lookedAt = ''; // view for which bricks were last asked
     private governor = new Governor(usualRungs, movingFrameMs, mostMovingDE);
     private movedAt = 0;
     private wasPlaying = false;
@@ -61,7 +62,7 @@ export class Drawing {
     private lastMs = 0; // of the last frame
     private frames = 0;
     private isFinal = false;
-    private wish: { act: () => void } | null = null; // what waits for a fine picture
+    private wish: { act: () => void } | null = null; // action that waits for a fine picture
 
     constructor(
         private app: App,
@@ -106,7 +107,8 @@ export class Drawing {
         this.overlays.push(overlay);
     }
 
-    // `grain`: how many pixels of the page a pixel of the picture is wide.
+    // Returns the camera of the picture; null while nothing is shown. A pixel of the picture is `grain` pixels of the
+    // screen wide.
     geometry(grain = 1): ViewGeometry | null {
         const shown = this.app.shown;
         return shown ? this.geometryOf(shown.loaded, grain) : null;
@@ -119,7 +121,7 @@ export class Drawing {
         return new ViewGeometry(boxOf(grid), camera, exaggeration, width, height);
     }
 
-    // Call while something is dragged: draws fast pictures, and a fine one once it rests.
+    // Call while the view moves. Draws fast pictures, and a fine picture once the view rests.
     move(): void {
         this.movedAt = performance.now();
         this.draw();
@@ -133,19 +135,19 @@ export class Drawing {
         requestAnimationFrame(() => this.drawNow());
     }
 
-    // Draws a fine picture when playback stops, which draws fast ones.
+    // Draws a fine picture when playback stops, because playback draws fast pictures.
     private drawAtRest(): void {
         const { isPlaying } = this.app.player;
         if (this.wasPlaying && !isPlaying) this.draw();
         this.wasPlaying = isPlaying;
     }
 
-    // Returns how long the view must rest before it is drawn finely: longer if frames take long.
+    // Returns how long the view must rest before a fine picture. The time is longer if frames take long.
     private get stillAfterMs(): number {
         return Math.min(mostStillAfterMs, Math.max(leastStillAfterMs, 2 * this.lastMs));
     }
 
-    // Draws a while later, because bricks come faster than pictures.
+    // Draws after a pause, because bricks come faster than pictures can be drawn.
     private drawLater(): void {
         if (this.isWaiting) return;
         this.isWaiting = true;
@@ -171,7 +173,8 @@ export class Drawing {
         this.lookedAt = view;
     }
 
-    // Acts once a fine picture of what is shown is drawn, while it is on the canvas; not at all if none comes.
+    // Calls `act` when the next fine picture is complete and on the canvas. If this takes longer than longestWishMs,
+    // calls `giveUp` instead. A later call replaces a wish that still waits, of which neither is called then.
     whenFine(act: () => void, giveUp: () => void): void {
         const wish = (this.wish = { act });
         window.setTimeout(() => {
@@ -182,7 +185,8 @@ export class Drawing {
         this.draw();
     }
 
-    // Returns true if the picture has all that the view asks for, but for the detail of a grid in parts.
+    // Returns true if the picture has all layers, the ground and the chosen moment. A grid in parts may still lack
+    // detail.
     private get isComplete(): boolean {
         const { shown, state } = this.app;
         return (
@@ -229,7 +233,7 @@ export class Drawing {
         else if (!this.isFinal && this.isComplete) this.end(shown, rung, ms, fetches);
     }
 
-    // Tells what the picture shows. It stays until something changes.
+    // Reports how the complete picture was drawn, and carries out the wish.
     private end(shown: Shown, rung: Rung, ms: number, fetches: number | null): void {
         const { app } = this;
         this.isFinal = true;
@@ -252,7 +256,7 @@ export class Drawing {
         act();
     }
 
-    // Draws the marks of the tools again without the scene.
+    // Draws names and marks again, but not the scene.
     drawMarks(): void {
         const geometry = this.geometry();
         if (geometry && !this.isDrawing) this.drawOver(geometry);

@@ -4,7 +4,7 @@ import { LoadedGrid } from '../atlas/loaded_grid';
 import { packed } from '../wire/api';
 import { PackedGrid, readPackedBricks, withBricks } from '../wire/packed_grid';
 
-// Returns the grid with the exact codes of a column. Asks the server for those of a grid in parts.
+// Returns a grid with the exact codes of a column. For a grid in parts, asks the server for them.
 export async function gridForColumn({ grid, stream }: LoadedGrid, [x, y]: [number, number]): Promise<PackedGrid> {
     if (!stream) return grid;
     const [, columns, layers] = grid.bricks;

@@ -1,4 +1,4 @@
-// The page's facts of the grid that is shown.
+// Tests how the page asks for facts of the shown grid.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
@@ -17,8 +17,8 @@ Object.assign(globalThis, {
         ),
 });
 
-// 2026-11-28: after one failed answer the pointer had no beam, and a region no volumes, for good.
-test('what failed is asked for again', async () => {
+// 2026-11-28: after one failed answer, the pointer never told the beam, and a region never told its volumes.
+test('facts are asked for again after a failure', async () => {
     const { FactsOfShown } = await import('./facts_of_shown');
     for (const domain of ['KBGM', 'region:-100,33,-95,37']) {
         const facts = new FactsOfShown({

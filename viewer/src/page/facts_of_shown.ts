@@ -1,5 +1,4 @@
-// Asks the server for facts of the grid that is shown, and keeps its answer. A grid that was made again has other
-// facts.
+// Asks the server for facts of the shown grid, and keeps the answers until another grid is shown.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { GridFacts, RegionSites, gridFacts, isRegion, regionSites } from '../wire/api';
@@ -15,12 +14,12 @@ export class FactsOfShown {
 
     constructor(private app: App) {}
 
-    // Returns the facts if the server has told them already; null otherwise.
+    // Returns the facts if they have come; null otherwise.
     get known(): GridFacts | null {
         return this.of !== null && this.of === this.app.shown?.loaded ? this.facts : null;
     }
 
-    // Returns the sites of the region that is shown; null until they are known, and if it is no region.
+    // Returns the sites of the shown region; null until they have come, and if no region is shown.
     get sites(): RegionSites | null {
         return this.sitesOf !== null && this.sitesOf === this.app.shown?.loaded ? this.regionSites : null;
     }

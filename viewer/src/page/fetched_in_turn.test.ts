@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { FetchedInTurn } from './fetched_in_turn';
 
-// Fetches that end when they are told to.
+// Returns fetches that end when the test says so.
 function slow() {
     const begun: string[] = [];
     const ends = new Map<string, (value: string | Error) => void>();
@@ -16,7 +16,7 @@ function slow() {
 }
 const rest = () => new Promise((done) => setTimeout(done, 0));
 
-test('one is fetched at a time, what is wanted now before what is fetched ahead (2026-11-28: a loop of sweeps filled the server)', async () => {
+test('one item is fetched at a time, and wanted items before those ahead (2026-11-28: a loop of sweeps overloaded the server)', async () => {
     const { begun, ends, fetch } = slow();
     const store = new FetchedInTurn<string>(1000, (value) => value.length);
     for (const key of ['a', 'b', 'c']) void store.take(key, fetch(key), true);
@@ -34,7 +34,7 @@ test('one is fetched at a time, what is wanted now before what is fetched ahead 
     );
 });
 
-test('several are kept, within their bytes, and those that were used last', async () => {
+test('the most recently used items are kept, within the limit of bytes', async () => {
     const store = new FetchedInTurn<string>(10, (value) => value.length);
     for (const key of ['a', 'b']) await store.take(key, async () => 'x'.repeat(4), true);
     assert.equal(store.isSettled('a'), true);
@@ -45,7 +45,7 @@ test('several are kept, within their bytes, and those that were used last', asyn
     );
 });
 
-test('what failed is settled, and asked for again later', async () => {
+test('a failed item is settled, and can be fetched again later', async () => {
     let [now, tries] = [0, 0];
     const store = new FetchedInTurn<string>(
         10,

@@ -1,16 +1,16 @@
-// Fetches what is shown, or soon will be, one thing after the other, and keeps it.
+// Fetches items one at a time, and keeps the most recently used.
 //
-// The server decodes a volume for the list of its sweeps, and keeps it for the gates that are asked for next. So sweeps
-// come fastest one at a time, and the server never has to say that it is busy.
+// The page uses this for sweeps. The server decodes a volume to list its sweeps, and keeps the decoded volume for the
+// gates that the page asks for next. So sweeps come fastest one at a time, and the server does not get busy.
 
 interface Wanted<T> {
     value: T | null;
-    error: unknown; // undefined: none
+    error: unknown; // undefined: it has not failed
     failedAt: number;
     done: Promise<void>;
 }
 
-const againAfterMs = 10_000; // what failed
+const againAfterMs = 10_000; // after a failure
 
 export class FetchedInTurn<T> {
     private kept = new Map<string, Wanted<T>>(); // the least recently used first
@@ -23,16 +23,16 @@ export class FetchedInTurn<T> {
         private now: () => number = () => performance.now(),
     ) {}
 
-    // Returns what has come; null while it comes, and if it failed.
+    // Returns an item; null if it has not come or failed.
     find(key: string): T | null {
         return this.known(key)?.value ?? null;
     }
-    // Returns true if it came or failed.
+    // Returns true if the item has come or failed.
     isSettled(key: string): boolean {
         const wanted = this.known(key);
         return wanted !== undefined && (wanted.value !== null || wanted.error !== undefined);
     }
-    // Returns true if it must be taken before it is shown: it has not come, or failed long ago.
+    // Returns true if take() must fetch the item: it has not come, or failed long ago.
     isNeeded(key: string): boolean {
         return !this.isSettled(key) || this.isToRetry(key);
     }
@@ -52,7 +52,8 @@ export class FetchedInTurn<T> {
         return wanted?.error !== undefined && this.now() - wanted.failedAt > againAfterMs;
     }
 
-    // Resolves when it has come or failed. A wish for now goes before those ahead.
+    // Fetches an item if it is needed, and resolves when it has come or failed. Items that are not `isAhead` are
+    // fetched first.
     take(key: string, fetch: () => Promise<T>, isAhead: boolean): Promise<void> {
         const known = this.known(key);
         if (known && !this.isToRetry(key)) {

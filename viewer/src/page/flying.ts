@@ -1,4 +1,4 @@
-// A flight: W, A, S and D move the eye, E and Q lift and sink it, drags turn it.
+// Lets the user fly: W, A, S and D move the eye, E and Q move it up and down, drags and arrows turn it.
 
 import { Window, flown, speedOf, takenOff, turned } from '../camera/fly';
 import { App } from './app';
@@ -8,7 +8,7 @@ import { Tool } from './pointers';
 import { boxOf } from '../scene/grid_box';
 
 const degreesAPixel = 0.2;
-const degreesASecond = 60; // by arrows
+const degreesASecond = 60; // turn by arrows
 const faster = 4; // with Shift
 const ways: Record<string, [number, number, number]> = {
     w: [1, 0, 0],
@@ -28,7 +28,7 @@ const turns: Record<string, [number, number]> = {
 export class FlyTool implements Tool {
     private held = new Set<string>();
     private last: [number, number] = [0, 0];
-    private before = 0; // ms, of the last move
+    private before = 0; // time of the last move, in ms
     private isFast = false;
     private readonly down = (event: KeyboardEvent) => this.key(event, true);
     private readonly up = (event: KeyboardEvent) => this.key(event, false);
@@ -41,7 +41,7 @@ export class FlyTool implements Tool {
     ) {
         const view = this.window();
         if (view) app.moved(takenOff(app.state.camera, view));
-        // A flight takes its keys before the picture does, which uses some of the same.
+        // Take keys before the picture does, which uses some of them for other actions.
         document.addEventListener('keydown', this.down, { capture: true });
         document.addEventListener('keyup', this.up, { capture: true });
         window.addEventListener('blur', this.lost);
@@ -98,7 +98,7 @@ export class FlyTool implements Tool {
         }
     }
 
-    // Moves as far as the time since the last picture allows.
+    // Moves by the time since the last move.
     private move(): void {
         const view = this.window();
         if (this.held.size === 0 || !view) return;

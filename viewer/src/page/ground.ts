@@ -1,4 +1,4 @@
-// Loads the map below a grid: lines and water for the renderer, names for the labels.
+// Loads the map below a grid. Gives lines and water to the renderer, and names to the labels.
 
 import { boxAbout } from '../map/mercator';
 import { Renderer } from '../renderer/renderer';
@@ -12,7 +12,7 @@ import { GridPlace, PackedGrid } from '../wire/packed_grid';
 import { App, Shown } from './app';
 import { waterMask } from './water_mask';
 
-// A margin, since the map is seen beyond the grid.
+// Factor from the size of the grid to the size of the map, which is also seen beyond the grid.
 const widerThanGrid = 1.4;
 const coarseFromM = 6e5;
 
@@ -57,7 +57,7 @@ const keyOf = (domain: string, { nx, ny, spacing, centerDeg, offsetCells }: Grid
 
 export class Ground {
     marks: Mark[] = [];
-    isWaiting = false; // for the map
+    isWaiting = false; // the map has not come
     private asked: { key: string; found: Promise<MapOnPlane | null> } | null = null;
     private shownKey = '';
 
@@ -76,7 +76,7 @@ export class Ground {
         if (domain === this.app.state.domain) void this.ask(domain, place);
     }
 
-    // Returns null if there is no map; the page then shows the grid alone.
+    // Returns the map of a grid; null if it cannot be loaded. The page then shows the grid without a map.
     private ask(domain: string, place: GridPlace): Promise<MapOnPlane | null> {
         const key = keyOf(domain, place);
         if (this.asked?.key === key) return this.asked.found;
@@ -91,10 +91,10 @@ export class Ground {
     async show({ domain, loaded }: Shown): Promise<void> {
         const { grid } = loaded;
         const place = keyOf(domain, grid);
-        // Sites of a region come and go with time.
+        // The sites are in the key, because a region has different sites at different times.
         const key = `${place} ${this.app.state.units.distance.name} ${grid.sites.map((site) => site.icao).join()}`;
         if (this.shownKey === key) return;
-        // No map of another place lies below the grid.
+        // Do not keep the map of another place below the grid.
         if (!this.shownKey.startsWith(`${place} `)) this.put(grid, null);
         this.shownKey = key;
         this.isWaiting = true;
@@ -106,7 +106,7 @@ export class Ground {
         this.redraw();
     }
 
-    // The rings need no server.
+    // Shows rings about the sites, and the map if it was found.
     private put(grid: PackedGrid, found: MapOnPlane | null): void {
         const { halfXM, halfYM } = boxOf(grid);
         const rings = ringLines(grid.sites, planeOf(grid), halfXM, halfYM, this.app.state.units);

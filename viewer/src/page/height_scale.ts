@@ -1,4 +1,4 @@
-// The scale of heights, beside the echo.
+// Draws the scale of heights beside the echo.
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
@@ -7,9 +7,10 @@ import { Units } from '../tables/units';
 import { fontOf } from './dom';
 import { Rect, haloed } from './labels';
 
-const room = 26; // for its numbers, to the left
+const room = 26; // width of its numbers, to the left
 
-// Draws in pixels of the pen, each `pixelRatio` pixels of the picture wide. Returns the rectangles that it covers.
+// Draws the scale in pixels of the pen, each of which is `pixelRatio` pixels of the picture wide. Returns the
+// rectangles that the scale covers.
 export function drawHeightScale(
     pen: CanvasRenderingContext2D,
     geometry: ViewGeometry,

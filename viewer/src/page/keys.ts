@@ -1,11 +1,11 @@
-// The keys of the picture.
+// Handles the keys of the picture.
 
 import { NamedView, dragged, namedView, usualFieldOfViewDeg, zoomed } from '../camera/controls';
 import { App } from './app';
 import { Drawing } from './drawing';
 
-const keyStep = 20; // pixels of a drag that an arrow stands for
-const farther = 2; // where it moves
+const keyStep = 20; // an arrow acts like a drag by so many pixels
+const farther = 2; // factor for keys that move the scene
 
 export class Keys {
     private actions = new Map<string, () => void>();
@@ -29,7 +29,8 @@ export class Keys {
         this.add('.', () => app.playback.step(1));
     }
 
-    // Letters are small; other names are those of KeyboardEvent.key. A key has one action, but Escape may have many.
+    // Adds an action for a key, named as in KeyboardEvent.key or by a lowercase letter. Only Escape may have
+    // several actions.
     add(name: string, action: () => void): void {
         const known = this.actions.get(name);
         if (known && name !== 'Escape') throw new Error(`the key '${name}' is taken`);
@@ -39,8 +40,8 @@ export class Keys {
         });
     }
 
-    // Gives the picture the keyboard while no control has it, even before the first click. A control keeps its letters,
-    // so that a user can type.
+    // Handles keys while the picture has the focus or nothing has it, so that keys work before the first click.
+    // Controls get their own keys, so that a user can type.
     begin(): void {
         document.addEventListener('keydown', (event) => {
             if (event.target === this.drawing.picture || event.target === document.body) this.press(event);

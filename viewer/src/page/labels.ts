@@ -1,4 +1,4 @@
-// Draws the marks and their names over the picture, the most important first, none over another.
+// Draws marks and their names over the picture, the most important first. Leaves out names that would overlap others.
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
@@ -37,8 +37,8 @@ export function clearLabels(pen: CanvasRenderingContext2D): void {
     pen.scale(pixelRatio(), pixelRatio());
 }
 
-// `taken` are the parts of the picture that the page covers, in pixels of the pen, each `ratio` pixels of the picture
-// wide.
+// Draws marks in pixels of the pen, each of which is `ratio` pixels of the picture wide. `taken` are the rectangles
+// that the page covers, in pixels of the pen.
 export function drawLabels(
     pen: CanvasRenderingContext2D,
     geometry: ViewGeometry,

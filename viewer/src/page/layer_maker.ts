@@ -1,5 +1,5 @@
-// Makes what the renderer draws of the view's layers: cuts of the grid that is shown, the grid of another moment, the
-// sweep of its volume. Keeps each until what it was made of changes.
+// Makes the layers that the renderer draws: cuts of the shown grid, a surface of another moment's grid, and a sweep of
+// the volume. Keeps each until its inputs change.
 
 import { ViewGeometry } from '../camera/geometry';
 import { airOf } from '../fields/air';
@@ -29,10 +29,10 @@ import { Windows } from './windows';
 const sectionColumns = 480;
 const sectionRows = 192;
 const oldestVolumeMs = 30 * 60 * 1000; // no radar takes so long for one volume
-const sweepsOfBudget = 0.2; // of the bytes that the page may hold
-const againAfterMs = 10_000; // a sweep, or a grid of another moment, that failed
+const sweepsOfBudget = 0.2; // share of the page's memory for sweeps
+const againAfterMs = 10_000; // after a sweep, or a grid of another moment, has failed
 
-// A sweep as it is drawn, and the sweeps of its volume.
+// A sweep to draw, its cut, and all cuts of its volume.
 interface PlacedSweep {
     rows: SweepRow[];
     row: SweepRow;
@@ -47,7 +47,7 @@ const bytesOfSweep = ({
     },
 }: PlacedSweep): number => codes.byteLength + radials.byteLength + cone.corners.byteLength + cone.triangles.byteLength;
 
-// Keeps the last value of each name, with what it was made of.
+// Keeps the last value of each name, and its inputs.
 class Kept {
     private held = new Map<string, { of: readonly unknown[]; value: unknown }>();
 
@@ -74,16 +74,16 @@ function movedBy(section: Section, [x, y]: Plane): Section {
 
 export class LayerMaker {
     private kept = new Kept();
-    private comingOthers = new Set<string>(); // grids of another moment
-    private missingOthers = new Map<string, { at: number; error: unknown }>(); // when and why they failed
+    private comingOthers = new Set<string>(); // keys of grids of another moment that are being loaded
+    private missingOthers = new Map<string, { at: number; error: unknown }>(); // when and why such grids failed
     private sweeps: FetchedInTurn<PlacedSweep>;
     private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
     private numbers = new WeakMap<LoadedGrid, number>();
     private mostNumber = 0;
-    private toldSweep = ''; // its key
+    private toldSweep = ''; // key of the sweep that layerCame() last told of
     private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
-    private askedSweep = ''; // key of the sweep that is on its way
-    layerCame: () => void = () => undefined; // or failed: what is told has changed
+    private askedSweep = ''; // key of the sweep that is being loaded
+    layerCame: () => void = () => undefined; // called when a layer has come or failed, so that told() has changed
 
     constructor(
         private app: App,
@@ -100,13 +100,13 @@ export class LayerMaker {
         const waitsForSweep = state.layers.sweepDeg !== null && !this.isSweepSettled(this.sweepKey(shown));
         return waitsForSweep || this.comingOthers.has(this.otherOf(shown)?.key ?? '') || this.windows.isWaiting;
     }
-    // Counts the sweep that is drawn as here, even if the others leave no room to keep it.
+    // Returns true if the sweep has come or failed. The drawn sweep has come, even if `sweeps` has no room to keep it.
     private isSweepSettled(key: string): boolean {
         return this.lastSweep?.key === key || this.sweeps.isSettled(key);
     }
 
-    // Fetches what else must come before `next` is shown: a sweep, the grid of another moment, or windows;
-    // null if all is there. `geometry` is that of the next picture.
+    // Fetches the data of layers that must come before `next` is shown: a sweep, the grid of another moment, and
+    // windows. Returns null if all of them are here. `geometry` is the camera of the next picture.
     alongside(next: Shown, isAhead: boolean, geometry: ViewGeometry): Promise<void> | null {
         const { sweepDeg } = this.app.state.layers;
         const waits: Promise<unknown>[] = [];
@@ -114,14 +114,14 @@ export class LayerMaker {
         const other = this.otherOf(next);
         if (other && next.loaded.stream === null && !this.app.loader.has(other.key) && !this.isMissing(other.key))
             waits.push(this.takeOther(next, other));
-        // There is room for the windows of one grid ahead.
+        // Fetch windows for the next grid only, because there is room for the windows of one grid.
         const windows = isAhead
             ? null
             : this.windows.next(next.loaded, () => this.cellsOf(next.loaded, geometry, false));
         if (windows) waits.push(windows);
         return waits.length > 0 ? Promise.all(waits).then(() => undefined) : null;
     }
-    // Finds the cells that layers are made of, and releases those that no layer needs.
+    // Finds the cells for each kind of layer, and releases windows that no layer needs.
     private cellsOf(
         loaded: LoadedGrid,
         geometry: ViewGeometry,
@@ -141,7 +141,8 @@ export class LayerMaker {
         };
     }
 
-    // Returns null if the volume is drawn without layers. While the view moves, asks for no other part of a grid.
+    // Makes all layers; null if only the volume is drawn. While the view moves, asks for no new windows that depend on
+    // the view.
     make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
         const { shown, shownTable: table, state } = this.app;
         const { layers } = state;
@@ -218,7 +219,7 @@ export class LayerMaker {
         const moment = surface.moment || shown.moment;
         const drawn = { value: surface.value, isBelow: isBelow(moment, surface.value) };
         if (moment === shown.moment) return { ...drawn, of: null };
-        // A grid in parts would need the bricks of two grids at once.
+        // A grid in parts has no surface of another moment, which would need the bricks of two grids at once.
         const other = shown.loaded.stream ? null : this.otherOf(shown);
         if (!other) return null;
         const of = this.app.loader.find(other.key);
@@ -233,7 +234,7 @@ export class LayerMaker {
         }
         return null;
     }
-    // Names the grid of another moment whose values the surface encloses; null if the surface is of the shown moment.
+    // Returns key and moment of the grid whose values the surface encloses; null if that is the shown grid.
     private otherOf({ domain, moment, time }: Shown): { key: string; moment: string } | null {
         const other = this.app.state.layers.surface?.moment || moment;
         return other === moment ? null : { key: Loader.key(domain, other, time), moment: other };
@@ -252,11 +253,11 @@ export class LayerMaker {
             if (!isAbsent(error)) this.askLater();
         }
     }
-    // The next picture asks again.
+    // Draws another picture later, which asks again.
     private askLater(): void {
         window.setTimeout(this.came, againAfterMs + 1);
     }
-    // Reason why the surface is not in the picture; empty if it is.
+    // Returns the reason why the surface is not drawn; an empty text if it is drawn.
     private whyNoSurface(shown: Shown): string {
         const other = this.otherOf(shown);
         if (!other) return '';
@@ -269,7 +270,7 @@ export class LayerMaker {
             : texts.layers.otherFailed(other.moment);
     }
 
-    // Lists the sweeps of the volume of which shownCut() is drawn; null until they are known.
+    // Returns all cuts of the volume whose sweep is drawn; null if no sweep is drawn.
     sweepRows(): SweepRow[] | null {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.rows ?? null);
@@ -278,7 +279,7 @@ export class LayerMaker {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
-    // Says so if nothing of the volume is visible, and from which value on it would be.
+    // Returns a sentence if nothing of the volume is visible. The sentence tells from which value on echo is visible.
     private emptyTold({ moment, loaded: { grid, atlas } }: Shown): string[] {
         const { state, shownTable: table } = this.app;
         const unit = this.app.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
@@ -287,7 +288,7 @@ export class LayerMaker {
         const hasVisible = atlas.brickCount > 0 && valueOf(grid, atlas.greatest) >= least;
         return hasVisible ? [] : [texts.layers.noEchoFrom(valueText(least, unit, state.units))];
     }
-    // Says in words which layers are drawn beside the volume, and what is hidden.
+    // Returns sentences about the layers other than the volume, and about hidden echo.
     told(): string[] {
         const { shown, state } = this.app;
         const { layers, units } = state;
@@ -333,7 +334,8 @@ export class LayerMaker {
         if (error === undefined) return texts.layers.sweepComes(station);
         return isAbsent(error) ? texts.layers.noSweep(station) : texts.layers.sweepFailed(station);
     }
-    // Returns the station whose sweep is drawn: the nearest to the point that the view looks at; empty without sites.
+    // Returns the station nearest to the point that the view looks at, whose sweep is drawn; an empty text without
+    // sites.
     private stationOf({ loaded: { grid } }: Shown): string {
         const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];
         return nearestSite(grid.sites, planeOf(grid), [x, y])?.icao ?? '';
@@ -345,7 +347,7 @@ export class LayerMaker {
         if (!asked) {
             asked = (async () => {
                 const volume = (await rawBefore(station, time))?.time ?? null;
-                // A sweep of an older volume does not show what was there at this time.
+                // Refuse an old volume, whose sweeps do not show the weather at this time.
                 if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs)
                     throw new ApiError(404, texts.layers.noVolume(station));
                 return { time: volume, rows: await sweeps(station, volume) };
@@ -356,8 +358,8 @@ export class LayerMaker {
         return asked;
     }
 
-    // Numbers a loaded grid for keys. Its time is not enough, because a grid that was made again may have
-    // another volume's sweeps and another grid beside it.
+    // Returns a number for a loaded grid, for keys. The time of the grid is not enough, because a grid that was made
+    // again may have another volume, and so other sweeps.
     private numberOf(loaded: LoadedGrid): number {
         if (!this.numbers.has(loaded)) this.numbers.set(loaded, ++this.mostNumber);
         return this.numbers.get(loaded)!;
@@ -390,7 +392,7 @@ export class LayerMaker {
         return this.sweeps.take(this.sweepKey(shown), fetch, isAhead);
     }
 
-    // Returns the sweep before until another one of the same volume has come.
+    // Returns the sweep to draw. Until it has come, returns the last drawn sweep of the same grid, or null without one.
     private sweepOf(shown: Shown): PlacedSweep | null {
         if (this.app.state.layers.sweepDeg === null) return null;
         const { loaded, moment } = shown;
@@ -399,8 +401,8 @@ export class LayerMaker {
         const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
         if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
         if (found || isAbsent(this.sweeps.errorOf(key)) || !this.sweeps.isNeeded(key)) {
-            // No other event tells of a sweep that has come or failed before. The listener may be the caller,
-            // so it is told later.
+            // Tell the listener of a sweep that came or failed earlier, because no other event does. Tell it later,
+            // because the listener may be the caller.
             if (this.toldSweep !== key) queueMicrotask(() => this.layerCame());
             this.toldSweep = key;
             return found;
@@ -422,7 +424,7 @@ export class LayerMaker {
     }
 }
 
-// Returns the name of a cut in the list and the title.
+// Returns the name of a cut for the list and for told().
 export function cutText(row: SweepRow, rows: SweepRow[]): string {
     const kind = kindOf(row, rows);
     return texts.layers.cut(

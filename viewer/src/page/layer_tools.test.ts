@@ -20,7 +20,7 @@ const grid = readPackedGrid(
     }),
 );
 const plane = planeOf(grid);
-// Seen from above, so that a pixel is a place on the ground.
+// A view from above, in which a pixel is a place on the ground.
 const geometry = new ViewGeometry(boxOf(grid), { ...usualCamera, tiltDeg: 0 }, 3, 400, 300);
 
 Object.assign(globalThis, { window: { devicePixelRatio: 1 } });
@@ -40,7 +40,7 @@ const drawing = { geometry: () => geometry, move: () => undefined } as unknown a
 const nothing = () => undefined;
 const isNear = (a: readonly number[], b: readonly number[]) => Math.hypot(a[0]! - b[0]!, a[1]! - b[1]!) < 1;
 
-test('a section goes from where it was pressed to where it was let go, and its ends can be moved', () => {
+test('a section goes from the press to the release, and its ends can be moved', () => {
     const app = madeApp();
     let done = 0;
     const tool = new SectionTool(
@@ -63,7 +63,7 @@ test('a section goes from where it was pressed to where it was let go, and its e
     assert(isNear(ends()[0]!, geometry.ground(50, 250)!) && isNear(ends()[1]!, geometry.ground(300, 200)!));
 });
 
-test('a press that does not travel is no section', () => {
+test('a press without a drag makes no section', () => {
     const app = madeApp();
     const tool = new SectionTool(app as unknown as Args[0], drawing, nothing, nothing);
     tool.press(100, 100);
@@ -73,14 +73,14 @@ test('a press that does not travel is no section', () => {
     assert.equal(app.changes, 0);
 });
 
-test('a section across the view lies along the picture', () => {
+test('a section across the view is level in the picture', () => {
     const [a, b] = acrossView(madeApp() as unknown as Args[0], geometry)!.map((place) =>
         geometry.project([...plane.toPlane(place)!, 0])!,
     );
     assert(Math.abs(a![1] - b![1]) < 0.1 && Math.abs(b![0] - a![0] - 0.6 * 400) < 0.1);
 });
 
-test('a box has its corners where the pointer was', () => {
+test('a box has corners at the press and at the release', () => {
     const app = madeApp();
     const tool = new CropTool(app as unknown as Args[0], drawing, nothing, nothing);
     tool.press(300, 100);
@@ -90,7 +90,7 @@ test('a box has its corners where the pointer was', () => {
     assert.equal(bottomM, boxOf(grid).bottomM);
 });
 
-test('the codes of a level are those of its cells', () => {
+test('levelCodes() returns the codes of the cells of a level', () => {
     for (const z of [0, 15, 16, 17]) {
         const codes = levelCodes(grid, z);
         for (let y = 0; y < grid.ny; ++y)
@@ -98,7 +98,7 @@ test('the codes of a level are those of its cells', () => {
     }
 });
 
-test('textures are made once, and given back when a picture did without them', () => {
+test('textures are made once, and released after a picture that did not need them', () => {
     const deleted: unknown[] = [];
     const shelf = new TextureShelf({
         deleteTexture: (one: unknown) => deleted.push(one),

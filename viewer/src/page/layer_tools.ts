@@ -1,4 +1,4 @@
-// Tools for drawing on the ground by dragging: a section, and the sides of a box.
+// Defines the tools that draw on the ground by dragging: a section, and a box.
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
@@ -12,12 +12,12 @@ import { Drawing } from './drawing';
 import { pagePixel } from './labels';
 import { Tool } from './pointers';
 
-const reachPixels = 14; // of an end of the section
+const reachPixels = 14; // distance within which a press moves an end of the section
 const shortestPixels = 6;
 
-// A drag on the ground that changes the layers, and ends the tool.
+// Base of tools with one drag on the ground, which changes the layers and ends the tool.
 abstract class GroundTool implements Tool {
-    protected fixed: Plane | null = null; // the place that stays while another is dragged
+    protected fixed: Plane | null = null; // place that stays during the drag
 
     constructor(
         protected app: App,
@@ -47,7 +47,7 @@ abstract class GroundTool implements Tool {
     }
 }
 
-// A section: press, drag, release. A press on one of its ends moves that end.
+// Draws a section from the press to the release. A press on an end of the section moves this end.
 export class SectionTool extends GroundTool {
     private movesFirst = false;
     private begun: [number, number] = [0, 0];
@@ -84,7 +84,7 @@ export class SectionTool extends GroundTool {
     }
 }
 
-// The sides of a box, from one corner on the ground to the other.
+// Draws the sides of a box, from one corner on the ground to the opposite corner.
 export class CropTool extends GroundTool {
     press(x: number, y: number): boolean {
         this.fixed = this.groundAt(x, y);
@@ -106,7 +106,7 @@ export class CropTool extends GroundTool {
     }
 }
 
-// Returns the box of the grid that is shown; null if none is.
+// Returns the box of the shown grid; null if no grid is shown.
 export function wholeBox({ shown }: App): Crop | null {
     if (!shown) return null;
     const { halfXM, halfYM, bottomM, topM } = boxOf(shown.loaded.grid);

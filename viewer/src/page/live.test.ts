@@ -1,4 +1,4 @@
-// Pages of one browser: each hears events by itself, over the channel that they share.
+// Tests several pages of one browser, which share a channel.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
@@ -11,7 +11,7 @@ const server = {
     waits: new Map<number, number>(),
     streams: new Set<ReadableStreamDefaultController<Uint8Array>>(),
 };
-// Timers and channels of pages do not keep the test from ending.
+// Lets the test end while timers and channels of its pages are open.
 const unref = <Waits>(waits: Waits): Waits => ((waits as unknown as { unref: () => void }).unref(), waits);
 Object.assign(globalThis, {
     window: {
@@ -65,20 +65,20 @@ async function open(): Promise<{ server: ServerState; asked: () => number; faile
     return { server: state, asked: () => asked, failed };
 }
 
-// 2026-11-28: six pages kept all six connections of a browser, and all stood still without a word.
+// 2026-11-28: six pages used all six connections of a browser for events, and none loaded anything.
 test('three pages of a browser listen, and the others ask for lists', async () => {
     const first = await open();
     await pause(1200);
     const unknown = new TextEncoder().encode('event: moon_rose\nid: 1-1\ndata: {}\n\n');
     for (const stream of server.streams) stream.enqueue(unknown);
-    const pages = [first, ...(await Promise.all([open(), open(), open(), open()]))]; // as a browser opens those of a folder
+    const pages = [first, ...(await Promise.all([open(), open(), open(), open()]))]; // all at once
     await pause(1500);
     assert.equal(server.streams.size, 3);
     assert.deepEqual(first.failed, ['moon_rose: no such event']);
     const withPlace = pages.filter((page) => page.asked() === 0);
     assert.equal(withPlace.length, 3);
     assert.equal(withPlace.includes(first), true);
-    // 2026-11-28: they told ages by the clock of the browser.
+    // 2026-11-28: pages without a stream computed ages by the clock of the browser.
     assert.equal(
         pages.every((page) => page.server.nowMs > Date.now() + 3500e3),
         true,
@@ -96,7 +96,7 @@ test('three pages of a browser listen, and the others ask for lists', async () =
     );
 });
 
-// 2026-11-28: the fourth page of a browser said nothing when the server hung, and went on looking live.
+// 2026-11-28: the fourth page of a browser did not tell that the server hung, and looked live.
 test('a page without a stream tells that the server hangs', async () => {
     await pause(3500); // the pages of the test above listen again
     server.isUp = true;
@@ -106,7 +106,7 @@ test('a page without a stream tells that the server hangs', async () => {
     const without = pages.find((page) => page.asked() > 0)!;
     assert.equal(without.server.isCutOff, false);
     server.isHanging = true;
-    server.waits.set(40_000, 1300); // longer than it takes to find that there is no place
+    server.waits.set(40_000, 1300); // longer than a page needs to find that it has no place
     await pause(4000);
     assert.equal(without.server.isCutOff, true);
 });

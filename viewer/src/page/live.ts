@@ -1,4 +1,4 @@
-// Listens to the server's news of grids, and notices when the server falls silent.
+// Listens to the server's news of grids, and notices if the server does not answer.
 
 import { ApiError, askEvents, silences, timeOf } from '../wire/api';
 import { EventText, ServerEvent } from '../wire/events';
@@ -8,10 +8,10 @@ import { StreamPlaces } from './stream_places';
 interface News {
     domain?: string;
     moment?: string;
-    grid?: string; // its time
+    grid?: string; // time of the grid
     station?: string;
     silent_s?: number;
-    oldest?: string | null; // time of a grid that is left
+    oldest?: string | null; // time of the oldest grid that is left after an eviction
 }
 
 const kindsOfGrids = ['sweep_gridded', 'volume_complete', 'mosaic', 'grid_evicted'];
@@ -26,11 +26,11 @@ const noAnswer = (): never => {
 
 export class Live {
     private last = ''; // the id of the last event
-    private isBehind = false; // news may be lost: all lists are to be asked for
-    private isCatchingUp = false; // without a stream
+    private isBehind = false; // news may be lost, so the page must ask for all lists
+    private isCatchingUp = false; // doWithout() is asking for all lists
     private readonly places = new StreamPlaces();
 
-    // Takes news once the page has `begun`; what comes before waits.
+    // News waits until `begun` resolves.
     constructor(
         private app: App,
         private begun: Promise<void>,
@@ -40,7 +40,8 @@ export class Live {
         for (;;) await pause((await this.listen()) ? againAfterMs : refusedAgainAfterMs);
     }
 
-    // Returns when the stream has ended: false if the server answers, but gives no stream.
+    // Listens until the stream ends. Returns false if the server answers but the page gets no stream; the page then
+    // tries again later than after a broken stream.
     private async listen(): Promise<boolean> {
         const abort = new AbortController();
         let timer = 0;
@@ -57,7 +58,7 @@ export class Live {
         try {
             const answer = await askEvents(this.last, abort.signal);
             const wasCutOff = this.app.server.isCutOff;
-            // A proxy may refuse the stream alone, while the server answers other requests.
+            // The server or a proxy may refuse the stream but answer other requests.
             if (!answer.body || !answer.headers.get('Content-Type')?.includes('event-stream')) {
                 this.places.leave();
                 await this.doWithout();
@@ -77,7 +78,7 @@ export class Live {
                 this.refused(error);
                 return false;
             }
-            // The server can tell what was missed only after the id of an event.
+            // Without the id of an event, the server cannot tell what was missed.
             this.isBehind = this.isBehind || this.last === '';
             this.app.server.take(false);
         } finally {
@@ -88,18 +89,19 @@ export class Live {
     }
 
     private connected(wasCutOff: boolean): void {
-        // Requests got no answer while the server was cut off. Lists older than the stream may lack what came between.
+        // Requests got no answer while the server was cut off. Lists that are older than the first stream may lack
+        // grids that came in between.
         this.isBehind = this.isBehind || wasCutOff || (this.last === '' && this.app.hasLists);
         void this.begun.then(() => this.askSilences()).catch(() => undefined);
     }
-    // Asks which stations are silent, because no news tell of those that fell silent before.
+    // Asks which stations are silent, because events tell only of stations that fall silent later.
     private async askSilences(): Promise<void> {
         const { silent, serverMs } = await silences();
         this.app.server.take(true, serverMs);
         this.app.server.takeSilences(silent);
     }
-    // Does without a stream, because there is no place for another one, or the server has none: the lists tell
-    // as much, if later. Pictures may take long, but a server that does not tell who is silent does not answer.
+    // Asks for all lists, which tell as much as the stream, but later. Throws a TypeError if the server does not tell
+    // the silent stations within mostQuietMs. Does not wait for pictures, which may take longer.
     private async doWithout(): Promise<void> {
         await Promise.race([this.askSilences(), pause(mostQuietMs).then(noAnswer)]);
         if (this.isCatchingUp) return;
@@ -117,7 +119,7 @@ export class Live {
         }
     }
 
-    // Tells an error of a server that answers.
+    // Shows an error that the server answered.
     private refused(error: ApiError): void {
         this.app.server.take(true);
         this.app.fail(error);

@@ -1,7 +1,7 @@
-// Loads grids, decodes them in a worker, and keeps the last used ones within a budget.
+// Loads grids, decodes them in a worker, and keeps the most recently used grids within a budget.
 //
-// A grid that is too large comes as its table and, as a whole, as a halved one that is small enough;
-// page/streaming.ts then fetches what the view needs of it.
+// If a grid is too large, loads its table and a halved grid that is small enough. page/streaming.ts then fetches the
+// bricks that the view needs.
 
 import { Atlas, paddedEdge } from '../atlas/atlas';
 import { brickTexelBytes } from '../atlas/brick_store';
@@ -12,16 +12,12 @@ import { LoadedGrid } from '../atlas/loaded_grid';
 import { GridPlace, readPlace } from '../wire/packed_grid';
 import { isRegion, packed, packedBetween } from '../wire/api';
 
-// Divides a budget of bytes.
+// Divides the memory for grids.
 export class Budget {
-    // Most bytes of a grid before it is compressed; a larger one is fetched in parts.
-    readonly mostWhole: number;
-    // Slots along each side of the texture for grids that are fetched in parts.
-    readonly poolSide: number;
-    // Codes that the worker keeps of such a grid.
-    readonly mostCells: number;
-    // Bricks of the halved grid that is fetched first.
-    readonly mostFirst: number;
+    readonly mostWhole: number; // most uncompressed bytes of a grid; a larger grid is fetched in parts
+    readonly poolSide: number; // number of slots along each side of the atlas for grids in parts
+    readonly mostCells: number; // bytes of codes that the worker keeps for a grid in parts
+    readonly mostFirst: number; // most bricks of the halved grid that is fetched first
 
     constructor(
         readonly bytes: number,
@@ -49,7 +45,7 @@ function bytesOf({ grid, atlas, coverage, stream }: LoadedGrid): number {
     return bytes;
 }
 
-// The pool of slots that a grid in parts is drawn from.
+// Returns an empty atlas for a grid in parts.
 function poolAtlas({ grid, pyramid, shown }: GridTable, side: number): Atlas {
     const { scale, offset } = shown;
     let [least, greatest] = [65535, 0];
@@ -79,7 +75,7 @@ export class Loader {
     private kept = new Map<string, LoadedGrid>(); // the least recently used first
     private loading = new Map<string, Promise<LoadedGrid>>();
 
-    besides: () => number = () => 0; // bytes that the page holds beside whole grids and their atlases
+    besides: () => number = () => 0; // returns the bytes of windows of grids in parts
 
     // Called with the place of a grid while the grid is decoded.
     onPlace: ((domain: string, place: GridPlace) => void) | null = null;
@@ -108,7 +104,7 @@ export class Loader {
     forget(key: string): void {
         const old = this.kept.get(key);
         this.kept.delete(key);
-        // A load on its way may bring the old grid.
+        // Ignore the result of a load that has begun, because it may be the old grid.
         this.loading.delete(key);
         if (old?.stream) void this.decoder.ask({ kind: 'forget', key });
     }
@@ -148,7 +144,7 @@ export class Loader {
         return 'atlas' in answer ? { ...answer, stream: null } : this.fetchFirst(domain, moment, time, answer);
     }
 
-    // Fetches the halved grid that is shown until there is more.
+    // Fetches the halved grid that is shown until finer bricks come.
     private async fetchFirst(domain: string, moment: string, time: string, table: GridTable): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
         const { grid, pyramid, shown } = table;
@@ -175,7 +171,7 @@ export class Loader {
         return { grid, atlas, coverage, stream };
     }
 
-    // Returns the bytes that are held, with the texture, the codes and the windows of grids in parts.
+    // Returns the bytes of all grids, with the atlas, the codes and the windows of grids in parts.
     get bytes(): number {
         const all = [...this.kept.values()];
         const parts = all.find(({ stream }) => stream);

@@ -17,7 +17,7 @@ export type Measure = 'distance' | 'area';
 
 export class MeasureTool implements Tool {
     private points: Picked[] = [];
-    private ahead: Picked | null = null; // under the pointer
+    private ahead: Picked | null = null; // place under the pointer
 
     constructor(
         private app: App,
@@ -32,7 +32,7 @@ export class MeasureTool implements Tool {
     click(x: number, y: number): void {
         const picked = pick(this.app, this.drawing, x, y, false);
         if (!picked) return;
-        // A third click begins another distance.
+        // Begin a new distance with the third click.
         if (this.measure === 'distance' && this.points.length === 2) this.points = [];
         this.points.push(picked);
         this.ahead = null;

@@ -1,4 +1,4 @@
-// Takes what the server tells of new, remade and evicted grids.
+// Handles the server's news of new, remade and evicted grids.
 
 import { outdatedBy } from '../time/outdated';
 import { Region, isRegion, times } from '../wire/api';
@@ -7,14 +7,14 @@ import { Loader } from './loader';
 import { mostTimes, soonTimes } from './showing';
 import { texts } from './texts';
 
-// Greatest time from a grid to the instants of regions that it is in: a volume takes some minutes, and the
-// instants are at most 15 minutes away.
+// Greatest time between a grid and an instant of a region that uses it. The instant is at most 15 minutes from the
+// volume, which takes some minutes.
 const farthestMadeMs = 30 * 60 * 1000;
 
 export class News {
     constructor(private app: App) {}
 
-    // Call after news were lost: asks for all lists, and forgets all grids, because any may have been made again.
+    // Call if news may be lost. Asks for all lists, and forgets all grids, because any grid may have been made again.
     async catchUp(): Promise<void> {
         const { app } = this;
         if (!app.book || app.domains.length === 0) return app.begin();
@@ -24,14 +24,14 @@ export class News {
         app.loader.forgetAll(() => true);
         if (app.isOnMap) return;
         if (!shown) return app.choose(state.domain, app.askedMoment);
-        // Ask again for what the user chose while there was no answer.
+        // Ask again for the domain and moment that the user chose while there was no answer.
         if (shown.domain !== state.domain || shown.moment !== state.moment)
             return app.choose(state.domain, app.askedMoment);
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
         await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
     }
-    // If the time that a user looks at was evicted, moves to the nearest, and the page says so. If the user
-    // waits for a time that was missed, moves to the time that is nearest to it now.
+    // Takes a new list of times. If the time that the user looks at was evicted, goes to the nearest time and tells so.
+    // If the user asked for a time that was missing, goes to the time that is nearest to it now.
     private takeNewTimes(stored: string[]): void {
         const { app } = this;
         const [now, missedTime] = [app.timeline.now, app.missedTime];
@@ -49,8 +49,8 @@ export class News {
             (isRegion(app.state.domain) && (own?.moments.some((one) => one.sites.includes(domain ?? '')) ?? false))
         );
     }
-    // Takes a new volume of a site of the shown region: any instant near it may have become another one. If
-    // `volume` is undefined, any instant at all may have.
+    // Handles a new volume of a site of the shown region. Instants near the time `volume` may have changed; if `volume`
+    // is undefined, any instant may have.
     private async takeNewsOfSite(volume: string | undefined): Promise<void> {
         const { app } = this;
         const { domain, moment } = app.state;
@@ -67,8 +67,8 @@ export class News {
         await app.showing.showTime();
     }
 
-    // Takes other times of the server. `changedTime` is the time of a grid that was made again, `oldest` the first time
-    // that is left after others were evicted.
+    // Handles an event of a domain and moment. `changedTime` is the time of a grid that was made or made again, and
+    // `oldest` the first time that is left after an eviction. Asks for at most `most` times.
     async takeNews(
         domain: string | undefined,
         moment: string | undefined,
@@ -83,7 +83,7 @@ export class News {
             if (app.domain) await app.choose(app.state.domain, app.state.moment);
             return;
         }
-        // A moment may come after the others of its station.
+        // Find domains again for an unknown moment, too, because a station's moments need not come together.
         const isKnown = app.domains.some(
             (one) =>
                 one.domain === domain && (moment === undefined || one.moments.some((own) => own.moment === moment)),
@@ -102,7 +102,7 @@ export class News {
               )
             : () => false;
         app.loader.forgetAll(isOld);
-        // A surface may be that of another moment.
+        // The surface may be of another moment.
         const isOfSurface = moment !== undefined && moment === app.state.layers.surface?.moment;
         if (!this.isPartOfShown(domain) || (moment !== app.state.moment && !isOfSurface)) return;
         if (domain !== app.state.domain) return this.takeNewsOfSite(changedTime);
@@ -110,14 +110,14 @@ export class News {
         const before = app.timeline.now;
         const { times: newest, more } = await times(domain, moment, most);
         if (domain !== app.state.domain || moment !== app.state.moment) return;
-        // If the server has no more, it has evicted the older ones.
+        // Keep older times only if the server has more than it listed; otherwise it has evicted them.
         this.takeNewTimes([
             ...app.timeline.stored.filter((time) => more && time >= oldest && time < newest[0]!),
             ...newest,
         ]);
         const now = app.timeline.now;
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
-        // If a load failed, the picture may be of another time.
+        // Show the time also if the picture is of another time, because an earlier load may have failed.
         if (now !== before || now !== app.shown?.time || isOfNow || now === changedTime) await app.showing.showTime();
         else app.tell('time');
     }

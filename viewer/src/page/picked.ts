@@ -1,4 +1,4 @@
-// Finds what is under a pixel of the picture: what is seen most of all that is drawn there.
+// Finds the layer that a pixel of the picture mostly shows, and reads it.
 
 import { boundsAbout } from '../atlas/window_choice';
 import { ViewGeometry } from '../camera/geometry';
@@ -23,15 +23,15 @@ export interface Picked {
     at: Plane;
     place: Place;
     heightM: number;
-    state: CellState | null; // of the ground it is that of the lowest cell above it; null: not known here
-    value: number; // where the state is a value
-    gate: GateHit | null; // of a sweep
-    halvings: number; // how often the cells were halved that were read: 0 if they are the grid's own
-    lacksCells: boolean; // until the cells along the ray have come, something else may be seen there, or at another height
+    state: CellState | null; // for the ground, the state of the lowest cell above it; null if unknown
+    value: number; // 0 unless the state is a value
+    gate: GateHit | null; // gate of a sweep; null for other layers
+    halvings: number; // number of halvings of the cells that were read
+    lacksCells: boolean; // cells along the ray have not come; with them, the layer or the height may be another
 }
 
-const leastSeen = 0.03; // of a pixel, by the volume before the ground
-const leastVeil = 0.1; // of the greatest height of the box, through range folded air
+const leastSeen = 0.03; // least share of a pixel for which the volume counts as seen before the ground
+const leastVeil = 0.1; // least length in range folded air that counts as seen, as a share of the box's height
 
 interface Met {
     layer: PickedLayer;
@@ -39,17 +39,17 @@ interface Met {
     isSolid: boolean; // hides what is behind
 }
 
-// The ray through a pixel, and what it may meet.
+// The ray through a pixel, and what the ray may meet.
 interface Sight {
     ray: Ray;
-    grid: PackedGrid; // that is shown
+    grid: PackedGrid; // the shown grid
     table: ColorTable;
-    cells: Cells | null; // along it; null: they are not here
+    cells: Cells | null; // cells along the ray; null if they are not here
     whole: Crop; // the box of the grid
-    ground: Plane | null; // where it meets the ground
+    ground: Plane | null; // where the ray meets the ground
 }
 
-// Returns the hits of layers along the ray, the nearest first; those that are solid hide what is behind.
+// Returns where the ray meets layers, the nearest first. A hit that is solid hides what is behind it.
 function solidsOn({ ray, grid, table, cells, whole }: Sight, { state }: App, { drawn }: Drawing): Met[] {
     if (!drawn) return [];
     const { geometry } = ray;
@@ -70,7 +70,7 @@ function solidsOn({ ray, grid, table, cells, whole }: Sight, { state }: App, { d
         const seen =
             own &&
             firstVisible(own, ray, croppedBox(whole, drawn.crop), (one) => (isBelow ? one <= value : one >= value));
-        // The moment that is shown colors it.
+        // Read the value of the shown moment, which colors the surface.
         const colored =
             seen &&
             (of && cells ? cellAt(cells, seen.at, seen.heightM) : { state: CellState.value, value: seen.value });
@@ -85,7 +85,7 @@ function solidsOn({ ray, grid, table, cells, whole }: Sight, { state }: App, { d
 const depthOf = (geometry: ViewGeometry, [x, y]: Plane, heightM: number): number =>
     geometry.depthOf([x, y, heightM * geometry.exaggeration]);
 
-// Reads the cell at a place, on the lowest level that is not below the height; null beyond the grid.
+// Reads the cell of a column on the lowest level that is at or above a height; null beyond the grid.
 function cellAt({ grid, middle }: Cells, [x, y]: Plane, heightM: number): { state: CellState; value: number } | null {
     const column = columnAt(grid, x - middle[0], y - middle[1]);
     const level = grid.levelsM.findIndex((one) => one >= heightM);
@@ -94,7 +94,7 @@ function cellAt({ grid, middle }: Cells, [x, y]: Plane, heightM: number): { stat
     return { state: Math.min(code, CellState.value), value: code >= firstValueCode ? valueOf(grid, code) : 0 };
 }
 
-// The height of the greatest value of a column, which the column maximum shows.
+// Returns the height of the greatest value of a column; null without values.
 function heightOfMaximum({ grid, middle }: Cells, [x, y]: Plane): number | null {
     const column = columnAt(grid, x - middle[0], y - middle[1]);
     if (!column) return null;
@@ -117,14 +117,14 @@ const found = (
     gate: GateHit | null = null,
 ): Found => ({ layer, at, heightM, state, value, gate });
 
-// Returns what is seen most along the ray: the volume, a layer, or the ground; null if that is the sky.
+// Returns what the ray mostly shows: the volume, a layer, or the ground; null for the sky.
 function foundOn(sight: Sight, app: App, drawing: Drawing): Found | null {
     const { ray, table, cells, whole, ground } = sight;
     const { geometry } = ray;
     const { opacity, least, layers } = app.state;
     const met = solidsOn(sight, app, drawing);
     const solid = met.find((one) => one.isSolid) ?? null;
-    // The volume, until something solid or the ground hides it.
+    // Read the volume up to the depth at which a solid layer or the ground hides it.
     const untilDepth = Math.min(
         solid?.hit.depth ?? Infinity,
         ground ? depthOf(geometry, ground, geometry.groundM) : Infinity,
@@ -144,7 +144,8 @@ function foundOn(sight: Sight, app: App, drawing: Drawing): Found | null {
     return ground && groundOn(sight, ground, drawing.drawn?.hasFolded ? (volume?.foldedM ?? 0) : 0);
 }
 
-// Returns what the ground shows, behind air that is range folded along `foldedM` of the ray.
+// Returns what the ray shows at a place of the ground. If the ray was long enough in range folded air (`foldedM`), this
+// is range folded air.
 function groundOn({ ray, grid, cells, whole }: Sight, ground: Plane, foldedM: number): Found {
     const { groundM, exaggeration } = ray.geometry;
     if (!columnAt(grid, ...ground)) return found('outside', ground, groundM, null);
@@ -154,10 +155,10 @@ function groundOn({ ray, grid, cells, whole }: Sight, ground: Plane, foldedM: nu
     return found('ground', ground, groundM, lowest?.state ?? null, lowest?.value);
 }
 
-// Returns what a pixel shows; null if that is the sky. Asks for the cells of a grid in parts along the ray if
-// `asks`; until they have come, leaves out the volume and the surface.
+// Returns what a pixel shows; null for the sky, or if nothing is shown. For a grid in parts, asks for the cells along
+// the ray if `asks` is true. Until these have come, leaves out the volume and the surface.
 export function pick(app: App, drawing: Drawing, left: number, top: number, asks: boolean): Picked | null {
-    const [x, y] = [left + 0.5, top + 0.5]; // the middle of the pixel, as it is drawn
+    const [x, y] = [left + 0.5, top + 0.5]; // middle of the pixel
     const geometry = drawing.geometry();
     const { shown, shownTable: table, state } = app;
     const whole = wholeBox(app);
@@ -167,7 +168,7 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const ray = new Ray(geometry, x, y);
     const way = wayWithin(ray, croppedBox(whole, state.layers.crop)) ?? [];
     const points = [...way, ...(ground ? [ground] : [])];
-    const isAlong = boundsAbout(points, grid) !== null; // it meets columns of the grid
+    const isAlong = boundsAbout(points, grid) !== null; // the ray meets columns of the grid
     const cells = isAlong && (asks || !stream) ? drawing.windows.ray(shown.loaded, points) : null;
     const seen = foundOn({ ray, grid, table, cells, whole, ground }, app, drawing);
     if (!seen) return null;
@@ -178,7 +179,8 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
         place: planeOf(grid).toPlace(seen.at),
         lacksCells:
             !cells && isAlong && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
-        // Some layers are read as they are drawn, the others along the ray.
+        // A section, a plane and the maximum are read from the cells that are drawn, all others from cells along the
+        // ray.
         halvings:
             layer === 'sweep'
                 ? 0

@@ -1,4 +1,4 @@
-// Goes through the times: steps, plays, follows the newest.
+// Steps and plays through the times, and follows the newest.
 
 import { advanced, at, looped, stepped } from '../time/player';
 import { App } from './app';
@@ -10,7 +10,7 @@ export class Playback {
 
     constructor(private app: App) {}
 
-    // Shows frames between volumes every so many seconds; 0 shows the volumes alone.
+    // Sets the seconds between frames that are made between volumes; 0 shows volumes only.
     async setBetween(seconds: number): Promise<void> {
         const { app } = this;
         app.miss('');
@@ -75,7 +75,7 @@ export class Playback {
         window.clearTimeout(this.timer);
         this.timer = window.setTimeout(() => this.tick(), 1000 / this.framesASecond);
     }
-    // Keeps playback in a part of the times, one end of which is now; null plays all times.
+    // Sets one end of the loop to the current time. With null, ends the loop, so that all times are played.
     setLoop(end: 'from' | 'to' | null): void {
         const { app } = this;
         app.player = end ? looped(app.player, end) : { ...app.player, loop: null };

@@ -1,19 +1,19 @@
-// Mouse and fingers on the picture. They move the camera, unless a tool takes them.
+// Handles mouse and fingers on the picture. They move the camera, unless a tool takes them.
 
 import { dragged, panned, zoomed } from '../camera/controls';
 import { App } from './app';
 import { pixelRatio } from './dom';
 import { Drawing } from './drawing';
 
-// Takes drags and clicks, in pixels of the picture. A tool that does not take a press (false) leaves the drag
-// to the camera; a click is a press that did not travel.
+// Takes drags and clicks, in pixels of the picture. If press() returns false or is missing, the drag moves the camera.
+// A click is a press that moved less than `farthestClick`.
 export interface Tool {
     press?(x: number, y: number): boolean;
     drag?(x: number, y: number): void;
     release?(x: number, y: number): void;
     click?(x: number, y: number): void;
     hover?(x: number, y: number): void;
-    end?(): void; // another tool takes over, or Escape was pressed
+    end?(): void; // called when another tool takes over
 }
 
 const farthestClick = 4; // pixels
@@ -21,7 +21,7 @@ const farthestClick = 4; // pixels
 export class Pointers {
     private pointers = new Map<number, PointerEvent>();
     private travelled = 0;
-    private isTaken = false; // by the tool
+    private isTaken = false; // the tool has taken the press
     private tool: Tool;
 
     constructor(
@@ -35,7 +35,7 @@ export class Pointers {
     get current(): Tool {
         return this.tool;
     }
-    // Gives the pointer to another tool; null gives it to the usual one.
+    // Gives the pointer to another tool; null gives it to the usual tool.
     use(tool: Tool | null): void {
         this.tool.end?.();
         this.tool = tool ?? this.usual;

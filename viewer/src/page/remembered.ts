@@ -1,4 +1,4 @@
-// Keeps the user's units in the browser from one visit to the next, if it has storage.
+// Keeps the user's units in the browser from one visit to the next, if the browser permits storage.
 
 import { Units, namesOf, unitsOf } from '../tables/units';
 
@@ -8,7 +8,7 @@ export function rememberUnits(units: Units): void {
     try {
         localStorage.setItem(unitsKey, namesOf(units));
     } catch {
-        // Storage is forbidden here.
+        // Do without storage if the browser forbids it.
     }
 }
 

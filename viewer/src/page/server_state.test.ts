@@ -1,10 +1,10 @@
-// The page knows which stations its server does not hear.
+// Tests how the page keeps the list of silent stations.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { ServerState } from './server_state';
 
-test('a station of which the server cannot say whether it is silent stays as it was', () => {
+test('a station stays silent or not if the server does not know', () => {
     const server = new ServerState(() => undefined);
     server.takeSilences([
         ['KBGM', 900],

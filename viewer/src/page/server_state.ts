@@ -1,14 +1,14 @@
-// Keeps the state of the server: does it answer, its clock, and its silent stations.
+// Keeps the state of the server: its clock, its silent stations, and if it answers.
 
 export class ServerState {
-    isCutOff = false; // it does not answer
-    isBehind = false; // a request got no answer, so the page must ask for all again
-    silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
-    private clockAheadMs = 0; // before that of the browser
+    isCutOff = false; // the server does not answer
+    isBehind = false; // a request got no answer, so the page must ask for all lists again
+    silentSince = new Map<string, number>(); // silent stations, with the time of their last data in ms since 1970
+    private clockAheadMs = 0; // server's clock minus browser's clock
 
     constructor(private changed: () => void) {}
 
-    // Ages are told by the clock of the server: that of the browser may be wrong.
+    // Returns the time by the server's clock. Ages are relative to this, because the browser's clock may be wrong.
     get nowMs(): number {
         return Date.now() + this.clockAheadMs;
     }
@@ -18,13 +18,14 @@ export class ServerState {
         this.isCutOff = !answers;
         this.changed();
     }
-    // `silentS`: for how long; null: it spoke.
+    // Takes news of a station. `silentS` is the seconds since its last data, or null if it sends again.
     takeSilence(station: string, silentS: number | null): void {
         if (silentS === null) this.silentSince.delete(station);
         else this.silentSince.set(station, this.nowMs - 1000 * silentS);
         this.changed();
     }
-    // Takes all stations that are silent, with the seconds since they spoke; undefined: it stays as it was.
+    // Takes the list of all silent stations, each with the seconds since its last data. A station with undefined
+    // instead stays as it was.
     takeSilences(all: [string, number | undefined][]): void {
         const before = this.silentSince;
         this.silentSince = new Map();

@@ -1,5 +1,5 @@
-// Shows the wanted time of the chosen domain and moment: loads its grid, waits for what is drawn beside it, and goes to
-// another time if there is no grid.
+// Shows the wanted time of the chosen domain and moment. Loads the grid and the data of its layers, and goes to another
+// time if there is no grid.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { isClearAir } from '../fields/clear_air';
@@ -10,22 +10,22 @@ import { App, Shown } from './app';
 import { Loader } from './loader';
 import { texts } from './texts';
 
-export const soonTimes = 500; // of a domain, before all others
-export const mostTimes = 10000; // that the server tells at once
+export const soonTimes = 500; // the page asks first for so many of the newest times
+export const mostTimes = 10000; // most times in an answer of the server
 
 export class Showing {
     readonly ahead = new Ahead(this.app);
-    coming = 0; // times that are not shown yet
-    private turn = 0; // of what is to be shown
+    coming = 0; // number of calls of showTime() that have not ended
+    private turn = 0; // number of the last call of showTime()
 
     constructor(private app: App) {}
 
-    // Tells a failure. If the time is not wanted any more, tells only that the server does not answer.
+    // Shows an error. If its time is not wanted any more, shows it only if the server did not answer.
     failed(error: unknown, isWanted: boolean): void {
         if (isWanted || error instanceof TypeError) this.app.fail(error);
     }
 
-    // Asks for the times of the domain and moment that were chosen, and shows the wanted one of them.
+    // Asks for the times of the chosen domain and moment, and shows the wanted time.
     async showChosen(): Promise<void> {
         const { app } = this;
         app.tell('choices');
@@ -38,7 +38,7 @@ export class Showing {
             app.timeline.forget();
             app.timeline.take(soon.times);
             const { time } = app.state;
-            // A time before those of the first answer is looked for among all.
+            // Ask for all times first if the wanted time is before the times of the first answer.
             const isOlder = soon.more && !app.player.follows && Date.parse(time) < Date.parse(soon.times[0] ?? '');
             if (isOlder) await this.findOlder();
             if (!app.player.follows && !app.timeline.find(time)) app.missTime(time);
@@ -48,7 +48,7 @@ export class Showing {
             if (choice === app.choices) app.fail(error);
         }
     }
-    // If the user does not follow any more, but was shown no other time yet, keeps the time of the player.
+    // If the user has stopped following, but `state.time` is still 'latest', sets it to the time of the player.
     private stayWhoPaused(): void {
         const { app } = this;
         if (app.player.follows || app.state.time !== 'latest') return;
@@ -57,7 +57,7 @@ export class Showing {
         else app.state.time = now;
     }
 
-    // Fills the timeline with the older grids, after the first picture.
+    // Adds all older times to the timeline.
     private async findOlder(): Promise<void> {
         const { app } = this;
         const { domain, moment } = app.state;
@@ -74,14 +74,14 @@ export class Showing {
         }
     }
 
-    // Returns a test that is true once another domain or moment is chosen.
+    // Returns a function that returns true once another domain or moment is chosen.
     whetherLeft(): () => boolean {
         const { app } = this;
         const { domain, moment } = app.state;
         return () => domain !== app.state.domain || moment !== app.state.moment;
     }
-    // Shows the time of the timeline. If its grid is not there, a step goes on to the next time in the
-    // direction of `by`; else shows the time nearest to the wanted one.
+    // Shows the current time of the timeline. If its grid does not exist, goes to another time: after a step (`by` is
+    // not 0) to the next time in the same direction, otherwise to the time nearest to `nearest` or to the current time.
     async showTime(nearest?: string, by = 0): Promise<void> {
         const { app } = this;
         const time = app.timeline.now;
@@ -93,7 +93,7 @@ export class Showing {
         ++this.coming;
         try {
             const loaded = await this.load(time);
-            // Another version of the same grid may be on its way.
+            // Leave the picture to a later call, which may load a newer version of the same grid.
             if (isLate()) return;
             const next = this.shownOf(time, loaded);
             await app.alongside(next, false);
@@ -126,9 +126,10 @@ export class Showing {
         const { app } = this;
         return app.loader.load(app.state.domain, app.state.moment, time, app.timeline.isBetween(time));
     }
-    // Leaves out a time whose grid is gone. Returns false if the time stays, so that the caller tells the failure.
+    // Leaves out a time if `error` says that its grid does not exist. Returns false if the time stays; the caller then
+    // shows the error.
     leaveOut(time: string, error: unknown, isLeft: () => boolean): boolean {
-        // The server also answers 410 for a grid in parts that was made again meanwhile.
+        // A 410 may also mean that a grid in parts was made again while it was loaded.
         const isGone =
             error instanceof ApiError &&
             (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
@@ -140,7 +141,8 @@ export class Showing {
     private take(shown: Shown): void {
         const { app } = this;
         const { book } = app;
-        // The colors stay while a loop plays. The halved grid of a grid in parts tells whether it shows clear air.
+        // Choose the colors for clear air or storms, except during playback. For a grid in parts, its first halved grid
+        // decides.
         const isOther = app.shown?.domain !== shown.domain || !app.player.isPlaying;
         if (book && isOther)
             book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));

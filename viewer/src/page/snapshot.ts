@@ -1,4 +1,4 @@
-// The picture as the page shows it, without controls, but with title, colors and legend.
+// Makes a picture to save: what the page shows, with title, colors and legend, but without controls.
 
 import { shades } from '../renderer/shades';
 import { element, fontOf, make, textScale } from './dom';
@@ -8,7 +8,7 @@ const told = ['title', 'sites-told', 'layers-told'];
 const lineHeight = 20;
 const swatch = 10;
 
-// Returns the lines without the age of the data, which a saved picture outlives.
+// Returns the lines of text in the page without the age of the data, which would be wrong later.
 function shownLines(): string[] {
     const lines = told.map((id) => element(id)).filter((one) => !one.hidden);
     return lines
@@ -21,7 +21,7 @@ function shownLines(): string[] {
         .filter(Boolean);
 }
 
-// Wraps a line into rows of this width, as the page does.
+// Wraps a line of text into rows of at most a width.
 function rowsOf(pen: CanvasRenderingContext2D, line: string, width: number): string[] {
     const rows: string[] = [];
     for (const word of line.split(' ')) {
@@ -58,8 +58,8 @@ function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): 
     });
 }
 
-// Draws the picture as large as the page shows it: one that was drawn coarser is enlarged below the labels,
-// as on the page. `moment` is named because the title does not name it.
+// Draws the picture as large as the page shows it. A coarser picture is enlarged below the labels, as on the page.
+// `moment` is added to the texts, because the title does not name it.
 export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement, moment: string): HTMLCanvasElement {
     const all = make('canvas');
     all.width = labels.width;

@@ -1,12 +1,13 @@
-// Shares the connections of a browser among its pages. A stream of events keeps one, a browser has six for a
-// server, and pictures need some. So three pages at most hear events, and the others ask for lists now and then.
+// Limits the streams of events of all pages in a browser. A browser has six connections to a server, a stream of events
+// occupies one, and pictures need some. So at most three pages have a stream, and other pages ask for lists now and
+// then.
 
 const mostPages = 3;
-const othersTellWithinMs = 1000; // a page that draws answers late
+const othersTellWithinMs = 1000; // long enough for pages that are busy drawing
 
 type Message = { asks: string } | { told: string; by: string };
 
-// Returns null if the browser keeps pages apart: each listens then.
+// Returns the channel between pages; null if the browser has none. Each page then has a stream.
 function channel(): BroadcastChannel | null {
     try {
         return new BroadcastChannel('stormcellar events');
@@ -16,10 +17,10 @@ function channel(): BroadcastChannel | null {
 }
 
 export class StreamPlaces {
-    private readonly pages = channel(); // of this browser, at this server
+    private readonly pages = channel(); // to the other pages of this server in this browser
     private state: 'without' | 'asking' | 'with' = 'without';
-    private id = ''; // of the last question; if several pages ask at once, the smallest goes first
-    private others = new Set<string>(); // that have a place, or go first
+    private id = ''; // id of the last question; if several pages ask at once, the smallest id goes first
+    private others = new Set<string>(); // ids of pages that have a place or go first
 
     constructor() {
         if (!this.pages) return;
@@ -34,7 +35,7 @@ export class StreamPlaces {
         };
     }
 
-    // Takes a place at once. If the other pages turn out to have all places, gives it back and calls `noPlace`.
+    // Takes a place at once. If other pages then answer that they have all places, gives it back and calls `noPlace`.
     take(noPlace: () => void): void {
         const id = (this.id = String(Math.random()));
         this.state = 'asking';

@@ -1,5 +1,5 @@
-// Fetches what the view needs of a grid that is too large to be loaded as a whole, from the middle of the
-// picture outward. Until then its first halved grid is shown; the finest bricks that are there always are.
+// Fetches the bricks that a view needs of a grid in parts, from the middle of the picture outward. The picture always
+// shows the finest bricks that have come, and elsewhere the first halved grid.
 
 import { GridInParts, LoadedGrid } from '../atlas/loaded_grid';
 import { cellSizeM } from '../earth/projection';
@@ -12,22 +12,18 @@ import { isAbsent, packed } from '../wire/api';
 import { BrickRange, rangesOf } from '../wire/ranges';
 import { Decoder } from '../atlas/decoder';
 
-// A browser has six connections to a server, of which one hears of events.
-const mostFlights = 5;
-// Most bytes of a request, before it is compressed.
-const mostRequestBytes = 1024 * 1024;
-// Most bytes of columns that the next requests are chosen from. A range has those of one row of the picture's middle.
-const mostPlannedBytes = 4 * mostRequestBytes;
-// Most bytes in a row that a range may hold without need.
-const mostSkippedBytes = 64 * 1024;
+const mostFlights = 5; // a browser has six connections to a server, one of which is for events
+const mostRequestBytes = 1024 * 1024; // most uncompressed bytes of a request
+const mostPlannedBytes = 4 * mostRequestBytes; // requests are chosen from the first missing columns of so many bytes
+const mostSkippedBytes = 64 * 1024; // most bytes between two needed columns of a request
 const retryMs = 1000;
-const mostFailures = 5; // that are not told
+const mostFailures = 5; // consecutive failures before an error is shown
 
-// How much of what the view needs is here.
+// Describes which of the needed bricks have come.
 export interface Detail {
-    missing: number; // columns of bricks
-    coarsest: number; // how often the grid was halved, of what is shown in the picture
-    isGone: boolean; // what is missing does not come
+    missing: number; // number of columns of bricks that have not come
+    coarsest: number; // level of the coarsest bricks in the picture
+    isGone: boolean; // the missing columns will not come, because the grid is gone
 }
 
 interface Flight {
@@ -36,11 +32,11 @@ interface Flight {
     abort: AbortController;
 }
 
-// One grid in parts, while it is shown.
+// Streams one grid in parts, while it is shown.
 class Stream {
     private pool: SlotPool;
-    private cells = new Map<string, number>(); // columns whose codes the worker has, and their bytes; the oldest first
-    private tables = new Map<number, 'coming' | 'there'>(); // of halved grids
+    private cells = new Map<string, number>(); // bytes of the columns whose codes the worker has, the oldest first
+    private tables = new Map<number, 'coming' | 'there'>(); // tables of halved grids, by level
     private waitsUntil = 0;
     private flights: Flight[] = [];
     private making = new Set<string>();
@@ -89,7 +85,7 @@ class Stream {
         return level === this.parts.level || this.pool.has(key);
     }
 
-    // Takes another view: fetches what it needs, and stops fetching the rest.
+    // Takes another view. Fetches the bricks that it needs, and stops fetching others.
     look(geometry: ViewGeometry, finest: number): void {
         const { grid } = this.loaded;
         const { pyramid, level } = this.parts;
@@ -112,9 +108,9 @@ class Stream {
         this.renderer.putIndirection();
     }
 
-    // -- what is needed
+    // -- requests
 
-    // Returns the columns whose codes the texels of a column are made of.
+    // Returns the columns with codes from which the texels of a column are made: the column and its neighbors.
     private neighbors({ level, x, y }: WantedColumn): { x: number; y: number; key: string }[] {
         const { columns } = this.parts.pyramid.levels[level]!;
         const found = [];
@@ -152,7 +148,7 @@ class Stream {
         while (this.flights.length < mostFlights) if (!this.fly(missing, needed)) break;
     }
 
-    // Asks for what is needed first. Returns false if there is nothing to ask for.
+    // Asks for the codes that are needed first. Returns false if there is nothing to ask for now.
     private fly(missing: WantedColumn[], needed: Map<WantedColumn, { x: number; y: number; key: string }[]>): boolean {
         const onTheWay = new Set(this.flights.flatMap(({ columns }) => [...columns]));
         const next = missing.find((column) => needed.get(column)!.some(({ key }) => !onTheWay.has(key)));
@@ -186,7 +182,7 @@ class Stream {
         return true;
     }
 
-    // Asks for bricks of the other levels while the table of this one comes.
+    // Asks for codes of other levels while the table of `level` comes.
     private flyAnother(
         missing: WantedColumn[],
         needed: Map<WantedColumn, { x: number; y: number; key: string }[]>,
@@ -196,7 +192,7 @@ class Stream {
         return others.length > 0 && this.fly(others, needed);
     }
 
-    // -- what comes
+    // -- answers
 
     private query(level: number): Record<string, string> {
         const { id } = this.loaded.grid;
@@ -272,7 +268,7 @@ class Stream {
                 for (const { key } of columns) this.making.delete(key);
                 if (this.hasEnded) return;
                 for (const { level, x, y, hasValues, texels } of made) {
-                    // The pool has room for all wanted columns, but maybe not for one that is no longer wanted.
+                    // The pool has room for all wanted columns, but a column may no longer be wanted.
                     const resident = this.pool.take(level, x, y, hasValues, this.wantedKeys);
                     if (resident) this.renderer.putBricks(resident.slots, texels);
                 }
@@ -283,8 +279,8 @@ class Stream {
             .catch((error: unknown) => this.fail(error));
     }
 
-    // Asks again later, because too much was asked at once, or the network or the server failed. Tells of a
-    // grid that is gone, and of many failures in a row.
+    // Handles a failed request, and asks again later. Ends if the grid is gone. Shows the error if the grid is gone, or
+    // after many failures in a row.
     private stumble(error: unknown): void {
         if (this.hasEnded || (error instanceof DOMException && error.name === 'AbortError')) return;
         this.hasEnded = isAbsent(error);
@@ -295,7 +291,7 @@ class Stream {
     }
 }
 
-// Streams the grid that is shown now, if it is in parts.
+// Streams the shown grid if it is in parts.
 export class Streaming {
     private stream: Stream | null = null;
 
@@ -307,7 +303,7 @@ export class Streaming {
         private fail: (error: unknown) => void,
     ) {}
 
-    // Call after the renderer was given the grid.
+    // Call after Renderer::show().
     show(loaded: LoadedGrid): void {
         this.stream?.end();
         this.stream = loaded.stream
@@ -315,12 +311,12 @@ export class Streaming {
             : null;
     }
 
-    // `finest` is the level of the finest bricks that are wanted.
+    // Fetches bricks for a view. `finest` is the level of the finest bricks that the view wants.
     look(geometry: ViewGeometry, finest: number): void {
         this.stream?.look(geometry, finest);
     }
 
-    // Null for a grid that is there as a whole.
+    // Null if the shown grid is whole.
     get detail(): Detail | null {
         return this.stream?.detail ?? null;
     }

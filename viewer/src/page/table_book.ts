@@ -1,4 +1,4 @@
-// The color tables that the page knows: the server's, and the user's drafts.
+// Keeps the color tables of the page: tables of the server, and the user's drafts.
 
 import { colorFiles } from '../facts';
 import { ViewState } from '../scene/view_state';
@@ -8,21 +8,21 @@ import { UsualOpacity, usualOpacity } from '../tables/usual_opacity';
 import { Tables } from '../wire/api';
 import { texts } from './texts';
 
-// Tables of the server with this in front differ from class to class for every kind of color vision
+// Prefix of the server's tables whose classes people with any kind of color vision can tell apart
 // (render/color/built_in_tables.h).
 const safePrefix = 'safe-';
 export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.safeTable(name) : name);
 
 export class TableBook {
     readonly usual: UsualOpacity;
-    isClearAir = false; // what is shown: reflectivity has the colors of clear air then, as `stormcellar frame` has it
+    isClearAir = false; // reflectivity gets the colors for clear air, as in `stormcellar frame`
     private made = new WeakMap<Draft, ColorTable>();
 
     constructor(private tables: Tables) {
         this.usual = usualOpacity(tables.tables, tables.usual);
     }
 
-    // Returns the tables of a moment, without those of products in another unit.
+    // Returns the tables of a moment, except tables of products in another unit.
     presets(moment: string): ColorTable[] {
         const own = this.tables.tables.filter((table) => table.moment === moment);
         const unit = own.find((table) => table.name === this.tables.usual[moment])?.unit;
@@ -37,7 +37,7 @@ export class TableBook {
         );
     }
 
-    // Returns the table of a moment in a view; the same object for the same draft.
+    // Returns the table of a moment in a view. The same draft always gives the same object.
     of(state: ViewState, moment: string): ColorTable | undefined {
         const draft = state.drafts.find((one) => one.moment === moment);
         if (!draft) return this.preset(moment, state.colors);
@@ -45,7 +45,7 @@ export class TableBook {
         this.made.set(draft, made);
         return made;
     }
-    // Returns the draft of a moment, or the one that its table would become.
+    // Returns the draft of a moment, or a draft made of its table.
     draftOf(state: ViewState, moment: string): Draft | undefined {
         const draft = state.drafts.find((one) => one.moment === moment);
         const preset = this.preset(moment, state.colors);

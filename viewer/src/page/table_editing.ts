@@ -1,4 +1,4 @@
-// Applies the user's edits to the colors (presets, drafts, threshold, files), with undo and redo.
+// Applies the user's edits of colors (presets, drafts, threshold, files), with undo and redo.
 
 import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
@@ -14,10 +14,10 @@ interface Colors {
 export interface ExportedFile {
     name: string;
     text: string;
-    isWhole: boolean; // the file says all that the table has
+    isWhole: boolean; // the file expresses all of the table
 }
 
-// FNV-1a of 32 bits, as text.
+// Returns the FNV-1a hash of 32 bits, as text.
 function checksum(text: string): string {
     let sum = 0x811c9dc5;
     for (const letter of text) sum = Math.imul(sum ^ letter.codePointAt(0)!, 0x01000193);
@@ -30,7 +30,7 @@ export class TableEditing {
 
     constructor(private app: App) {}
 
-    // Returns the draft that is edited: that of the chosen moment, or what its table would become.
+    // Returns the draft of the chosen moment, or a draft made of its table.
     get draft(): Draft | undefined {
         const { state, book } = this.app;
         const draft = state.drafts.find((one) => one.moment === state.moment);
@@ -60,7 +60,7 @@ export class TableEditing {
         this.app.changed();
     }
 
-    // Changes of one doing, such as a drag, are undone at once.
+    // Changes the draft. Consecutive changes with the same `doing`, such as those of a drag, are undone together.
     edit(change: (draft: Draft) => Draft, doing: string | null = null): void {
         const { draft } = this;
         const next = draft && change(draft);
@@ -92,21 +92,21 @@ export class TableEditing {
 
     // -- files
 
-    // Takes a draft from a file.
+    // Replaces the draft by the draft of a file.
     takeDraft(draft: Draft): void {
         this.history.note(this.now);
         this.become({ drafts: this.with(draft) });
     }
 
-    // Returns the file of the table as it is shown, without what is hidden.
+    // Returns a file with the shown table, without values below the threshold.
     toml(): ExportedFile | undefined {
         const { draft } = this;
         return (
             draft && { name: `${draft.name}.toml`, text: writeToml(fileOf(draft, this.app.state.least)), isWhole: true }
         );
     }
-    // Returns the same under a name that tells its content. A browser saves a second file of a name under another
-    // name, and a command would read the first.
+    // Returns the same file with a name that depends on its content. If two files had the same name, the browser would
+    // rename the second, and a command would read the first.
     tomlForCommand(): ExportedFile | undefined {
         const file = this.toml();
         return file && { ...file, name: file.name.replace(/\.toml$/, `-${checksum(file.text)}.toml`) };

@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { texts } from './texts';
 
-test('of a region is told how far the volumes of each site are from the instant', () => {
+test('the page tells how far the volumes of a region are from the instant', () => {
     const { ofVolumes, sitesAt } = texts.start;
     assert.equal(ofVolumes([-180, 42]), 'from volumes 3 min before and 42 s after');
     assert.equal(ofVolumes([-400]), 'as it was 7 min before');
@@ -22,7 +22,7 @@ test('of a region is told how far the volumes of each site are from the instant'
     );
 });
 
-test('each site that is left out of a region has the reason that the server gives (2026-11-28: it was made up)', () => {
+test("the page gives the server's reason for each site that is left out (2026-11-28: the page made up a reason)", () => {
     const sites: [string, string][] = [
         ['KENX', 'it has no volume within 15 minutes'],
         ['ROP5', 'it has no grids of VEL'],
@@ -35,7 +35,7 @@ test('each site that is left out of a region has the reason that the server give
     );
 });
 
-test('of a grid that is gone nothing is said to be loading (2026-11-28: it was)', () => {
+test('the page does not say that a grid is loading if the grid is gone (2026-11-28: it did)', () => {
     assert.equal(
         texts.detail({ coarsest: 2, missing: 3, isGone: true }),
         'coarse: greatest of 4 x 4 cells, finer ones are gone',
@@ -47,7 +47,7 @@ test('of a grid that is gone nothing is said to be loading (2026-11-28: it was)'
     assert.equal(texts.detail({ coarsest: 0, missing: 0, isGone: true }), '');
 });
 
-test('a radar whose clock is ahead is in the future, and not new (2026-11-28: it was of 0 min ago)', () => {
+test('data of a radar whose clock is ahead are in the future, and not new (2026-11-28: they were "0 min ago")', () => {
     assert.equal(texts.start.age(-601), 'in the future');
     assert.equal(texts.start.age(-599), '0 min ago');
 });

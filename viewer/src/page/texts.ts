@@ -1,4 +1,4 @@
-// Every text of the page in one place, ready for other languages.
+// Has every text of the page, so that it can be translated.
 
 import { isAhead } from '../time/timeline';
 
@@ -10,7 +10,7 @@ function span(seconds: number): string {
 }
 const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `${span(seconds)} ago`);
 
-// Tells how far the volumes of a site are from an instant.
+// Tells how long before or after an instant the volumes of a site were.
 function ofVolumes(middlesS: number[]): string {
     const away = (seconds: number) =>
         Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`;
@@ -33,7 +33,7 @@ function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
     return [all, alone.length > 0 ? `as they were: ${asTheyWere}` : ''].filter(Boolean).join('; ');
 }
 
-// Names the sites that are left out, by the server's reason, which begins with "it" or "its".
+// Names the sites that are left out, grouped by the server's reason. A reason begins with "it" or "its".
 function leftOut(sites: [string, string][]): string {
     const reasons = [...new Set(sites.map(([, reason]) => reason))].map((reason) => {
         const names = sites.filter((one) => one[1] === reason).map(([site]) => site);

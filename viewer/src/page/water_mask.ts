@@ -1,13 +1,13 @@
-// The share of water of each part of the ground, painted from the rings of coasts and lakes.
+// Paints the rings of coasts and lakes into a mask, which has the share of water in each cell of the ground.
 
 import { WaterMask } from '../renderer/water_texture';
 import { Plane } from '../earth/projection';
 import { make } from './dom';
 
 const cellsAcross = 1024;
-const farthest = 1e5; // in cells: what lies farther away is drawn as if it lay there
+const farthest = 1e5; // points farther away than so many cells are moved to this distance
 
-// Paints the ground up to `halfXM` to the east and west of the middle, and `halfYM` to the north and south.
+// Paints the ground within `halfXM` to the east and west of the middle, and within `halfYM` to the north and south.
 export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, halfYM: number): WaterMask {
     const cellM = (2 * Math.max(halfXM, halfYM)) / cellsAcross;
     const picture = make('canvas');
@@ -28,8 +28,8 @@ export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, hal
         pen.fillStyle = color;
         pen.fill('nonzero');
     };
-    // Paint sea, land in it, and lakes in that. A cell in which two rings touch may get a little of the layer below.
-    // The picture does not show it, because a place is water if half of it is.
+    // Paint sea, then land, then lakes. A cell in which two rings touch may keep a little of the color below. The
+    // picture does not show this, because a place is water only if half of it is.
     pen.fillStyle = 'white';
     pen.fillRect(0, 0, picture.width, picture.height);
     paint(land, 'black');

@@ -1,5 +1,5 @@
-// Finds the cells that layers and readings are made of. A grid that is there as a whole has them all; for one
-// in parts, asks the server for a window, as fine as it is worth and as there is room for.
+// Finds the cells for layers and readings. A whole grid has all cells. For a grid in parts, asks the server for a
+// window, which is as fine as the view shows and memory allows.
 
 import {
     BrickWindow,
@@ -18,31 +18,30 @@ import { Place, Plane, cellSizeM, destination, geodesic, middleOn, planeOf } fro
 import { isAbsent, packed } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 
-// Purpose of a window. There is one window at a time for each, and one of the grid that is shown next.
+// Purpose of a window. Each purpose has one window of the shown grid, and one of the grid that is shown next.
 export type Purpose = 'layers' | 'light' | 'section' | 'ray';
 
-// Shares of the page's memory.
-const bytesOfWindow = 0.06;
-const fieldOfLayers = 0.05;
-const bytesOfFields = 10; // of a column, in two of them
-const fallsOfLight = 0.05;
+const bytesOfWindow = 0.06; // share of the page's memory for the cells of a window
+const fieldOfLayers = 0.05; // share for fields that are made of a window
+const bytesOfFields = 10; // bytes of a column in two fields
+const fallsOfLight = 0.05; // share for the falls that are made of a window
 const columnsOfSection = 480;
 const pointsOfLine = 32;
-const againAfterMs = 3000; // what failed
+const againAfterMs = 3000; // after a failure
 
 interface Held {
-    of: LoadedGrid; // whose window it is
-    asked: BrickWindow | null;
-    has: BrickWindow | null; // the last one that came
-    cells: Cells | null; // of it
-    abort: AbortController | null; // of the request on its way, or of one that failed: the picture is not complete
-    done: Promise<void>; // it came, or is not wanted any more; it fails if the grid is gone
+    of: LoadedGrid; // grid of the window
+    asked: BrickWindow | null; // window that was last asked for
+    has: BrickWindow | null; // last window that came
+    cells: Cells | null; // cells of `has`
+    abort: AbortController | null; // aborts the request for `asked`; null if `asked` has come
+    done: Promise<void>; // resolves when `asked` comes or is replaced; rejects if the grid is gone
 }
 
 export class Windows {
     private held = new Map<Purpose, Held>();
-    private ahead = new Map<Purpose, Held>(); // of the grid that is shown next
-    private taken = this.held; // where what is asked for goes
+    private ahead = new Map<Purpose, Held>(); // windows of the grid that is shown next
+    private taken = this.held; // either of these maps; take() uses it
     private wholes = new WeakMap<PackedGrid, Cells>();
 
     constructor(
@@ -52,7 +51,7 @@ export class Windows {
         private fail: (error: unknown) => void,
     ) {}
 
-    // Something that layers are made of has not come yet.
+    // Returns true if a window for layers has not come.
     get isWaiting(): boolean {
         return [...this.held].some(([purpose, { abort }]) => purpose !== 'ray' && abort !== null);
     }
@@ -62,7 +61,7 @@ export class Windows {
             0,
         );
     }
-    // Returns how often the coarsest window of the layers was halved; 0 if the grid is not in parts.
+    // Returns the number of halvings of the coarsest window for layers; 0 for a whole grid.
     coarsest(loaded: LoadedGrid): number {
         return Math.max(
             0,
@@ -71,12 +70,13 @@ export class Windows {
             ),
         );
     }
-    // Returns how often the cells for a purpose were halved.
+    // Returns the number of halvings of the cells for a purpose; 0 if they have not come.
     halvings(loaded: LoadedGrid, purpose: Purpose): number {
         return (loaded.stream ? this.cellsOf(loaded, purpose)?.grid : loaded.grid)?.halvings ?? 0;
     }
 
-    // Returns what the view shows, or while it moves, what was there before; null until something has come.
+    // Returns a whole grid, or of a grid in parts the cells that the view shows. While the view moves, and until these
+    // cells have come, returns earlier cells of the same grid, or null if there are none.
     seen(loaded: LoadedGrid, purpose: 'layers' | 'light', geometry: ViewGeometry, isMoving: boolean): Cells | null {
         const { grid, stream } = loaded;
         if (!stream) return this.whole(grid);
@@ -86,7 +86,8 @@ export class Windows {
         return window && this.take(loaded, stream, purpose, window);
     }
 
-    // Returns the cells that a line between two places crosses, with those beside it; null until they have come.
+    // Returns a whole grid, or of a grid in parts the cells along the geodesic between two places. Returns null until
+    // these have come, or if the geodesic misses the grid in parts.
     along(loaded: LoadedGrid, [from, to]: readonly [Place, Place]): Cells | null {
         const { grid, stream } = loaded;
         if (!stream) return this.whole(grid);
@@ -95,7 +96,7 @@ export class Windows {
         const points = Array.from({ length: pointsOfLine + 1 }, (_, i) =>
             plane.toPlane(destination(from, way.azimuth, (i / pointsOfLine) * way.distanceM)),
         );
-        // No finer than a plot of the section shows it.
+        // Choose cells no finer than the columns of a plot of the section.
         const finest = Math.max(
             0,
             Math.floor(Math.log2(way.distanceM / columnsOfSection / Math.max(...cellSizeM(grid)))),
@@ -109,7 +110,8 @@ export class Windows {
         );
     }
 
-    // Asks ahead for what `ask` needs of the grid that is shown next. Null if all of it is there.
+    // Calls `ask`, and keeps the windows that it takes as windows of the next grid. The promise resolves when all
+    // have come; null if all are here.
     next(loaded: LoadedGrid, ask: () => void): Promise<void> | null {
         if (!loaded.stream) return null;
         this.taken = this.ahead;
@@ -119,7 +121,8 @@ export class Windows {
         return waits.length > 0 ? Promise.all(waits.map((one) => one.done)).then(() => undefined) : null;
     }
 
-    // Returns the cells between points, the grid's own if there is room; null until they have come.
+    // Returns a whole grid, or of a grid in parts the cells about points, of level 0 if there is room. Returns null until
+    // these have come, or if the points are beyond the grid in parts.
     ray(loaded: LoadedGrid, points: readonly Plane[]): Cells | null {
         const { grid, stream } = loaded;
         return stream ? this.about(loaded, stream, 'ray', points, 0) : this.whole(grid);
@@ -159,7 +162,7 @@ export class Windows {
         return held?.of === loaded ? held.cells : null;
     }
 
-    // Returns the window, or until it comes the one before it.
+    // Asks for a window unless it is already asked for, and returns the last cells that came for this purpose.
     private take(loaded: LoadedGrid, stream: GridInParts, purpose: Purpose, window: BrickWindow): Cells | null {
         let held = this.taken.get(purpose);
         if (held?.of !== loaded) {
@@ -180,7 +183,8 @@ export class Windows {
         return held.cells;
     }
 
-    // A window that failed is asked for again, because a picture without its layer looks like clear air.
+    // Fetches a window. After a failure tries again, because a picture without its layer would look like clear air, but
+    // throws if the grid is gone.
     private async fetch(held: Held, loaded: LoadedGrid, stream: GridInParts, window: BrickWindow): Promise<void> {
         const { grid } = loaded;
         const { domain, moment, time } = stream;
@@ -211,7 +215,7 @@ export class Windows {
         this.came();
     }
 
-    // Gives back a window that no layer and no reading needs.
+    // Drops the window of a purpose that is not needed.
     release(purpose: Purpose): void {
         this.held.get(purpose)?.abort?.abort();
         this.held.delete(purpose);

@@ -13,7 +13,7 @@ const made: Made = {
     nx: 150,
     ny: 100,
     levelsM: evenLevels(40),
-    // Echo in two towers, the second one weak.
+    // Echo in two towers, the second of which is weak.
     codeOf: (x, y) => (x > 30 && x < 36 && y > 40 && y < 50 ? 150 : x > 100 && x < 108 && y > 20 && y < 24 ? 40 : 1),
 };
 const grid = readPackedGrid(packedGrid(made));
@@ -36,7 +36,7 @@ function viewOf(
     );
 }
 
-// The greatest code of a value that a ray's sample uses; 0 without one, and outside of the box.
+// Returns the greatest code of a value that the ray's sample at a depth uses; 0 without values, and outside of the box.
 function codeAt(view: ViewGeometry, x: number, y: number, depth: number): number {
     const [px, py, pz] = view.point(x, y, depth);
     const { halfXM, halfYM, bottomM, topM } = view.box;
@@ -61,10 +61,10 @@ const views = [
     viewOf(30, 80, 2, 40),
     viewOf(200, 0, 1, 0),
     viewOf(100, 60, 3, 0, [-40e3, -5e3, 3e3]),
-    viewOf(250, 85, 12, 60, [-42e3, -5e3, 5e3]), // within the box, some of which is behind the camera
+    viewOf(250, 85, 12, 60, [-42e3, -5e3, 5e3]), // the camera is within the box
 ];
 
-test('no ray meets a value that shows outside of its tile, or beyond the depths of the tile', () => {
+test('each ray meets visible values only in a tile and between the depths of this tile', () => {
     let [met, all] = [0, 0];
     for (const leastShown of [1, 100]) {
         for (const view of views) {
@@ -101,7 +101,7 @@ test('most of a picture with little echo has no tiles', () => {
     assert(strong.points.length < points.length, 'weak echo that is hidden has none');
 });
 
-test('all of a small picture of the same view is in tiles if the whole picture is', () => {
+test('tiles cover all of a small picture if they cover the whole picture of the same view', () => {
     const full = readPackedGrid(packedGrid({ ...made, codeOf: () => 90 }));
     const view = viewOf(180, 0, 4, 0);
     const small = Object.assign({}, view, {

@@ -1,5 +1,5 @@
-// Finds where in the picture rays may meet echo that shows, and between which depths. The volume is drawn in
-// these squares of the picture alone: over most of a usual picture there is clear air.
+// Finds the tiles (squares of the picture) in which rays may meet visible echo, and between which depths. The volume is
+// drawn in these tiles only, because most of a usual picture shows clear air.
 
 import { Atlas, blockEdge, blocksABrick, blocksAlong, slotOf } from '../atlas/atlas';
 import { Vec3, ViewGeometry } from '../camera/geometry';
@@ -7,20 +7,21 @@ import { cellSizeM } from '../earth/projection';
 import { PackedGrid } from '../wire/packed_grid';
 import { Program } from './program';
 
-// A picture, or a small one of the same view, whose sides need not be whole pixels.
+// The camera of a picture, or of a smaller picture of the same view. Width and height need not be whole numbers.
 export type RayView = Pick<
     ViewGeometry,
     'width' | 'height' | 'eye' | 'right' | 'up' | 'forward' | 'focalPixels' | 'metersPerPixel' | 'isPerspective'
 >;
 
-// Places along each axis, in drawn space, where blocks of cells begin, and where the last one ends.
+// Coordinates in drawn space at which the blocks of cells along each axis begin, and at which the last block ends.
 export interface BlockEnds {
     x: number[];
     y: number[];
     z: number[];
 }
 
-// A sample belongs to the block of the cell before it along each axis. Beyond the outermost cells it is as there.
+// A sample belongs along each axis to the block of the cell before it, so blocks begin at the middles of cells. The
+// outermost blocks reach to the faces of the box.
 export function blockEnds(grid: PackedGrid, { box, exaggeration }: ViewGeometry): BlockEnds {
     const [width, height] = cellSizeM(grid);
     const along = (bricks: number, cells: number, placeOf: (cell: number) => number, low: number, high: number) =>
@@ -45,16 +46,18 @@ export interface Tiles {
     side: number; // in pixels
     columns: number;
     rows: number; // from the lower edge of the picture
-    points: Float32Array; // of each tile: x and y of its middle, from -1 to 1 over all tiles; least and greatest depth
+    // Four numbers for each tile that may show something: x and y of its middle, from -1 to 1 over all tiles, and the
+    // least and the greatest depth.
+    points: Float32Array;
 }
 
 const sides = [16, 32, 64];
 const mostColumns = 64;
 
-// Returns true if rays stop in a brick. `leastShown` is the least shown code that is not clear.
+// Returns true if a brick may show something. `leastShown` is the least shown code that is not clear.
 const shows = (entry: number, leastShown: number): boolean => slotOf(entry) >= 0 && entry >>> 24 >= leastShown;
 
-// Part of the picture that a box of drawn space covers: pixels from the lower left, and depths.
+// Part of the picture that a box of drawn space covers, in pixels from the lower left, and the depths of the box.
 interface Extent {
     left: number;
     right: number;
@@ -95,10 +98,11 @@ function extentOf(view: RayView, xs: readonly number[], ys: readonly number[], z
     return extent;
 }
 
-// Blocks of a brick, from the first to before the last along each axis.
+// A box of blocks in a brick: x, y, z of the first block, and x, y, z behind the last.
 type Blocks = [number, number, number, number, number, number];
 
-// Returns the blocks of a slot that show something (all of them for a grid in parts); null if none does.
+// Returns the smallest box of blocks that holds all visible blocks of a slot; null if none is visible. If `blocks` is
+// empty, as for a grid in parts, returns all blocks.
 function shownBlocks(blocks: Uint8Array, slot: number, leastShown: number): Blocks | null {
     if (blocks.length === 0) return [0, 0, 0, blocksAlong, blocksAlong, blocksAlong];
     const found: Blocks = [blocksAlong, blocksAlong, blocksAlong, 0, 0, 0];
@@ -115,7 +119,8 @@ function shownBlocks(blocks: Uint8Array, slot: number, leastShown: number): Bloc
 
 type ShownAtlas = Pick<Atlas, 'bricks' | 'indirection' | 'blocks'>;
 
-// Visits the part of each brick that shows something. `from` and `to` are x, y, z of the whole grid's blocks.
+// Visits the visible box of blocks of each brick. `from` and `to` are the first block and the end, counted in blocks
+// from the corner of the grid.
 function eachShown(
     { bricks, indirection, blocks }: ShownAtlas,
     leastShown: number,
@@ -172,7 +177,7 @@ export function tilesOf(view: RayView, atlas: ShownAtlas, ends: BlockEnds, least
     return { side, columns, rows, points: new Float32Array(points) };
 }
 
-// Draws a point for each tile, by the program that is in use.
+// Draws a point for each tile with the program in use.
 export class TilePass {
     private array: WebGLVertexArrayObject | null = null;
     private buffer: WebGLBuffer | null = null;
@@ -184,7 +189,7 @@ export class TilePass {
         this.array = this.buffer = null;
     }
 
-    // The tiles at the right and the upper edge reach beyond the picture.
+    // Sets a larger viewport while it draws, because tiles at the right and the upper edge reach beyond the picture.
     draw({ width, height }: RayView, tiles: Tiles, program: Program): void {
         const { gl } = this;
         this.array ??= gl.createVertexArray();

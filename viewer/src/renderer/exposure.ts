@@ -1,10 +1,10 @@
-// The exposure of a lit picture: by it the mean lightness of its echo is that without light
-// (render/volume/lit_layer.h). It is found from a small picture.
+// Finds the exposure of a lit picture, a factor of its light. With it, echo has the same mean lightness as without
+// light (render/volume/lit_layer.h). The exposure is measured in a small picture.
 
 import { ViewGeometry } from '../camera/geometry';
 import { RayView } from './echo_tiles';
 
-const stride = 5; // pixels along each side that one of the small picture stands for
+const stride = 5; // a pixel of the small picture stands for stride x stride pixels
 const [leastExposure, mostExposure] = [0.7, 1.4];
 const halvings = 10;
 
@@ -13,7 +13,8 @@ function litLightness(l: number, factor: number): number {
     return l + Math.max(0, 0.98 - l) * (1 - Math.exp(-1.44 * (factor - 1)));
 }
 
-// `pixels` has lightness, half of the factor, and opacity, each of 255, and a byte that is not used.
+// Returns the exposure for pixels of four bytes: lightness, half of the light's factor, opacity (each of 255), and a
+// byte that is not used. Returns 1 if no pixel is opaque.
 export function exposureOf(pixels: Uint8Array): number {
     let [low, high] = [leastExposure, mostExposure];
     let isEmpty = true;
@@ -75,7 +76,7 @@ export class Exposure {
         return framebuffer;
     }
 
-    // `draw` draws what is measured, as a small picture.
+    // Sets `value`. `draw` draws the small picture that is measured.
     measure(geometry: ViewGeometry, draw: (small: RayView) => void): void {
         const { gl } = this;
         const small = smallView(geometry);

@@ -20,18 +20,18 @@ function governorAfter(exactMs: number, mostDE = 10, all = three): Governor {
     return governor;
 }
 
-test('a picture that stands still is exact, however long it takes', () => {
+test('a view at rest is drawn by the first rung, however long it takes', () => {
     assert.equal(governorAfter(5000).next(false).name, 'exact');
 });
 
-test('while the camera moves the most exact rung is taken that is drawn in time', () => {
+test('a moving view is drawn by the most exact rung that is in time', () => {
     const governor = governorAfter(90);
     assert.equal(governor.next(true).name, 'middle');
     for (let i = 0; i < 20; ++i) governor.took(three[1]!, 200);
     assert.equal(governor.next(true).name, 'fast');
 });
 
-test('where none is drawn in time the fastest is taken', () => {
+test('if no rung is in time, the fastest is taken', () => {
     assert.equal(governorAfter(100_000).next(true).name, 'fast');
 });
 
@@ -40,11 +40,11 @@ test('a rung whose error is not allowed is never taken', () => {
     assert.equal(governorAfter(100_000, 0.1).next(true).name, 'exact');
 });
 
-test('nothing that moves is drawn with more effort than what stands still', () => {
+test('a moving view never costs more than a view at rest', () => {
     assert.equal(governorAfter(1, 10, [...three, rung('lavish', 3, 0.1)]).next(true).name, 'exact');
 });
 
-test('near the limit the picture does not go to and fro', () => {
+test('near the limit the rung does not alternate', () => {
     const governor = governorAfter(101);
     assert.equal(governor.next(true).name, 'fast');
     for (let i = 0; i < 20; ++i) governor.took(three[2]!, 9.9);
@@ -53,7 +53,7 @@ test('near the limit the picture does not go to and fro', () => {
     assert.equal(governor.next(true).name, 'middle');
 });
 
-test('what a still picture is drawn by is in the ladder first, and what others cost is told by it', () => {
+test('the first rung has cost 1 and draws in full detail, and names are unique', () => {
     assert.equal(rungs[0]!.cost, 1);
     assert.deepEqual([rungs[0]!.grain, rungs[0]!.isNearest, rungs[0]!.halvings], [1, false, 0]);
     assert.equal(new Set(rungs.map(({ name }) => name)).size, rungs.length);

@@ -1,16 +1,15 @@
-// Keeps frames in time while the camera moves: takes the most exact rung with an allowed error that is expected to be
-// drawn in time, else the fastest.
+// Chooses a rung of the ladder for each frame, so that frames are drawn in time while the camera moves. Among the rungs
+// whose error is allowed, it takes the most exact rung that should be drawn in time, or the fastest if there is none.
 //
-// The time of a frame is expected from the frames before: by the costs of the ladder, each tells how long the first
-// rung would have taken.
+// Divided by the cost of its rung, the time of a frame estimates how long the first rung would take. A moving mean of
+// these estimates, times the cost of a rung, predicts its time.
 
 import { Rung } from './ladder';
 
-// A more exact rung is taken when it is expected to need this share of the time, so that the picture
-// does not go to and fro between two rungs.
+// Share of the allowed time that a more exact rung may need before the governor takes it. This keeps the picture from
+// alternating between two rungs.
 const margin = 0.8;
-// Weight of the newest frame in the time of the first rung.
-const weight = 0.5;
+const weight = 0.5; // of the newest frame in the moving mean
 
 export class Governor {
     private firstRungMs: number | null = null;
@@ -22,14 +21,14 @@ export class Governor {
         private mostDE: number,
     ) {}
 
-    // Returns the rung of the next frame: the first one if the picture stands still.
+    // Returns the rung for the next frame. This is the first rung if the view does not move, or if no error is allowed.
     next(isMoving: boolean): Rung {
         const still = this.rungs[0]!;
         if (!isMoving) {
             this.moving = null;
             return still;
         }
-        // Nothing that moves is drawn with more effort than what stands still.
+        // Do not spend more on a frame while the view moves than while it rests.
         const allowed = this.rungs
             .filter((rung) => rung.dE <= this.mostDE && rung.cost <= still.cost)
             .sort((one, other) => one.dE - other.dE);
@@ -46,10 +45,5 @@ export class Governor {
     took(rung: Rung, ms: number): void {
         const unit = ms / rung.cost;
         this.firstRungMs = this.firstRungMs === null ? unit : this.firstRungMs + weight * (unit - this.firstRungMs);
-    }
-
-    // Call for another grid or view, of which the times before tell nothing.
-    forget(): void {
-        this.firstRungMs = null;
     }
 }

@@ -1,22 +1,22 @@
-// Holds what the passes of a picture share of WebGL: programs by name, textures, and the camera.
+// Makes programs and textures for all passes of a picture, and gives programs the camera.
 
 import type { RayView } from './echo_tiles';
 import { Program } from './program';
 import { ShaderProgram, shaderText } from './shader_programs';
 
-// No program reads from this unit, so that an upload changes nothing that is bound.
+// Uploads use a unit that no program reads, so they leave all bound textures in place.
 const unitOfUploads = 15;
 
 export class Graphics {
     private programs = new Map<string, Program>();
-    private begun = new Map<string, WebGLProgram>(); // their compilation was not waited for yet
+    private begun = new Map<string, WebGLProgram>(); // programs that may still be compiling
 
     constructor(readonly gl: WebGL2RenderingContext) {}
 
     get mostTexels(): number {
         return this.gl.getParameter(this.gl.MAX_3D_TEXTURE_SIZE) as number;
     }
-    // Returns true if a processor draws, because there is no graphics processor here.
+    // Returns true if the processor draws because there is no graphics processor.
     get isSoftware(): boolean {
         const { gl } = this;
         const names = gl.getExtension('WEBGL_debug_renderer_info');
@@ -41,7 +41,7 @@ export class Graphics {
         return shader;
     }
 
-    // Begins to compile, which is waited for when the program is first used.
+    // Begins to compile a program. The first use of the program waits for the end.
     begin({ name, defines, vertex, fragment }: ShaderProgram): WebGLProgram {
         const gl = this.gl;
         const program = gl.createProgram()!;
@@ -115,7 +115,7 @@ export class Graphics {
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     }
 
-    // Takes a program into use, and gives it the camera.
+    // Makes a program current, and sets its camera.
     use(wanted: ShaderProgram, geometry: RayView): Program {
         const program = this.program(wanted);
         this.gl.useProgram(program.linked);
@@ -128,15 +128,15 @@ export class Graphics {
         return program;
     }
 
-    // Waits until everything is drawn.
+    // Waits until the graphics processor has drawn everything.
     finish(): void {
         const pixel = new Uint8Array(4);
         this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
     }
 }
 
-// Keeps the textures of what is drawn now, so that they are uploaded once. Releases those that the last picture did not
-// need.
+// Keeps textures from picture to picture, so that they are uploaded once. Releases textures that the last picture did
+// not need.
 export class TextureShelf {
     private held = new Map<string, { of: object; texture: WebGLTexture }>();
     private used = new Set<string>(); // for the last picture
@@ -153,7 +153,7 @@ export class TextureShelf {
         return texture;
     }
 
-    // Begins another picture: releases what the last one did not need.
+    // Call before each picture. Releases the textures that were not taken since the last call.
     clear(): void {
         for (const [name, { texture }] of this.held) {
             if (this.used.has(name)) continue;

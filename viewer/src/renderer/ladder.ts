@@ -1,23 +1,23 @@
-// Costs of each way of drawing, and how far it is from the slicer. scripts/viewer-ladder measures and writes
-// the rows below.
+// Lists the ways of drawing (rungs), with their costs and their differences from the slicer. scripts/viewer-ladder
+// measures and writes the rows below.
 //
-// dE is CIEDE2000 against the slicer with 2048 slices: the 99th percentile over the pixels that show
-// echo in either picture, of the scene where it is largest.
+// dE is CIEDE2000 against the slicer with 2048 slices. It is the 99th percentile over the pixels that show echo in
+// either picture, in the scene where this is largest.
 
 export interface Quality {
     name: string;
     slices: number;
-    grain: number; // a ray for so many pixels along each side
+    grain: number; // each ray covers grain x grain pixels
     isNearest: boolean; // cells are not interpolated
-    halvings: number; // how often the columns and rows of the grid were halved
+    halvings: number; // level of the finest bricks that are drawn
 }
 
 export interface Rung extends Quality {
-    cost: number; // time of a frame, as a share of that of the first rung
+    cost: number; // time of a frame, relative to the first rung
     dE: number;
 }
 
-// A picture that stands still is drawn by the first rung.
+// The first rung draws a view at rest.
 export const rungs: readonly Rung[] = [
     { name: '256 slices', slices: 256, grain: 1, isNearest: false, halvings: 0, cost: 1.0, dE: 8.6 },
     { name: '512 slices', slices: 512, grain: 1, isNearest: false, halvings: 0, cost: 1.61, dE: 3.2 },
@@ -30,5 +30,5 @@ export const rungs: readonly Rung[] = [
     { name: 'halved bricks', slices: 256, grain: 1, isNearest: false, halvings: 1, cost: 2.05, dE: 45.0 },
 ];
 
-// Rungs that can draw any grid: only a grid in parts has halved bricks.
+// Rungs that can draw any grid. Only a grid in parts has halved bricks.
 export const usualRungs = rungs.filter(({ halvings }) => halvings === 0);

@@ -1,5 +1,5 @@
-// Draws the layers beside ground and volume: solid ones into a target with their depth, maxima over the ground, veils
-// of air. A layer that is off has no program, no texture and no pass.
+// Draws the layers other than ground and volume. Planes, sections, sweeps and surfaces are solid, and go into a target
+// with depth; column maxima go over the ground. A layer that is off costs no program, no texture and no pass.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { Vec3, ViewGeometry } from '../camera/geometry';
@@ -34,8 +34,8 @@ export interface DrawnSweep {
 
 export interface DrawnSurface {
     value: number;
-    isBelow: boolean; // it encloses what is at most the value
-    of: LoadedGrid | null; // whose surface it is; null: of the grid that is shown
+    isBelow: boolean; // the surface encloses values of at most `value`; otherwise of at least `value`
+    of: LoadedGrid | null; // grid whose values the surface encloses; null: the shown grid
 }
 
 export interface PlacedField {
@@ -43,7 +43,7 @@ export interface PlacedField {
     extent: Extent;
 }
 
-// Layers as they are drawn, made of the scene's layers and a grid.
+// Layers with the data to draw, which are cut from a grid.
 export interface DrawnLayers {
     plane: (PlacedField & { heightM: number }) | null;
     section: Section | null;
@@ -51,11 +51,11 @@ export interface DrawnLayers {
     maximum: PlacedField | null;
     sweep: DrawnSweep | null;
     crop: Crop | null;
-    falls: (Falls & { placing: Placing }) | null; // the volume is lit
+    falls: (Falls & { placing: Placing }) | null; // null: the volume is not lit
     air: (Air & { placing: Placing }) | null;
     hasHaze: boolean;
     hasFolded: boolean;
-    mixes: boolean; // values between places may be averaged
+    mixes: boolean; // values of neighboring places may be averaged
     folded: readonly number[]; // the color of range folded air
     looks: Looks;
 }
@@ -63,14 +63,14 @@ export interface DrawnLayers {
 export const hasSolids = ({ plane, section, surface, sweep }: DrawnLayers): boolean =>
     Boolean(plane ?? section ?? surface ?? sweep);
 
-// Returns the direction of the sun, which is beside the camera.
+// Returns the direction of the sun, which turns with the camera.
 function sunOf({ right }: ViewGeometry): Vec3 {
     const azimuth = Math.atan2(right[1], -right[0]) + (sunAsideDeg * Math.PI) / 180;
     const elevation = (sunElevationDeg * Math.PI) / 180;
     return [Math.sin(azimuth) * Math.cos(elevation), Math.cos(azimuth) * Math.cos(elevation), Math.sin(elevation)];
 }
 
-const beyondGrid = 4; // the state of a field's place outside of the grid
+const beyondGrid = 4; // state of places of a field that are outside of the grid
 
 interface Mesh {
     array: WebGLVertexArrayObject;
@@ -90,7 +90,7 @@ export class LayerPasses {
         this.target = null;
     }
 
-    // Begins a picture, and releases what the last one did not need.
+    // Call before each picture. Releases what the last picture did not need.
     begin(hasSolids: boolean): void {
         this.shelf.clear();
         if (hasSolids) return;
@@ -98,7 +98,7 @@ export class LayerPasses {
         this.target = null;
     }
 
-    // -- what several layers need
+    // -- helpers for several layers
 
     private fieldTexture(name: string, field: FlatField, inGrid: Uint8Array | null): WebGLTexture {
         const { gl } = this.graphics;
@@ -129,9 +129,9 @@ export class LayerPasses {
         program.vec2('lookLine', looks.offset + looks.slope * zero, looks.slope * step);
     }
 
-    // -- what is solid
+    // -- solid layers
 
-    // The target has the size of the picture; `drawSurface` draws into it what needs the grid's own textures.
+    // Draws the solid layers into the target. `drawSurface` draws the surface, which needs the textures of the grid.
     drawSolids(geometry: ViewGeometry, layers: DrawnLayers, drawSurface: (surface: DrawnSurface) => void): void {
         const { gl } = this.graphics;
         const { width, height } = geometry;
@@ -159,7 +159,8 @@ export class LayerPasses {
         return program;
     }
 
-    // Draws corners, each of three coordinates and a place of two, as triangles or, without these, as a strip.
+    // Draws a mesh. Each corner has three coordinates and a place of two numbers. If `triangles` is null, the corners
+    // are a strip of triangles.
     private drawMesh(corners: Float32Array, triangles: Uint32Array | null): void {
         const { gl } = this.graphics;
         const mesh: Mesh = { array: gl.createVertexArray()!, count: triangles?.length ?? corners.length / 5 };
@@ -263,7 +264,7 @@ export class LayerPasses {
         this.drawMesh(cone.corners, cone.triangles);
     }
 
-    // -- what is put into the picture
+    // -- passes into the picture
 
     showSolids(geometry: ViewGeometry): void {
         const { gl } = this.graphics;
@@ -309,7 +310,7 @@ export class LayerPasses {
         program.colors('foldedColor', layers.folded);
     }
 
-    // Binds the light of a volume: the falls of its values, and the sun.
+    // Binds the falls of a volume's values, and the sun, which light it.
     bindLight(
         unit: number,
         falls: Falls & { placing: Placing },
@@ -324,10 +325,10 @@ export class LayerPasses {
             this.graphics.texture3d(gl.RGBA8, gl.RGBA, [nz, ny, nx], falls.bytes, gl.LINEAR),
         );
         program.texture3d('falls', unit, texture);
-        const cells = fallCellsAcross * 2 ** falls.placing.halvings; // of the grid, in a coarse one
+        const cells = fallCellsAcross * 2 ** falls.placing.halvings; // cells of the grid across a coarse cell
         program.vec2('fallsFirst', ...falls.placing.first);
         program.vec2('fallsCells', cells * nx, cells * ny);
-        // Falls reach from the coarse cell before to the one after.
+        // A fall is the difference between the two neighbors of a coarse cell, so it is over two coarse cells.
         program.vec3('perM', [
             0.5 / (cells * cellM[0]),
             0.5 / (cells * cellM[1]),

@@ -1,4 +1,4 @@
-// Lines of the map, each segment a strip on the ground as wide as its kind.
+// Draws lines of the map. Each segment is a strip on the ground, whose width depends on the kind of line.
 
 import { MapLines } from '../scene/ground_lines';
 import { ViewGeometry } from '../camera/geometry';
@@ -10,7 +10,7 @@ interface UploadedLines {
     lines: MapLines;
     array: WebGLVertexArrayObject;
     buffers: WebGLBuffer[];
-    count: number; // of vertices that are drawn
+    count: number; // number of vertices to draw
 }
 
 // Widths of the lines, in pixels.
@@ -24,8 +24,8 @@ const widths: Record<MapLines['kind'], number> = {
     border: 1,
 };
 
-// Each corner of a segment's strip knows both ends. An instance for each segment would be smaller, but where
-// a processor draws, it takes as long to begin one as to draw hundreds of corners.
+// Each corner of a segment's strip has both ends of the segment. Instances would need less memory, but if the processor
+// draws, beginning an instance takes as long as drawing hundreds of corners.
 const cornersASegment = 4;
 const triangles = [0, 1, 2, 1, 3, 2];
 
@@ -55,7 +55,7 @@ export class LinePass {
         this.uploaded = [];
     }
 
-    // Takes other lines, and releases those before.
+    // Replaces the lines.
     show(all: MapLines[]): void {
         const { gl } = this.graphics;
         for (const { array, buffers } of this.uploaded) {
@@ -78,7 +78,7 @@ export class LinePass {
         });
     }
 
-    // The picture is shown `grain` times as wide and high.
+    // Draws all lines. The picture is shown `grain` times as wide and high, so lines are drawn that much thinner.
     draw(geometry: ViewGeometry, grain: number): void {
         const { gl } = this.graphics;
         if (this.uploaded.length === 0) return;

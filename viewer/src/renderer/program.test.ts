@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { Program } from './program';
 
-// A WebGL that has two uniforms, and notes what it is asked.
+// Returns a fake of WebGL that has two uniforms and records calls.
 function noted(): { gl: WebGL2RenderingContext; lookUps: string[]; values: unknown[][] } {
     const [lookUps, values]: [string[], unknown[][]] = [[], []];
     const names = ['scale', 'landShades[0]'];
@@ -17,7 +17,7 @@ function noted(): { gl: WebGL2RenderingContext; lookUps: string[]; values: unkno
     return { gl: gl as unknown as WebGL2RenderingContext, lookUps, values };
 }
 
-test('locations of uniforms are looked up once, also that of an array', () => {
+test('locations of uniforms and of arrays are looked up once', () => {
     const { gl, lookUps, values } = noted();
     const program = new Program(gl, {});
     for (const value of [1, 2]) program.float('scale', value);
@@ -30,7 +30,7 @@ test('locations of uniforms are looked up once, also that of an array', () => {
     ]);
 });
 
-test('a uniform that the variant does not have is left out', () => {
+test('setting a uniform that the variant does not have does nothing', () => {
     const { gl, values } = noted();
     new Program(gl, {}).float('exposure', 1);
     assert.deepEqual(values, [[null, 1]]);

@@ -1,5 +1,5 @@
-// A linked program with its uniforms, whose locations are looked up once. A pass may set uniforms that the program's
-// variant does not have; that does nothing.
+// Sets uniforms of a linked program, whose locations are looked up once. Setting a uniform that the program's variant
+// does not have does nothing.
 
 export class Program {
     private locations = new Map<string, WebGLUniformLocation>();
@@ -40,7 +40,7 @@ export class Program {
     flag(name: string, value: boolean): void {
         this.gl.uniform1i(this.at(name), value ? 1 : 0);
     }
-    // Sets a color, or an array of them, from red, green and blue to 255.
+    // Sets a color or an array of colors, whose channels are from 0 to 255. Alpha is ignored.
     colors(name: string, ...colors: (readonly number[])[]): void {
         const channels = colors.flatMap((color) => color.slice(0, 3).map((channel) => channel / 255));
         this.gl.uniform3fv(this.at(name), channels);

@@ -1,4 +1,4 @@
-// Draws ground, map lines and volume with WebGL2. After a lost context is restored, uploads all again.
+// Draws ground, map lines, layers and volume with WebGL2.
 
 import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
 import { LoadedGrid } from '../atlas/loaded_grid';
@@ -22,18 +22,18 @@ import { WaterMask, WaterTexture } from './water_texture';
 export interface Frame {
     geometry: ViewGeometry;
     slices: number;
-    grain: number; // the picture is shown so many times as wide and high
+    grain: number; // the picture is enlarged so many times along each side
     isNearest: boolean; // cells are not interpolated
     opacity: number;
     table: ColorTable;
-    leastValue: number; // weaker echo is not shown
+    leastValue: number; // values below it are not shown
     hasVolume: boolean;
     hasGround: boolean;
     layers?: DrawnLayers | null;
-    keepsExposure?: boolean; // the light is that of the last picture
+    keepsExposure?: boolean; // the exposure of the last picture is used again
 }
 
-// Inputs of a transfer function, beside the step.
+// Inputs of a transfer function except the step: table, first value and step of codes, opacity, and least value.
 type TransferKey = readonly [ColorTable, number, number, number, number];
 
 interface Uploaded {
@@ -48,15 +48,15 @@ interface Uploaded {
 type WantedOfVolume = Pick<VolumeVariant, 'countsFetches' | 'endsAtSolids' | 'isLit' | 'measuresLight'>;
 
 const levelTexels = 1024;
-// A table is made for steps of one length. For steps nearly as long its depths are scaled while the
-// camera moves.
+// A transfer function is for steps of one length. If the length changes by at most this factor, the optical depths are
+// scaled; otherwise the transfer function is made again.
 const mostStretch = 1.25;
 
 export class Renderer {
     private gl: WebGL2RenderingContext;
     private graphics: Graphics;
     private uploaded: Uploaded | null = null;
-    private other: Uploaded | null = null; // whose surface the shown one colors
+    private other: Uploaded | null = null; // grid of another moment whose surface is drawn
     private passes: LayerPasses;
     private exposure: Exposure;
     private lines: LinePass;
@@ -84,7 +84,7 @@ export class Renderer {
     get isSoftware(): boolean {
         return this.graphics.isSoftware;
     }
-    // Returns true if the graphics processor forgot all, so that nothing is drawn.
+    // Returns true while the WebGL context is lost, so that nothing can be drawn.
     get isLost(): boolean {
         return this.gl.isContextLost();
     }
@@ -92,7 +92,7 @@ export class Renderer {
         return this.graphics.compiledVariants;
     }
 
-    // Call after the context came back: every owner uploads its data again.
+    // Call after the context came back. The owners of the data then upload them again.
     forget(): void {
         this.graphics.forget();
         this.lines.forget();
@@ -107,7 +107,7 @@ export class Renderer {
 
     show(loaded: LoadedGrid): void {
         const old = this.uploaded;
-        // The texture for bricks is as large for all grids in parts.
+        // Keep the atlas of a grid in parts for the next grid in parts, because all such atlases have the same size.
         const pool = loaded.stream && old?.loaded.stream ? old.atlas : null;
         this.release(old, pool);
         this.uploaded = this.upload(loaded, pool);
@@ -148,7 +148,7 @@ export class Renderer {
         };
     }
 
-    // Puts bricks into the atlas, in the order of the slots that are not -1.
+    // Copies bricks into the atlas. `texels` has the bricks of the slots that are not -1, in their order.
     putBricks(slots: Int32Array, texels: Uint8Array): void {
         const gl = this.gl;
         if (!this.uploaded) return;
@@ -175,7 +175,7 @@ export class Renderer {
         }
     }
 
-    // Call after the atlas's indirection was changed.
+    // Call after a change of the atlas's indirection, which this uploads.
     putIndirection(): void {
         const gl = this.gl;
         if (!this.uploaded) return;
@@ -184,7 +184,7 @@ export class Renderer {
         gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, 0, ...bricks, gl.RED_INTEGER, gl.UNSIGNED_INT, indirection);
     }
 
-    // The level, with a fraction, of evenly spaced heights.
+    // Returns a texture with the level, a number with a fraction, at each of many evenly spaced heights.
     private levelTable(grid: PackedGrid, [low, high]: [number, number]): WebGLTexture {
         const table = new Float32Array(levelTexels);
         const levels = grid.levelsM;
@@ -237,7 +237,7 @@ export class Renderer {
         this.drawVolume(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
     }
 
-    // Counts the texels that the volume asks for, as the mean over all pixels of the picture. Draws over the picture.
+    // Returns how many texels the volume reads for a pixel, as the mean over the picture. Draws over the picture.
     fetchesAPixel(frame: Frame): number {
         const gl = this.gl;
         this.draw({ ...frame, hasGround: false, hasVolume: false, layers: null });
@@ -251,7 +251,7 @@ export class Renderer {
         return fetches / (width * height);
     }
 
-    // Measures the exposure by which the lit echo is as light as without light, from every fifth pixel.
+    // Measures the exposure of the lit echo in a small picture.
     private measureLight(frame: Frame): void {
         const { gl } = this;
         this.exposure.measure(frame.geometry, (small) => {
@@ -276,7 +276,7 @@ export class Renderer {
             ['land', shades],
             ['water', shades.water],
         ] as const) {
-            // Haze says from how low the air was seen.
+            // With haze, the ground need not show where the air was seen from high up only.
             program.colors(`${name}Shades`, own.notSeen, hasHaze ? own.seen : own.seenAloft, own.seen, own.beyond);
         }
         this.water.bind(1, program);
@@ -284,7 +284,7 @@ export class Renderer {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    // Returns the table, and the factor of its depths.
+    // Returns the transfer function for a step, and the factor for its optical depths.
     private transferFor(frame: Frame, grid: PackedGrid, stepM: number): { made: Transfer; scale: number } {
         const gl = this.gl;
         const now = this.transfer;
@@ -300,7 +300,7 @@ export class Renderer {
         return { made: now.made, scale: stretch };
     }
 
-    // Tells a program where the cells of a grid are, and how its rays step.
+    // Gives a program the textures and the geometry of a grid, and the steps of its rays.
     private bindGrid(
         { loaded, atlas, indirection, levels, levelRange }: Uploaded,
         frame: Frame,
@@ -344,7 +344,7 @@ export class Renderer {
         program.float('slices', frame.slices);
     }
 
-    // `view` is the picture, or a small one of the same view.
+    // Draws the volume. `view` is the camera of the picture, or of a smaller picture of the same view.
     private drawVolume(frame: Frame, wanted: WantedOfVolume, view: RayView = frame.geometry): void {
         const { geometry, layers } = frame;
         const { uploaded } = this;
@@ -386,7 +386,7 @@ export class Renderer {
         });
         const program = this.graphics.use(wanted, geometry);
         this.bindGrid(uploaded, frame, program);
-        // The density of a veil depends on the whole depth of the grid.
+        // Step through the whole depth of the grid, on which the density of a veil depends.
         program.float('near', geometry.nearM);
         program.float('stepM', (geometry.farM - geometry.nearM) / frame.slices);
         this.passes.bindAir(4, air, layers, program);
@@ -443,12 +443,12 @@ export class Renderer {
     showLines(all: MapLines[]): void {
         this.lines.show(all);
     }
-    // Waits until everything is drawn.
+    // Waits until the graphics processor has drawn everything.
     finish(): void {
         this.graphics.finish();
     }
 
-    // Begins to compile what the first picture needs, while its data are still on their way.
+    // Begins to compile the programs of the first picture, before its data have come.
     prepare(): void {
         this.graphics.begin(volumeProgram({ isPerspective: true, hasUnevenLevels: false }));
         this.graphics.begin(groundProgram(true));
@@ -456,7 +456,8 @@ export class Renderer {
     }
 }
 
-// Returns the depths to slice: of a large grid those that the picture shows, which may be a small part of it.
+// Returns the depths between which slices are. For a grid in parts these are the depths of its visible part, which may
+// be small.
 function slicedDepths(loaded: LoadedGrid, geometry: ViewGeometry): [number, number] {
     return loaded.stream ? geometry.shownDepths : [geometry.nearM, geometry.farM];
 }
@@ -474,7 +475,8 @@ function perTexel({ size }: Atlas): [number, number, number] {
     return [1 / size[0], 1 / size[1], 1 / size[2]];
 }
 
-// A sample belongs to the layer of bricks of the level below it.
+// Returns the drawn heights at which layers of bricks begin, and at which the last layer ends. A sample belongs to the
+// layer of the level below it.
 function brickHeights(grid: PackedGrid, { box, exaggeration }: ViewGeometry): Float32Array {
     const heights = new Float32Array(66);
     for (let layer = 0; layer < heights.length; ++layer) {

@@ -1,5 +1,5 @@
-// Puts the programs together from the files in shaders/. A variant is compiled for what a scene calls for: each of its
-// flags is a #define, and what it does not use is not in it.
+// Composes the programs of the files in shaders/. A program has variants: each flag is a #define, which includes code
+// that only some scenes need.
 
 import { azimuthSteps, noRadial } from '../fields/sweep_cone';
 import { steepestFall } from '../fields/falls';
@@ -42,24 +42,24 @@ type Flags = Record<string, boolean | undefined>;
 export type GridVariant = {
     isPerspective: boolean;
     hasUnevenLevels: boolean;
-    hasHalved?: boolean; // some bricks are those of halved grids
+    hasHalved?: boolean; // bricks of halved grids may be in the atlas
 };
 export type VolumeVariant = GridVariant & {
-    countsFetches?: boolean; // the picture is how many texels each pixel asked for
-    endsAtSolids?: boolean; // rays end at what is solid
+    countsFetches?: boolean; // pixels show the number of texels that they read
+    endsAtSolids?: boolean; // rays end at solid layers
     isLit?: boolean;
-    measuresLight?: boolean; // the picture is lightness, factor of the light, and opacity
+    measuresLight?: boolean; // pixels show lightness, factor of the light, and opacity
 };
 export type AirVariant = GridVariant & {
-    hasHaze: boolean; // of air that was not seen
+    hasHaze: boolean; // air that was not seen has a veil
     hasFolded: boolean;
 };
 export type SurfaceVariant = GridVariant & {
-    isBelow: boolean; // it encloses what is at most the value
-    hasOther: boolean; // another moment colors it
+    isBelow: boolean; // the surface encloses values of at most the chosen value
+    hasOther: boolean; // another moment colors the surface
 };
 
-export const radialsAcross = 1800; // in a row of the texture of radials
+export const radialsAcross = 1800; // length of a row in the texture of radials
 const constants = [
     `LOOK_COLUMNS ${lookColumns}`,
     `LOOK_COUNT ${lookCount}`,
@@ -83,7 +83,7 @@ function program(name: string, flags: Flags, vertex: string[], fragment: string[
     };
 }
 
-// Returns the text of a shader as WebGL takes it.
+// Returns the text of a shader, with version and #defines.
 export function shaderText(files: string[], defines: string[]): string {
     const lines = [...constants, ...defines].map((define) => `#define ${define}`);
     return ['#version 300 es', ...lines, prelude, view, ...files].join('\n');

@@ -1,4 +1,4 @@
-// The quiet colors behind the echo: the dark theme of pictures, and a few colors that only the page has.
+// Defines the quiet colors behind the echo: the dark theme of pictures, and a few colors that only the page has.
 
 import { dark } from '../facts';
 

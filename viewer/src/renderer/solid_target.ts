@@ -1,4 +1,4 @@
-// Holds what is solid in a picture: its color, and how far along the rays it is. The volume ends there.
+// Holds the solid layers of a picture: the color and the depth of the nearest. Rays through the volume end there.
 
 export class SolidTarget {
     readonly color: WebGLTexture;
@@ -30,7 +30,7 @@ export class SolidTarget {
         return texture;
     }
 
-    // Sends what is drawn until end() to this target, where the nearest counts.
+    // Directs drawing to this target until end(). Each pixel keeps the nearest layer.
     begin(): void {
         const { gl } = this;
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);

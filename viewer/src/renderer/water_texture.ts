@@ -1,13 +1,13 @@
-// Holds the mask of water as a texture.
+// Keeps the mask of water in a texture.
 
 import { Graphics } from './graphics';
 import { Program } from './program';
 
 export interface WaterMask {
-    shares: Uint8Array; // of water, of 255; rows from the northwest
+    shares: Uint8Array; // share of water, of 255, row by row from the northwest corner
     width: number;
     height: number;
-    halfXM: number; // how far it reaches from the middle
+    halfXM: number; // half of the width that the mask covers
     halfYM: number;
 }
 
@@ -17,12 +17,12 @@ export class WaterTexture {
 
     constructor(private graphics: Graphics) {}
 
-    // Call after the context came back. The owner of the mask then shows it again.
+    // Call after the context came back. The owner of the mask must then show the mask again.
     forget(): void {
         this.mask = this.texture = null;
     }
 
-    // Shows a mask; null is land everywhere.
+    // Replaces the mask. Without a mask (null), all ground is land.
     show(mask: WaterMask | null): void {
         this.graphics.gl.deleteTexture(this.texture);
         this.texture = null;

@@ -34,7 +34,7 @@ test('from straight above, the highest value of the column comes first', () => {
     assert.ok(read > 100);
 });
 
-test('what is not visible, or lies outside of the box, is passed', () => {
+test('a ray passes cells that are not visible or outside of the box', () => {
     for (const camera of [usualCamera, { ...usualCamera, fieldOfViewDeg: 40, tiltDeg: 70, azimuthDeg: 30 }]) {
         const geometry = new ViewGeometry(boxOf(grid), camera, 2, 400, 400);
         const least = valueOf(grid, 80);
@@ -57,7 +57,7 @@ test('what is not visible, or lies outside of the box, is passed', () => {
     }
 });
 
-test('of a volume the cell is read that contributes most (2026-11-28: the first one was, which nobody sees)', () => {
+test('a reading of the volume takes the cell that contributes most (2026-11-28: it took the first, which nobody sees)', () => {
     const geometry = new ViewGeometry(boxOf(grid), { ...usualCamera, tiltDeg: 0 }, 2, 400, 400);
     const [width, height] = cellSizeM(grid);
     const strong = valueOf(grid, 80);
@@ -75,7 +75,7 @@ test('of a volume the cell is read that contributes most (2026-11-28: the first 
             if (top < 0) continue;
             assert.equal(cell?.value, valueOf(grid, column[top]!));
             assert.equal(cell?.heightM, grid.levelsM[top]);
-            // A cell of 500 m, twice as high, lets exp(-1) through.
+            // A level of 500 m is drawn 1000 m high, so a cell lets exp(-1) of the light through.
             assert.ok(
                 Math.abs(share - (1 - Math.exp(-1))) < 0.15 && through <= 1 - share + 1e-9,
                 `${share} ${through}`,
@@ -84,7 +84,7 @@ test('of a volume the cell is read that contributes most (2026-11-28: the first 
         }
     }
     assert.ok(below > 5);
-    // Something solid that hides all leaves nothing to count.
+    // A solid layer before the volume hides all of it.
     const nothing = mostVisible(cells, new Ray(geometry, 200, 200), box, -Infinity, perM);
     assert.deepEqual([nothing.cell, nothing.through], [null, 1]);
 });

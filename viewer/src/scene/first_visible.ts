@@ -1,4 +1,4 @@
-// Finds the cells that a ray from the eye meets, and the one that is seen most, from the exact codes of the grid.
+// Finds by the exact codes of a grid the first visible cell along a ray from the eye, and the most visible cell.
 
 import { Ray } from '../camera/ray';
 import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -22,7 +22,7 @@ function levelAt(grid: PackedGrid, heightM: number): number {
     return level;
 }
 
-// Returns the first and the last depth of a ray within a box; null if it misses the box.
+// Returns the first and the last depth of a ray within a box; null if the ray misses the box.
 export function depthsWithin({ geometry, start, way }: Ray, box: Crop): [number, number] | null {
     const least = [box.westM, box.southM, box.bottomM * geometry.exaggeration];
     const most = [box.eastM, box.northM, box.topM * geometry.exaggeration];
@@ -39,7 +39,7 @@ export function depthsWithin({ geometry, start, way }: Ray, box: Crop): [number,
     return near < far ? [near, far] : null;
 }
 
-// Returns the places on the plane where a ray enters and leaves a box; null if it misses the box.
+// Returns the places on the plane where a ray enters and leaves a box; null if the ray misses the box.
 export function wayWithin(ray: Ray, box: Crop): [Plane, Plane] | null {
     const depths = depthsWithin(ray, box);
     return depths && [ray.at(depths[0]), ray.at(depths[1])];
@@ -47,20 +47,20 @@ export function wayWithin(ray: Ray, box: Crop): [Plane, Plane] | null {
 
 interface Step {
     code: number;
-    cell: number; // which cell it is
-    at: Plane;
-    heightM: number; // of the cell
-    lengthM: number; // of the step, in drawn space
+    cell: number; // index of the cell
+    at: Plane; // middle of the step
+    heightM: number; // height of the cell's level
+    lengthM: number; // length of the step, in drawn space
 }
 
-// Goes along a ray by half a cell, within a box and until a depth; `visit` returns true to end. `middle` of the cells
-// is on the plane of the view.
+// Visits cells along a ray, within a box and before the depth `untilDepth`. Stops if `visit` returns true.
 function walk({ grid, middle }: Cells, ray: Ray, box: Crop, untilDepth: number, visit: (step: Step) => boolean): void {
     const depths = depthsWithin(ray, box);
     if (!depths) return;
     const [width, height] = cellSizeM(grid);
     const { way, geometry } = ray;
-    // Half a cell on the ground, or of the least height of a level, whichever the ray crosses first.
+    // A step is as long as the ray needs for half a cell along the ground or half of the thinnest level, whichever is
+    // less, but at least 1 / mostSteps of the way.
     let thinnestM = Infinity;
     for (let z = 1; z < grid.nz; ++z) thinnestM = Math.min(thinnestM, grid.levelsM[z]! - grid.levelsM[z - 1]!);
     const perMeter = Math.max(
@@ -85,7 +85,7 @@ function walk({ grid, middle }: Cells, ray: Ray, box: Crop, untilDepth: number, 
     }
 }
 
-// Returns the first cell along a ray whose value is visible, within a box; null if there is none.
+// Returns the first cell with a visible value along a ray within a box; null if there is none.
 export function firstVisible(cells: Cells, ray: Ray, box: Crop, isVisible: (value: number) => boolean): Seen | null {
     let seen: Seen | null = null;
     walk(cells, ray, box, Infinity, ({ code, at, heightM }) => {
@@ -97,17 +97,18 @@ export function firstVisible(cells: Cells, ray: Ray, box: Crop, isVisible: (valu
     return seen;
 }
 
-// What a pixel shows of the volume: the cell that contributes most, and the share of what is behind that is seen.
+// Describes which parts of the volume and of the background a pixel shows.
 export interface Contribution {
-    cell: Seen | null; // null: no echo is visible
-    share: number; // of the pixel, by that cell
-    through: number; // share of what is behind
-    foldedM: number; // of the way, in drawn space, through range folded air
+    cell: Seen | null; // cell that contributes most; null: no echo is visible
+    share: number; // share of the pixel that this cell contributes
+    through: number; // share of the pixel that the background contributes
+    foldedM: number; // length of the ray in range folded air, in drawn space
 }
 
-const opaque = 0.002; // what is behind so little light is not seen
+const opaque = 0.002; // the ray ends when less of the background than this can be seen
 
-// `perM` returns how opaque a value is (extinction per drawn meter), or 0 if it is not opaque at all.
+// Finds the cell along a ray that contributes most to its pixel. `perM` returns the extinction of a value per drawn
+// meter; 0 for a clear value.
 export function mostVisible(
     cells: Cells,
     ray: Ray,

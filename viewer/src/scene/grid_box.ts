@@ -1,4 +1,4 @@
-// The box of a grid's cells.
+// Computes the box of a grid's cells.
 
 import { Box, heightRange } from '../camera/geometry';
 import { PackedGrid } from '../wire/packed_grid';
@@ -9,7 +9,7 @@ export function boxOf(grid: PackedGrid): Box {
     return { halfXM, halfYM, ...heightRange(grid.levelsM) };
 }
 
-// A grid, and where its middle is on the plane of the one that is shown.
+// A grid, and where its middle is on the plane of the shown grid.
 export interface Cells {
     grid: PackedGrid;
     middle: Plane;
@@ -33,7 +33,7 @@ export function extentOf({ grid, middle }: Cells): Extent {
     };
 }
 
-// The first cell of a grid in cells of the one that is shown, and how often it was halved.
+// Place of a grid: its first cell, counted in cells of the shown grid, and its number of halvings.
 export interface Placing {
     first: [number, number];
     halvings: number;

@@ -1,4 +1,4 @@
-// Puts lines and cities of the map on the plane of a grid, as far as the picture reaches.
+// Projects lines and cities of the map onto the plane of a grid.
 
 import { Units, ringSpacingM } from '../tables/units';
 import { City, MapAnswer, MapLine } from '../wire/api';
@@ -14,12 +14,12 @@ export interface Mark {
     kind: 'city' | 'site' | 'ring';
     text: string;
     at: Plane;
-    rank: number; // the greatest first
+    rank: number; // marks of greater rank are drawn first
 }
 
-// Coasts beyond this many half widths are not drawn.
+// Lines farther than this many half widths of the grid are not drawn.
 const reach = 2.2;
-// Ranks of marks: cities give way to the distances of rings, and all give way to sites.
+// Ranks of marks. Distances of rings rank above cities, and sites above all.
 const ringRank = 1e8;
 const siteRank = 1e9;
 
@@ -39,7 +39,7 @@ function segmentsOf(
     return new Float32Array(ends);
 }
 
-// A line of the map, and its points on a plane; null where the plane has no place for one.
+// A line of the map, and its points on a plane. A point is null if the projection cannot show it.
 export interface ProjectedLine {
     line: MapLine;
     points: (Plane | null)[];
@@ -51,7 +51,7 @@ export function projected(map: MapAnswer, plane: GridPlane): ProjectedLine[] {
     }));
 }
 
-// Areas are cut along the edges of tiles of 2 by 2 degrees; these cuts are no coasts.
+// The map cuts areas along the edges of tiles of 2 by 2 degrees. These cuts are not drawn, because they are no coasts.
 const tileDeg = 2;
 export function isCut({ is_area, points }: MapLine, point: number): boolean {
     const [from, to] = [points[point - 1]!, points[point]!];

@@ -15,7 +15,7 @@ const viewOf = (more: object) =>
     new ViewGeometry(box, { ...usualCamera, fieldOfViewDeg: 40, tiltDeg: 60, ...more }, 5, 796, 532);
 const inPicture = (x: number, y: number) => x > 0 && y > 0 && x < 796 && y < 532;
 
-test('the axis stands on a corner of the grid, with marks at round heights', () => {
+test('the axis is over a corner of the grid, with marks at round heights', () => {
     const geometry = viewOf({});
     const axis = heightAxis(geometry, km, 1, inPicture)!;
     const corners = [-1, 1].flatMap((x) => [-1, 1].map((y) => geometry.project([x * box.halfXM, y * box.halfYM, 0])!));
@@ -29,7 +29,7 @@ test('the axis stands on a corner of the grid, with marks at round heights', () 
     assert.equal(heightAxis(geometry, feet, 1, inPicture)!.marks[1]!.number % 1000, 0);
 });
 
-test('from above there is none, and from near it goes up as far as the picture does', () => {
+test('a view from above has no axis, and in a near view the axis ends at the edge of the picture', () => {
     assert.equal(heightAxis(viewOf({ tiltDeg: 0 }), km, 1, inPicture), null);
     const near = heightAxis(viewOf({ zoom: 8, tiltDeg: 75, lookAtM: [0, 0, 3000] }), km, 1, inPicture)!;
     assert(inPicture(...near.head) && near.marks[near.marks.length - 1]!.number < 17);

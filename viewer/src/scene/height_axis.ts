@@ -1,4 +1,4 @@
-// Places an upright axis of heights in the picture, with its marks.
+// Places an upright axis of heights and its marks in the picture.
 
 import { ViewGeometry } from '../camera/geometry';
 import { Unit } from '../tables/units';
@@ -7,15 +7,16 @@ import { Plane } from '../earth/projection';
 export interface HeightAxis {
     foot: [number, number]; // pixels of the picture
     head: [number, number];
-    marks: { at: [number, number]; number: number }[]; // in the unit
+    marks: { at: [number, number]; number: number }[]; // heights in the chosen unit
 }
 
 const leastPixels = 45;
 const leastBetween = 22;
-const parts = 32; // of the axis, of which as many are shown as there is room for
+const parts = 32; // the axis over the whole box has so many parts; parts outside of the picture are not drawn
 const steps = [1, 2, 5, 10, 20, 50];
 
-// Returns the axis over a place of the ground, as far up as the picture goes; null if it is too short, as from above.
+// Returns the axis over a place of the ground, up to the top of the box or the edge of the picture; null if it is too
+// short, as in a view from above.
 function axisOver(
     geometry: ViewGeometry,
     [x, y]: Plane,
@@ -36,7 +37,7 @@ function axisOver(
     const long = Math.hypot(head[0] - foot[0], head[1] - foot[1]) / pixelRatio;
     if (long < leastPixels) return null;
     const most = topM / si;
-    const power = si < 1 ? 1000 : 1; // feet are told by thousands
+    const power = si < 1 ? 1000 : 1; // marks in feet are at thousands
     const step = steps.map((one) => one * power).find((one) => (long * one) / most >= leastBetween);
     if (step === undefined) return null;
     const marks: HeightAxis['marks'] = [];
@@ -47,8 +48,8 @@ function axisOver(
     return marks.length > 1 ? { foot, head, marks } : null;
 }
 
-// Places the axis at the leftmost corner of the grid, or in the left part of the picture if no corner is seen. `isFree`
-// tells if a pixel is in the picture and not covered.
+// Places the axis at the leftmost free corner of the grid, or in the left part of the picture if there is none.
+// `isFree` returns true for pixels that are in the picture and not covered.
 export function heightAxis(
     geometry: ViewGeometry,
     unit: Unit,

@@ -21,13 +21,13 @@ const all: Layers = {
     hasFolded: true,
 };
 
-test('the address holds every layer, and nothing of the usual ones', () => {
+test('the address holds every layer, except usual values', () => {
     assert.deepEqual(stateOf(addressOf({ ...usualState, layers: all })).layers, all);
     assert.deepEqual(layersAddress(usualLayers), []);
     assert.deepEqual(layersOf(new URLSearchParams('')), usualLayers);
 });
 
-test('what makes no sense of layers in an address is left out', () => {
+test('parameters of layers that make no sense are ignored', () => {
     const nonsense =
         'height-km=up&section=91,0,1,1&surface=&elevation=1,2&crop-km=5,1,0,1,0,1&light=all&haze=yes&maximum=2';
     assert.deepEqual(layersOf(new URLSearchParams(nonsense)), usualLayers);
@@ -36,7 +36,7 @@ test('what makes no sense of layers in an address is left out', () => {
     assert.equal(layersOf(new URLSearchParams(`surface=5&surface-moment=${'x'.repeat(99)}`)).surface!.moment.length, 8);
 });
 
-test('the command draws one layer, or the lit volume', () => {
+test('the command draws one flat layer, or the volume with its light', () => {
     const command = (layers: Partial<Layers>) =>
         commandOf(
             { ...usualState, domain: 'KTLX', moment: 'REF', layers: { ...usualLayers, ...layers } },

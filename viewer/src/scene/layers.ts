@@ -1,9 +1,9 @@
-// The layers of a view as one value, and as a part of the address.
+// Holds the layers of a view, and reads and writes them as parts of the address.
 
 import { Place } from '../earth/projection';
 import { momentFacts } from '../wire/moments';
 
-// Sides of a box in meters: from the middle of the grid, and above sea level.
+// Sides of a box. Horizontal sides are in meters from the middle of the grid, bottom and top in meters above sea level.
 export interface Crop {
     westM: number;
     eastM: number;
@@ -14,8 +14,8 @@ export interface Crop {
 }
 
 export interface Surface {
-    value: number; // it encloses what is at least this, or at most (isBelow)
-    moment: string; // empty: the one that is shown; of another one, the shown one colors it
+    value: number; // the surface encloses values of at least this, or of at most this if isBelow()
+    moment: string; // moment whose values the surface encloses, colored by the shown moment; empty: the shown moment
 }
 
 export interface Layers {
@@ -23,24 +23,25 @@ export interface Layers {
     planeM: number | null; // height of a plane above sea level
     section: readonly [Place, Place] | null;
     surface: Surface | null;
-    hasMaximum: boolean; // of each column, on the ground
-    sweepDeg: number | null; // elevation of a sweep
-    sweepNumber: number | null; // of the volume, if it has it at that elevation; null: the sweep that pictures take
-    crop: Crop | null; // of volume and surface
+    hasMaximum: boolean; // the maxima of columns are on the ground
+    sweepDeg: number | null; // elevation of the sweep that is shown
+    sweepNumber: number | null; // number of the sweep in its volume (see cutOf()); null: the sweep that pictures take
+    crop: Crop | null; // box to which volume and surface are cut
     isLit: boolean;
-    hasHaze: boolean; // where no beam saw
-    hasFolded: boolean | null; // range folded air; null: as the moment has it
+    hasHaze: boolean; // air that no beam saw is veiled
+    hasFolded: boolean | null; // range folded air is veiled; null: see veilsFolded()
 }
 
-// Returns true if the value is a negative velocity, whose surface encloses what is faster toward the radar.
+// Returns true if the value is a negative velocity. Its surface encloses faster velocities toward the radar.
 export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
 
-// Returns true if range folded air is shown. A volume of velocities or their widths shows it by itself, because such
-// air is not clear. `moment` is empty while nothing is shown.
+// Returns true if range folded air is veiled. If the user has not chosen, a volume of velocities or spectrum widths
+// veils it, because such air is not clear. `moment` is empty while nothing is shown.
 export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean =>
     hasFolded ?? (hasVolume && moment !== '' && momentFacts(moment).isDoppler);
 
-// Returns the opposite choice; null if the moment has it by itself, so that an address stays short.
+// Returns the value of `hasFolded` that turns the veil on or off; null if this is what the moment does without a
+// choice, which keeps the address short.
 export function toggledFolded(layers: Layers, moment: string): boolean | null {
     const wanted = !veilsFolded(layers, moment);
     return wanted === veilsFolded({ ...layers, hasFolded: null }, moment) ? null : wanted;
@@ -69,7 +70,7 @@ const mostSweeps = 1000; // of a volume
 export const sectionText = (section: readonly [Place, Place]): string =>
     section.flatMap(({ latitudeDeg, longitudeDeg }) => [rounded(latitudeDeg, 5), rounded(longitudeDeg, 5)]).join(',');
 
-// Returns names and texts for the address, without usual values.
+// Returns the parameters of the address, except those with usual values.
 export function layersAddress(layers: Layers): [string, string][] {
     const parts: [string, string][] = [];
     if (!layers.hasVolume) parts.push(['volume', '0']);
@@ -147,12 +148,12 @@ export function layersOf(query: URLSearchParams): Layers {
     };
 }
 
-// Counts the layers that show echo.
 export const echoLayers = ({ hasVolume, planeM, section, surface, hasMaximum, sweepDeg }: Layers): number =>
     [hasVolume, planeM !== null, section, surface, hasMaximum, sweepDeg !== null].filter(Boolean).length;
 
-// Returns what keeps `stormcellar frame` from drawing the layers; null if it can. It draws one layer, which must not be
-// a surface, a volume in a box, or a sweep of a mosaic.
+// Returns the reason why `stormcellar frame` cannot draw the layers; null if it can. The command draws exactly one
+// layer. It refuses a surface, a volume in a box, a sweep of a mosaic, and veils of haze or of range folded air without
+// a volume.
 export function beyondCommand(
     layers: Layers,
     siteCount: number,
@@ -165,7 +166,8 @@ export function beyondCommand(
     return layers.sweepDeg !== null && siteCount > 1 ? 'mosaic' : null;
 }
 
-// Returns the words with which `stormcellar frame` draws a layer: of several the first one here; null for the volume.
+// Returns the arguments of `stormcellar frame` for the first of section, plane, sweep and maximum that is on; null if
+// the volume is on or none of these is.
 export function productOf(layers: Layers): string[] | null {
     if (layers.hasVolume) return null;
     if (layers.section) return ['--product', 'section', '--section', sectionText(layers.section)];
@@ -180,7 +182,7 @@ export function productOf(layers: Layers): string[] | null {
     return layers.hasMaximum ? ['--product', 'composite'] : null;
 }
 
-// Place of the sun: degrees to the left of the camera, and above the horizon.
+// Direction of the sun: degrees to the left of the camera, and degrees above the horizon.
 export const sunAsideDeg = 65;
 export const sunElevationDeg = 40;
 

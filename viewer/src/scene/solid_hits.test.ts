@@ -24,7 +24,7 @@ const cameras = [
 const rayTo = (geometry: ViewGeometry, drawn: Vec3): Ray => new Ray(geometry, ...geometry.project(drawn)!);
 const extent = { westM: -halfXM, eastM: halfXM, southM: -halfYM, northM: halfYM };
 
-test('a plane is read where the pixel shows it (2026-11-28: the ground behind it was)', () => {
+test('a reading takes the plane that the pixel shows (2026-11-28: it took the ground behind)', () => {
     const field = emptyField(4, 3);
     field.states.fill(CellState.value);
     field.values.forEach((_, i) => (field.values[i] = 10 * i));
@@ -42,7 +42,7 @@ test('a plane is read where the pixel shows it (2026-11-28: the ground behind it
     }
 });
 
-test('between places a field is read as it is drawn', () => {
+test('a reading between places of a field agrees with the drawing', () => {
     const field = emptyField(2, 1);
     field.states.set([CellState.value, CellState.value]);
     field.values.set([10, 20]);
@@ -53,7 +53,7 @@ test('between places a field is read as it is drawn', () => {
     assert.equal(fieldAt(field, 1.2, 0.5, true).state, CellState.noEcho);
 });
 
-test('a section is read where the ray meets it', () => {
+test('a reading of a section takes the place where the ray meets it', () => {
     const plane = planeOf(grid);
     const section = cutSection(
         grid,
@@ -109,7 +109,7 @@ function sweepOf(elevationDeg: number, firstGateM: number, codeOf: (radial: numb
     return { station: 'KTLX', gates, radials: radialsByAzimuth(gates) };
 }
 
-test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
+test('a reading of a sweep has azimuth, range, elevation and time of the gate', () => {
     const codeOf = (radial: number, gate: number) => {
         const i = radial * gateCount + gate;
         return i % 7 === 0 ? i % 2 : 2 + i;
@@ -146,7 +146,7 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
     assert.ok(read > 8, `${read}`);
 });
 
-test('through clear gates of the near side of a sweep the far side is read, which is what is drawn (2026-11-28: the clear gate was)', () => {
+test('a reading passes clear gates of the near side of a sweep and takes the far side, as drawn (2026-11-28: it took the clear gate)', () => {
     // Echo is only north of the radar.
     const sweep = sweepOf(20, 0, (radial) => (Math.abs(radial - 180) > 90 ? 50 : 0));
     const plane = planeOf(grid);

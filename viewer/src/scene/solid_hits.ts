@@ -1,6 +1,7 @@
 // Finds where a ray from the eye meets a plane, a section, a sweep or the column maximum, and what each shows there.
+// Results are null if the ray does not meet the layer.
 //
-// Heights are above sea level; depths are those of ViewGeometry. Null: the ray does not meet the layer.
+// Heights are above sea level, and depths are as in ViewGeometry.
 
 import { Ray } from '../camera/ray';
 import { FlatField } from '../fields/flat_field';
@@ -21,7 +22,6 @@ export interface SolidHit {
     state: CellState;
     value: number;
 }
-// A gate of a sweep.
 export interface GateHit extends SolidHit {
     station: string;
     azimuthDeg: number;
@@ -32,7 +32,7 @@ export interface GateHit extends SolidHit {
 
 const radians = Math.PI / 180;
 
-// Reads a field between its places, as the shader of layers does.
+// Reads a field at a place in its texels, as the shader of layers does. If `mixes` is false, takes the nearest texel.
 export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean): { state: CellState; value: number } {
     const { width, height, states, values } = field;
     const index = (column: number, row: number) =>
@@ -55,11 +55,11 @@ export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean):
     return { state: mixer.state, value: mixer.value };
 }
 
-// Returns true if a depth is before the eye, which sees nothing behind it in perspective.
+// Returns true if the eye can see a depth. In perspective it sees nothing behind itself.
 const isAhead = ({ geometry }: Ray, depth: number): boolean =>
     Number.isFinite(depth) && (depth > 0 || !geometry.isPerspective);
 
-// Finds where a ray meets the level through a height, where a field lies on an extent of it.
+// Finds where a ray meets a field that covers an extent of the plane at a height.
 export function levelHit(
     ray: Ray,
     { field, extent }: { field: FlatField; extent: Extent },
@@ -79,7 +79,7 @@ export function levelHit(
     return { depth, at, heightM, ...fieldAt(field, across * field.width, up * field.height, mixes) };
 }
 
-// Finds where a ray meets the nearest of the upright strips of a section.
+// Finds where a ray first meets a section, which is a row of upright strips.
 export function sectionHit(ray: Ray, section: Section, mixes: boolean): SolidHit | null {
     const { start, way } = ray;
     const { field, ends } = section;
@@ -101,11 +101,11 @@ export function sectionHit(ray: Ray, section: Section, mixes: boolean): SolidHit
     return best;
 }
 
-const steps = 400; // along the ray, before the beam is met between two of them
-const halvings = 30;
-const beyondM = 1000; // below the lowest gate and above the highest
+const steps = 400; // the ray is divided into so many steps to find the step that crosses the beam
+const halvings = 30; // of that step
+const beyondM = 1000; // margin of the box below the lowest gate and above the highest
 
-// Returns the box that holds a sweep; null if the plane has no place for its site.
+// Returns a box that holds a sweep; null if the projection cannot show the site.
 function boxOfSweep(gates: PackedSweep, plane: GridPlane): Crop | null {
     const site = plane.toPlane(gates);
     const lastM = gates.firstGateM + Math.max(0, ...gates.gateCounts) * gates.gateSpacingM;
@@ -128,8 +128,8 @@ interface PlacedSweep {
     radials: Uint16Array;
 }
 
-// Finds the gate where a ray crosses the beam of the sweep's elevation. A ray from the side crosses it twice, and
-// through a gate that is not shown the next one is seen. If none is shown, returns the first.
+// Finds the gate where a ray crosses the cone of a sweep. A ray from the side crosses the cone twice. Returns the first
+// shown gate, because gates that are not shown are clear; if no gate is shown, returns the first gate.
 export function sweepHit(
     ray: Ray,
     { station, gates, radials }: PlacedSweep,

@@ -26,12 +26,12 @@ const chosen = {
     colors: 'safe-velocity',
 };
 
-test('the address holds the whole view', () => {
+test('the address holds every part of a view', () => {
     const back = stateOf(`#${addressOf(chosen)}`);
     assert.deepEqual({ ...back }, { ...chosen });
 });
 
-test('what makes no sense in an address is left at its usual value', () => {
+test('a parameter that makes no sense keeps its usual value', () => {
     for (const address of [
         '#time=never&tilt=1e9&zoom=NaN&azimuth=&opacity=-1&least=weak&look-at-km=1,2&moment=<script>',
         '#time=soon&tilt=steep&zoom=-3&azimuth=1e9&opacity=&look-at-km=1,2,x',
@@ -43,7 +43,7 @@ test('what makes no sense in an address is left at its usual value', () => {
     assert.equal(stateOf(`#domain=${'x'.repeat(5000)}`).domain.length, 100);
 });
 
-test('an empty address is the usual view', () => {
+test('an empty address gives the usual view', () => {
     assert.deepEqual(stateOf(''), usualState);
 });
 
@@ -71,7 +71,7 @@ const words = (command: string): string[] =>
         .split('\0')
         .slice(0, -1);
 
-test('a shell takes each word of the command as it is (2026-11-28: names of others ran commands)', () => {
+test('a shell reads each word of the command unchanged (2026-11-28: a name in a link ran commands)', () => {
     const names = [
         'KLBB20160601_150025_V06;touch pwned;:',
         'it\'s $(id) `id` "x" \\ * ~ # & | > <',
@@ -91,7 +91,7 @@ test('a shell takes each word of the command as it is (2026-11-28: names of othe
     assert.equal(isPrintable("Zürich; it's"), true);
 });
 
-test('a region has four numbers, and nothing behind them (2026-11-28: the rest went into commands)', () => {
+test('a region has exactly four numbers (2026-11-28: text after them went into commands)', () => {
     assert.equal(isRegion(regionName({ west: -100.25, south: -5, east: -95, north: 37.1234 })), true);
     for (const name of [
         'region:-100,33,-95,37,',
@@ -104,7 +104,7 @@ test('a region has four numbers, and nothing behind them (2026-11-28: the rest w
         assert.equal(isRegion(name), false, name);
 });
 
-test('the command is of one layer, and says none of what it cannot draw', () => {
+test('the command draws one layer, and is not offered for others', () => {
     const sweep = { ...usualLayers, hasVolume: false, sweepDeg: 0.5 };
     assert.equal(beyondCommand(usualLayers, 1), null);
     assert.equal(beyondCommand(sweep, 1), null);
@@ -124,7 +124,7 @@ test('the command is of one layer, and says none of what it cannot draw', () => 
     );
 });
 
-test('what the program refuses is not offered as a command (2026-11-28: the command ended with an error)', () => {
+test('a view that the program refuses has no command (2026-11-28: its command failed)', () => {
     const is = (part: object, layers: object, width = 796): boolean =>
         isBeyondLimits(
             { ...chosen, camera: { ...chosen.camera, ...part }, layers: { ...usualLayers, ...layers } },
@@ -147,7 +147,7 @@ test('what the program refuses is not offered as a command (2026-11-28: the comm
     assert.equal(is({}, section(1)), false);
 });
 
-test('a time without a zone is UTC (2026-11-28: it was taken as that of the browser)', () => {
+test('a time without a zone is UTC (2026-11-28: it was local time)', () => {
     const read = (time: string): string => stateOf(`#time=${encodeURIComponent(time)}`).time;
     for (const time of [
         '2016-06-01T15:00:26',
@@ -159,8 +159,8 @@ test('a time without a zone is UTC (2026-11-28: it was taken as that of the brow
     for (const time of ['latest', 'x', '2016-13-01T00:00:00Z', '']) assert.equal(read(time), 'latest', time);
 });
 
-// 2026-11-28: beside a service with another spacing, the command of a raw file drew another part of the country.
-test('of a grid that the program does not make by itself, no raw file is given', () => {
+// 2026-11-28: if the service used another spacing, the command for a raw file drew another part of the country.
+test('only the usual grid can be made from its raw file', () => {
     const levelsM = Float64Array.from({ length: 32 }, (_, level) => 500 * (level + 1));
     const usual = { nx: 460, ny: 460, spacing: 1000, levelsM };
     assert.equal(isUsualGrid(usual), true);

@@ -1,4 +1,4 @@
-// The view of the page as one value, and as the text behind # in its address.
+// Holds the view of the page, and reads and writes it as the text after # in the address.
 
 import { Camera, usualCamera } from '../camera/geometry';
 import { geodesic } from '../earth/projection';
@@ -11,20 +11,20 @@ import { quoted } from './shell';
 import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
 
 export interface ViewState {
-    domain: string; // empty: the first one
+    domain: string; // empty: the first domain
     moment: string;
     time: string; // ISO 8601, or 'latest'
-    betweenS: number; // frames between volumes every so many seconds; 0: the volumes alone
+    betweenS: number; // seconds between frames that are made between volumes; 0: no such frames
     camera: Camera;
     hasGround: boolean; // map and ground are drawn
     exaggeration: number;
     opacity: number;
-    least: number | null; // weaker echo is not shown
-    colors: string; // a table; empty: the moment's own
-    quality: string; // a rung of the ladder; empty: as time allows
-    memoryMib: number; // what the page may hold of grids; read when it is opened
-    countsFetches: boolean; // the page tells how many texels a pixel asks for
-    drafts: Draft[]; // tables that the user made, at most one of a moment; they go before `colors`
+    least: number | null; // values below it are not shown
+    colors: string; // name of a table; empty: the moment's own table
+    quality: string; // name of a rung of the ladder; empty: the page chooses the rung
+    memoryMib: number; // memory for grids; read when the page is opened
+    countsFetches: boolean; // the page counts the texels that a pixel asks for
+    drafts: Draft[]; // tables that the user made, at most one for each moment; they override `colors`
     layers: Layers;
     units: Units;
 }
@@ -81,7 +81,7 @@ export function addressOf(state: ViewState): string {
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
 }
 
-// Returns the last draft of each moment, without words that make no sense.
+// Reads the first `mostDrafts` words, and returns the last draft of each moment. Ignores words that make no sense.
 function draftsOf(words: string[]): Draft[] {
     const drafts = new Map<string, Draft>();
     for (const word of words.slice(0, mostDrafts)) {
@@ -101,14 +101,14 @@ function number(text: string | null, { least, most }: Range, otherwise: number):
     return value >= least && value <= most ? value : otherwise;
 }
 
-// A time without a zone is UTC, as everywhere here.
+// Returns the time as ISO 8601, where a time of day without a zone is UTC; 'latest' if the text is no time.
 function timeOf(text: string): string {
     const hasZone = /(Z|[+-]\d\d:?\d\d)$/i.test(text) && text.includes(':');
     const time = hasZone || !text.includes(':') ? text : `${text}Z`;
     return Number.isNaN(Date.parse(time)) ? 'latest' : time;
 }
 
-// Reads the state from the text. A part that makes no sense keeps its usual value.
+// Reads the view from the text. A parameter that makes no sense keeps its usual value.
 export function stateOf(text: string): ViewState {
     const query = new URLSearchParams(text.replace(/^#/, ''));
     const usual = usualState;
@@ -149,7 +149,7 @@ export function stateOf(text: string): ViewState {
 
 const isWithin = (value: number, { least, most }: Range): boolean => value >= least && value <= most;
 
-// Returns true if `stormcellar frame` does not draw such a picture.
+// Returns true if a number of the view is outside of the range that `stormcellar frame` takes.
 export function isBeyondLimits({ camera, layers }: ViewState, width: number, height: number): boolean {
     if (![width, height].every((side) => isWithin(side, ranges.sidePx))) return true;
     if (layers.hasVolume) return camera.fieldOfViewDeg > 0 && !isWithin(camera.fieldOfViewDeg, ranges.fieldOfViewDeg);
@@ -192,8 +192,9 @@ export function isUsualGrid({
     );
 }
 
-// Returns the command that draws the same, or one of several layers. `colors` is a table or a file; if it is empty, the
-// moment's own colors are drawn.
+// Returns the command that draws the view; if several layers are on, it draws one of them. `colors` is a table or a
+// file; if it is empty, the command uses the moment's own colors. `file` is a raw file to draw instead of the domain's
+// grid, and `volume` the number of the volume in that file.
 export function commandOf(
     state: ViewState,
     width: number,
@@ -202,7 +203,7 @@ export function commandOf(
     file = '',
     volume = 1,
 ): string {
-    // A name that begins with a dash would be an option.
+    // Put "./" before a name that begins with a dash, because it would be read as an option.
     const words = ['stormcellar', 'frame', (file || state.domain).replace(/^-/, './-'), '--moment', state.moment];
     if (state.time !== 'latest' && !file) words.push('--time', state.time);
     if (file && volume > 1) words.push('--volume', String(volume));

@@ -1,4 +1,4 @@
-// Rings of land and lakes, and which of their edges are shores.
+// Tests rings of land and lakes, and which of their edges are shores.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
@@ -11,12 +11,12 @@ import { placeAbout } from '../testing/written_grid';
 
 const plane = planeOf(placeAbout([41, -75]));
 const area = (kind: MapLine['kind'], ...points: [number, number][]): MapLine => ({ kind, is_area: true, points });
-// Land in the west of a tile: its shore runs along a meridian that is no edge of the tile.
+// Land in the west of a tile. Part of its shore is along a meridian that is no edge of the tile.
 const coast = area('coast', [-76, 40], [-75, 40], [-75, 40.5], [-74.8, 41.2], [-75, 42], [-76, 42], [-76, 40]);
 const lake = area('lake', [-75.5, 41], [-75.3, 41], [-75.4, 41.1], [-75.5, 41]);
 const all = projected({ credit: '', lines: [coast, lake], cities: [] }, plane);
 
-test('edges of tiles are no shores, and others along a meridian are', () => {
+test('edges of tiles are no shores, but other lines along a meridian are', () => {
     assert.deepEqual(
         coast.points.slice(1).map((_, i) => isCut(coast, i + 1)),
         [true, false, false, false, true, true],

@@ -1,15 +1,15 @@
 // Finds land and lakes as rings on the plane of a grid. All other ground is sea.
 //
-// Coasts and lakes of the map are rings that are cut along meridians and parallels (render/map/base_map.h). A
-// cut is straight in degrees: long ones are divided, at the same places on both sides, so that no gap opens
-// between two tiles.
+// Coasts and lakes of the map are rings that are cut along meridians and parallels (render/map/base_map.h). A cut is
+// straight in degrees, but not on the plane. Long cuts are divided at the same places on both sides, so that no gap
+// opens between two tiles.
 
 import { ProjectedLine, isCut } from './ground_lines';
 import { GridPlane, Plane } from '../earth/projection';
 
 const longestCutDeg = 0.25;
 
-// Returns places along a cut, at multiples of its longest part, without its ends.
+// Returns places along a cut at multiples of the longest allowed step, without the ends of the cut.
 function betweenOf(
     [longitudeA, latitudeA]: [number, number],
     [longitudeB, latitudeB]: [number, number],
@@ -34,7 +34,7 @@ function ringOf({ line, points }: ProjectedLine, plane: GridPlane): Plane[] {
     });
 }
 
-// Returns the rings of a kind, 'coast' for land.
+// Returns the rings of land (`kind` is 'coast') or of lakes.
 export function ringsOf(all: ProjectedLine[], kind: 'coast' | 'lake', plane: GridPlane): Plane[][] {
     return all.filter(({ line }) => line.is_area && line.kind === kind).map((one) => ringOf(one, plane));
 }

@@ -17,7 +17,7 @@ const table: ColorTable = {
     ],
 };
 
-test('colors blend from stop to stop, begin with the first and go on with the last', () => {
+test('colors blend from stop to stop, begin at the first stop and stay constant above the last', () => {
     assert.equal(colorOf(table, 4.99), null);
     assert.equal(colorOf(table, NaN), null);
     assert.deepEqual(colorOf(table, 5), [0, 0, 0, 255]);
@@ -26,7 +26,7 @@ test('colors blend from stop to stop, begin with the first and go on with the la
     assert.deepEqual(colorOf(table, 900), [9, 9, 9, 255]);
 });
 
-test('extinction is straight between points, none below the first, constant above the last', () => {
+test('extinction is linear between points, 0 below the first and constant above the last', () => {
     assert.equal(extinctionPerM(table, 4, 1), 0);
     assert.equal(extinctionPerM(table, 10, 1), 0.002);
     assert.equal(extinctionPerM(table, 10, 3), 0.006);

@@ -1,4 +1,4 @@
-// Finds colors and opacities of values in the server's tables.
+// Finds the color and the opacity of a value in a table.
 
 import { ColorTable, Rgba } from '../wire/color_tables';
 
@@ -14,7 +14,7 @@ export function colorOf(table: ColorTable, value: number): Rgba | null {
     return stop.color.map((c, k) => c + share * (stop.until[k]! - c)) as Rgba;
 }
 
-// Returns the extinction per meter of the drawn scene.
+// Returns the extinction of a value per meter of drawn space; 0 below the first color or the first point of opacity.
 export function extinctionPerM(table: ColorTable, value: number, opacity: number): number {
     if (!colorOf(table, value)) return 0;
     const points = table.extinction;

@@ -1,7 +1,8 @@
-// A color table that is being edited: few points of color and of opacity that a hand can move.
+// Converts color tables to drafts, and drafts to tables. A draft is a table that is being edited; it has so few points
+// of color and opacity that a user can move each of them.
 //
-// Numbers are rounded to what files and addresses hold, so that a table is the same after it was saved.
-// The table that is drawn is the one that its file makes, so that `stormcellar frame` draws the same.
+// Numbers of a draft are rounded as in files and addresses, so that saving changes nothing. The page draws the table
+// that it would read from the draft's file, so that `stormcellar frame` draws the same.
 
 import { ColorTable, ExtinctionPoint, Rgba } from '../wire/color_tables';
 import { colorDistance, cornersToKeep, mixed } from './simplify';
@@ -20,20 +21,20 @@ export interface Draft {
     name: string;
     moment: string;
     unit: string;
-    isStepped: boolean; // classes; otherwise colors blend from point to point
-    colors: ColorPoint[]; // values rise; two at one value make an edge
-    opacity: OpacityPoint[] | null; // the outermost go on; null: the moment's own, times the alpha of the colors
-    end: number; // of the color bar
-    barBegin: number;
+    isStepped: boolean; // each color holds up to the next point; otherwise colors blend from point to point
+    colors: ColorPoint[]; // values rise; two points at one value make an edge
+    opacity: OpacityPoint[] | null; // constant beyond the outermost points; null: the usual opacity, faded by alpha
+    end: number; // end of the color bar
+    barBegin: number; // its beginning
     rangeFolded: Rgba;
 }
 
 export const mostPoints = 160;
-const nearEnough = 0.012; // in OKLab
+const nearEnough = 0.012; // allowed error of a color, in OKLab
 const alphaWeight = 0.25;
-const nearEnoughShare = 0.06; // of the opacity
-const clearestPerKm = 0.003; // differences of less opacity than this are not seen
-const leastStep = 0.0005; // between two values
+const nearEnoughShare = 0.06; // allowed relative error of an opacity
+const clearestPerKm = 0.003; // errors of lower opacities are relative to this
+const leastStep = 0.0005; // least difference between two values
 
 export const roundedValue = (value: number): number =>
     Number(Math.min(greatestValue, Math.max(-greatestValue, value)).toFixed(4));
@@ -53,7 +54,7 @@ function simplifiedColors(points: ColorPoint[], most: number): ColorPoint[] {
     return kept.map((i) => points[i]!);
 }
 
-// Simplifies each line of color between two edges by itself.
+// Returns the points of a table that blends. Simplifies the colors between two edges separately, and keeps the edges.
 function blendedPoints(table: ColorTable, most: number): ColorPoint[] {
     const points: ColorPoint[] = [];
     let run: ColorPoint[] = [];
@@ -76,7 +77,7 @@ function colorsOf(table: ColorTable): { isStepped: boolean; colors: ColorPoint[]
     const isStepped = table.stops.every(({ color, until }) => color.every((c, k) => c === until[k]));
     const plain = table.stops.map(({ from, color }) => ({ value: roundedValue(from), color }));
     if (isStepped && plain.length <= mostPoints) return { isStepped, colors: plain };
-    // Treat more classes than anybody tells apart as a line.
+    // Let colors blend if there are more classes than a draft can have points.
     let colors = isStepped ? simplifiedColors(plain, nearEnough) : blendedPoints(table, nearEnough);
     for (let most = 2 * nearEnough; colors.length > mostPoints && most < 4; most *= 2) {
         colors = isStepped || most > 0.5 ? simplifiedColors(plain, most) : blendedPoints(table, most);
@@ -123,7 +124,8 @@ export function draftOf(table: ColorTable, moment: string, usual: UsualOpacity):
 
 // ---- To tables
 
-// Returns the last point at or below a value, and the share of the way to the next.
+// Returns the index of the last point at or below a value (0 if all are above), and how far the value is on the way to
+// the next point, from 0 to 1.
 function placeAmong(points: { value: number }[], value: number): [number, number] {
     let i = points.length - 1;
     while (i > 0 && points[i]!.value > value) --i;
@@ -158,7 +160,7 @@ export function fileOf(draft: Draft, least: number | null = null): TableFile {
     put(from, colorAt(draft, from));
     colors.forEach(({ value, color }, i) => {
         if (value <= from) return;
-        // The first point of an edge is what the point below it blends to.
+        // The color at the lower side of an edge becomes `until` of the point below.
         if (colors[i + 1]?.value !== value) put(value, color);
         else edges.set(value, color);
     });
@@ -187,8 +189,8 @@ export function tableOf(draft: Draft, usual: UsualOpacity, least: number | null 
     return { ...table, bar_begin: Math.max(table.bar_begin, draft.barBegin) };
 }
 
-// Returns the table with its opacity as alpha, for a .pal file. `isWhole` is false if it is denser than usual
-// somewhere, which such a file cannot say.
+// Returns the table for a .pal file, whose alpha is the opacity relative to the usual opacity. `isWhole` is false if
+// the table is anywhere more opaque than usual, which a .pal file cannot express.
 export function tableForPal(
     draft: Draft,
     usual: UsualOpacity,

@@ -1,21 +1,21 @@
-// Edits a draft: pure functions from a draft to the next one. An edit that is not possible leaves the draft as it is.
+// Edits drafts. Each function returns a new draft, or the same draft if the edit is not possible.
 
 import { Rgba } from '../wire/color_tables';
 import { Draft, OpacityPoint, colorAt, mostPoints, perKmAt, roundedPerKm, roundedValue } from './draft';
 
-// Points of a draft are at least this far apart.
+// Returns the least distance between two points of a draft.
 export function leastGap(draft: Draft): number {
     return Math.max(0.0005, Math.abs(draft.end - draft.colors[0]!.value) / 500);
 }
 
-// Returns the value nearest to the wanted one that keeps the order of the points.
+// Returns the value nearest to `wanted` that keeps the points [first, last] between their neighbors.
 function between(points: { value: number }[], first: number, last: number, wanted: number, gap: number): number {
     const low = first > 0 ? points[first - 1]!.value + gap : -Infinity;
     const high = last + 1 < points.length ? points[last + 1]!.value - gap : Infinity;
     return roundedValue(Math.max(low, Math.min(high, wanted)));
 }
 
-// Both points of an edge move as one.
+// Moves a point of color to another value. Both points of an edge move together.
 export function withColorMoved(draft: Draft, at: number, value: number): Draft {
     const { colors } = draft;
     const here = colors[at]!.value;
@@ -44,7 +44,7 @@ const isFree = (points: { value: number }[], value: number, gap: number): boolea
     points.every((point) => Math.abs(point.value - value) >= 0.999 * gap);
 const byValue = (a: { value: number }, b: { value: number }): number => a.value - b.value;
 
-// Returns also where the new point is; -1 if there is no room.
+// Adds a point of color. Returns the draft and the index of the new point; -1 if there is no room.
 export function withColorAdded(draft: Draft, wanted: number): [Draft, number] {
     const value = roundedValue(wanted);
     if (draft.colors.length >= mostPoints || !isFree(draft.colors, value, leastGap(draft))) return [draft, -1];

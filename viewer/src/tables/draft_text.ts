@@ -48,7 +48,7 @@ const opacityPoint = (value: number, word: string): OpacityPoint | null => {
     return perKm >= 0 && Number.isFinite(perKm) ? { value, perKm: roundedPerKm(perKm) } : null;
 };
 
-// Reads a draft; null if the text is none.
+// Reads a draft; null if the text is not a draft.
 export function draftOfText(text: string): Draft | null {
     if (text.length > mostLetters) return null;
     const fields = text.split('!');

@@ -40,7 +40,7 @@ const edged: Draft = {
     ],
 };
 
-test('a table becomes few points that look alike', () => {
+test('a draft has few points and looks like its table', () => {
     assert.deepEqual(
         draft.colors.map((point) => point.value),
         [5, 35, 65],
@@ -58,7 +58,7 @@ test('a table becomes few points that look alike', () => {
     );
 });
 
-test('another opacity becomes points within a few percent', () => {
+test('an opacity that is not the usual one becomes points within a few percent', () => {
     const own = draftOf(
         { ...smooth, extinction: smooth.extinction.map((point) => ({ ...point, per_km: 2 * point.per_km })) },
         'REF',
@@ -71,7 +71,7 @@ test('another opacity becomes points within a few percent', () => {
     }
 });
 
-test('the table that is drawn is that of its file', () => {
+test('the drawn table equals the table of its file', () => {
     for (const one of [draft, opaque, { ...opaque, isStepped: true }, edged]) {
         for (const least of [null, 22.5]) {
             const read = tableOfFile(readToml(writeToml(fileOf(one, least)), 'a.toml'), usual);
@@ -87,7 +87,7 @@ test('the table that is drawn is that of its file', () => {
     assert.equal(extinctionPerM(table, 90, 1), 0.002);
 });
 
-test('what is hidden is not in the file', () => {
+test('values below the threshold are not in the file', () => {
     const cut = tableOf(draft, usual, 20);
     assert.equal(colorOf(cut, 19.9), null);
     assert.deepEqual(colorOf(cut, 20), colorOf(tableOf(draft, usual), 20)!.map(Math.round));
@@ -95,7 +95,7 @@ test('what is hidden is not in the file', () => {
     assert.equal(fileOf(draft, 300).points.length, 2, 'a table of nothing is a table');
 });
 
-test('edges go through addresses and back', () => {
+test('an address keeps the edges of a draft', () => {
     const table = tableOf(edged, usual);
     assert.deepEqual(colorOf(table, 30), [0, 0, 200, 255]);
     assert(colorOf(table, 29.99)!.every((c, k) => Math.abs(c - [100, 100, 100, 255][k]!) < 1));
@@ -106,7 +106,7 @@ test('edges go through addresses and back', () => {
     );
 });
 
-test('a .pal has opacity as alpha, and says where it cannot', () => {
+test('a .pal file has opacity as alpha, and isWhole is false if that is not possible', () => {
     const thin: Draft = {
         ...draft,
         opacity: [
@@ -125,7 +125,7 @@ test('a .pal has opacity as alpha, and says where it cannot', () => {
     assert.equal(tableForPal(opaque, usual, null).isWhole, false);
 });
 
-test('an address holds a draft; nonsense is none', () => {
+test('an address holds a draft, and nonsense is not read as a draft', () => {
     for (const one of [draft, opaque, { ...draft, isStepped: true }])
         assert.deepEqual(draftOfText(textOfDraft(one)), one);
     const text = textOfDraft(opaque);
@@ -149,7 +149,7 @@ test('an address holds a draft; nonsense is none', () => {
     assert.equal(draftOfText(text.replace('REF', 'constructor')), null);
 });
 
-test('points are moved between their neighbors, added where there is room, and removed to the last two', () => {
+test('points move between their neighbors, are added where there is room, and are removed down to two', () => {
     assert.deepEqual(
         withColorMoved(draft, 1, 90).colors.map((point) => point.value),
         [5, 64.85, 65],
@@ -173,7 +173,7 @@ test('points are moved between their neighbors, added where there is room, and r
     assert.equal(withOpacityRemoved({ ...opaque, opacity: [opacity![0]!] }, [opacity![0]!], 0).opacity!.length, 1);
 });
 
-test('a drag is one step of undo, and what is undone can be redone', () => {
+test('a drag is one step of undo, and an undone step can be redone', () => {
     const history = new History<number>();
     assert.equal(history.undo(7), 7);
     for (const before of [1, 2, 3]) history.note(before, 'a drag');

@@ -1,4 +1,4 @@
-// Keeps whole values for undo and redo.
+// Keeps the values before and after changes, for undo and redo.
 
 const mostSteps = 200;
 
@@ -7,7 +7,8 @@ export class History<T> {
     private future: T[] = [];
     private doing: string | null = null;
 
-    // Something is about to change from `before`. Changes of one doing, such as a drag, are one step.
+    // Call before a change, with the value that will change. Consecutive changes with the same `doing`, such as those
+    // of a drag, are one step.
     note(before: T, doing: string | null = null): void {
         if (doing !== null && doing === this.doing) return;
         this.doing = doing;
@@ -15,7 +16,7 @@ export class History<T> {
         if (this.past.length > mostSteps) this.past.shift();
         this.future = [];
     }
-    // Ends a doing, so that the next change is another step.
+    // Makes the next change a step of its own.
     rest(): void {
         this.doing = null;
     }

@@ -5,7 +5,7 @@ import { lookCount, lookOver, looksOf } from './looks';
 import { ColorTable } from '../wire/color_tables';
 import { smooth } from '../testing/made_tables';
 
-test('looks are the colors of values, clear below the table and the threshold', () => {
+test('looks have the colors of values, and are clear below the table and the threshold', () => {
     const table: ColorTable = {
         ...smooth,
         end: 20,

@@ -1,21 +1,21 @@
-// Prepares a color table for layers that are drawn flat: colors by value.
+// Prepares a color table for flat layers, which look up colors by value.
 
 import { colorOf } from './color_table';
 import { ColorTable } from '../wire/color_tables';
 
-// The entries fill rows of a texture.
+// Entries fill the rows of a texture.
 export const lookColumns = 2048;
 export const lookCount = 4 * lookColumns;
 
 export interface Looks {
-    // Red, green, blue and opacity on maps, 0 to 255. The first one is clear, for values below the table.
+    // Red, green, blue and opacity of each entry, 0 to 255. The first entry is clear, for values below the table.
     rgba: Uint8Array;
     // entry = offset + slope * value, rounded down
     offset: number;
     slope: number;
 }
 
-// Moves each value up by a little, so that the value at which a class begins is in it.
+// Moves each value up by a little, so that the value at which a class begins has the color of this class.
 const slack = 1 / 64;
 
 export function looksOf(table: ColorTable, least: number): Looks {
@@ -24,7 +24,7 @@ export function looksOf(table: ColorTable, least: number): Looks {
     const width = (high - low) / (lookCount - 1);
     const rgba = new Uint8Array(4 * lookCount);
     for (let i = 1; i < lookCount; ++i) {
-        // The threshold itself is shown.
+        // Values equal to the threshold are shown.
         const isHidden = low + (i - slack) * width <= least;
         const color = isHidden ? null : colorOf(table, low + (i - 0.5) * width);
         if (color) rgba.set(color.map(Math.round), 4 * i);
@@ -32,7 +32,7 @@ export function looksOf(table: ColorTable, least: number): Looks {
     return { rgba, offset: 1 + slack - low / width, slope: 1 / width };
 }
 
-// Returns the color of a value over another color, as maps have it; null where it is clear.
+// Returns the color of a value blended over the color `under`; null if the value is clear.
 export function lookOver(looks: Looks, value: number, under: readonly number[]): [number, number, number] | null {
     const entry = Math.min(lookCount - 1, Math.max(0, Math.floor(looks.offset + looks.slope * value)));
     const alpha = looks.rgba[4 * entry + 3]! / 255;

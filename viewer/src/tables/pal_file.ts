@@ -1,5 +1,5 @@
-// Color tables of the GRLevelX programs, as render/color/pal_file.cpp reads them; color_file.h says
-// what each key means.
+// Reads and writes color tables of the GRLevelX programs, as render/color/pal_file.cpp does. color_file.h says what
+// each key means.
 //
 // Errors: a TableError, "FILE:LINE: why".
 
@@ -124,7 +124,7 @@ class PalReader {
         });
     }
 
-    // The moment and the unit of the values, and how many of the file's units make one of ours.
+    // Returns the moment and the unit of the values, and how many units of the file make one of this unit.
     private meaning(): { moment: string; unit: string; perOurs: number } {
         let moment = '';
         let unit = '';
@@ -180,7 +180,7 @@ class PalReader {
     }
 }
 
-// Reads a table. Its name stays empty, and so does its moment if it is for none. `fileName` is for errors.
+// Reads a table. Its name is empty, and its moment is empty if the file names none. `fileName` is for errors.
 export function readPal(text: string, fileName: string, usual: UsualOpacity): ColorTable {
     const reader = new PalReader(fileName);
     for (const line of text.split('\n')) reader.takeLine(line);
@@ -189,8 +189,8 @@ export function readPal(text: string, fileName: string, usual: UsualOpacity): Co
 
 const productOf: Record<string, string> = { REF: 'BR', VEL: 'BV', RHO: 'CC' };
 
-// Writes a table whose alpha is the share that its opacity has of the usual one. A line blends to the next
-// one, or to its second color where that is another.
+// Writes a table whose alpha is its opacity relative to the usual opacity. A color blends to the color of the next
+// line, or to a second color in its own line if that differs.
 export function writePal(table: ColorTable): string {
     const lines = [`; ${table.name.replace(/[^\x20-\x7e]/g, '?')}, for stormcellar frame --colors FILE`];
     lines.push(`Product: ${productOf[table.moment] ?? table.moment}`);

@@ -1,9 +1,10 @@
-// Simplifies lines: leaves out corners that change little.
+// Simplifies lines by leaving out corners that change little. Measures how different colors look.
 
 import { Rgba } from '../wire/color_tables';
 
-// Returns the corners to keep of a line of `count` points, so that `errorAt(first, last, i)` of each point i between
-// two kept neighbors is at most `most` (Douglas and Peucker).
+// Returns the indexes of the points to keep of a line of `count` points (Douglas and Peucker). `errorAt(first, last,
+// i)` returns the error of leaving out point i between the kept points `first` and `last`; it is at most `most` for
+// each left out point.
 export function cornersToKeep(
     count: number,
     most: number,
@@ -28,7 +29,7 @@ export function cornersToKeep(
 const linearOf = (level: number): number =>
     level <= 10.31475 ? level / 3294.6 : ((level / 255 + 0.055) / 1.055) ** 2.4;
 
-// OKLab, in which equal distances look about equal: render/color/ok_lab.h.
+// Returns the color in OKLab, in which equal distances look about equal (render/color/ok_lab.h).
 export function okLabOf([r, g, b]: Readonly<Rgba>): [number, number, number] {
     const [red, green, blue] = [linearOf(r), linearOf(g), linearOf(b)];
     const l = Math.cbrt(0.4122214708 * red + 0.5363325363 * green + 0.0514459929 * blue);
@@ -41,7 +42,7 @@ export function okLabOf([r, g, b]: Readonly<Rgba>): [number, number, number] {
     ];
 }
 
-// Returns how different two colors look; 0.02 can just be seen side by side.
+// Returns how different two colors look. A difference of 0.02 is just visible side by side.
 export function colorDistance(one: Readonly<Rgba>, other: Readonly<Rgba>): number {
     const [a, b] = [okLabOf(one), okLabOf(other)];
     return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);

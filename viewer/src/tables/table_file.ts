@@ -1,7 +1,7 @@
 // Makes a color table of the content of a file. render/color/color_file.h has the same rules, so that `stormcellar
 // frame --colors FILE` and the page draw the same.
 //
-// Errors: a TableError that names the file, the line where there is one, and the reason.
+// Errors: a TableError that names the file, the line if there is one, and the reason.
 
 import { colorFiles, moments } from '../facts';
 import { ColorTable, Rgba } from '../wire/color_tables';
@@ -11,7 +11,7 @@ export class TableError extends Error {}
 
 export const { mostBytes: mostFileBytes, mostStops, greatestValue } = colorFiles;
 
-// Moments by name, with the unit that a file of colors writes: none for a number.
+// Units of moments in files of colors, by name of the moment; an empty text for a moment without a unit.
 export const knownMoments: Record<string, string> = Object.fromEntries(
     Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]),
 );
@@ -19,8 +19,8 @@ export const knownMoments: Record<string, string> = Object.fromEntries(
 export interface FilePoint {
     value: number;
     color: Rgba;
-    until?: Rgba; // to which it blends, instead of the next point's
-    perKm: number | null; // null in all points or in none
+    until?: Rgba; // color to which this point blends; without it, the color of the next point
+    perKm: number | null; // null in all points or in none; null: the usual opacity
 }
 
 // The content of a TOML file.
@@ -31,10 +31,10 @@ export interface TableFile {
     isStepped: boolean;
     end: number | null;
     rangeFolded: Rgba | null;
-    points: FilePoint[]; // values rise; at least two, or one of a stepped table
+    points: FilePoint[]; // values rise; at least two, or at least one if the table is stepped
 }
 
-// Returns the end of the color bar of a table that does not say it: its last class is as long as the one before.
+// Returns the end of the color bar for a table that does not state it. The last class is as long as the class before.
 export function endOf(table: ColorTable): number {
     const { stops } = table;
     const [before, last] = [stops[stops.length - 2]?.from, stops[stops.length - 1]!.from];
@@ -63,7 +63,7 @@ export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
     return table;
 }
 
-// Returns the opacity of a table whose file does not say it.
+// Returns the opacity for a table whose file does not state it.
 export function usualExtinctionOf(table: ColorTable, usual: UsualOpacity): ColorTable['extinction'] {
     const lowest = table.stops[0]!.from;
     return fadedByAlpha(table.moment ? usual.of(table.moment, lowest) : rising(lowest, table.end), table);
@@ -77,14 +77,14 @@ export function hexOf(color: Rgba): string {
     return `#${channels.map(twoDigits).join('')}`;
 }
 
-// Reads such a color; null if the text is none.
+// Reads a color "#rrggbb" or "#rrggbbaa"; null if the text is not a color.
 export function colorOfHex(text: string): Rgba | null {
     const found = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})?$/i.exec(text);
     if (!found) return null;
     return [found[1]!, found[2]!, found[3]!, found[4] ?? 'ff'].map((digits) => parseInt(digits, 16)) as Rgba;
 }
 
-// Returns a part of a file in a form that is safe in a message.
+// Returns the first 64 characters of a word from a file, without control characters, for a message.
 export function shownWord(word: string): string {
     return word.slice(0, 64).replace(/[^\x20-\x7e]/g, '?');
 }

@@ -34,7 +34,7 @@ RF: 119 0 125
 ND: 0 0 0
 `;
 
-test('a .pal blends as the format says', () => {
+test('a .pal file blends as its format says', () => {
     const table = pal(blended);
     assert.equal(table.moment, 'REF');
     assert.equal(table.unit, 'dBZ');
@@ -47,7 +47,7 @@ test('a .pal blends as the format says', () => {
     assert.equal(extinctionPerM(table, 40, 1), extinctionPerM(smooth, 40, 1));
 });
 
-test('a .pal may fall, have edges, other units and alpha', () => {
+test('a .pal file may have falling values, edges, other units and alpha', () => {
     const rising = pal('Color: 0 1 2 3\nColor: 10 4 5 6\nSolidColor: 20 7 8 9\n');
     assert.deepEqual(pal('SolidColor: 20 7 8 9\nColor: 10 4 5 6\nColor: 0 1 2 3\n').stops, rising.stops);
     const edge = pal('Color: 0 0 0 0\nColor: 10 100 100 100\nColor: 10 0 0 200\nColor: 20 0 0 0\n');
@@ -69,7 +69,7 @@ test('a .pal may fall, have edges, other units and alpha', () => {
     assert(Math.abs(extinctionPerM(faded, 30, 1) / extinctionPerM(smooth, 30, 1) - 0.2) < 1e-12);
 });
 
-test('errors of a .pal name the line', () => {
+test('errors in a .pal file name the line', () => {
     for (const [text, wanted] of [
         ['', 't.pal:1: the file has no Color:'],
         ['Color: 1 2 3 4\nbogus\n', "t.pal:2: 'bogus'"],
@@ -107,7 +107,7 @@ value = +3.0e1
 opacity_per_km = 0.4
 `;
 
-test('TOML blends from point to point', () => {
+test('a TOML file blends from point to point', () => {
     const table = toml(colors);
     assert.equal(table.name, 'mine');
     assert.equal(table.moment, 'VEL');
@@ -119,7 +119,7 @@ test('TOML blends from point to point', () => {
     assert.deepEqual(toml('point = [{value = 1, color = "#000000"}, {value = 2, color = "#ffffff"}]').stops.length, 2);
 });
 
-test('a point of TOML may blend to a color of its own, as in a .pal', () => {
+test('a point in a TOML file may blend to a color of its own, as in a .pal file', () => {
     const table = toml(
         'moment = "REF"\n[[point]]\nvalue = 10\ncolor = "#000000"\nuntil = "#646464"\n[[point]]\nvalue = 20\ncolor = "#0000c8"\nuntil = "#0000c8"\n' +
             '[[point]]\nvalue = 30\ncolor = "#c80000"\n[[point]]\nvalue = 40\ncolor = "#ffffff"\n',
@@ -133,7 +133,7 @@ test('a point of TOML may blend to a color of its own, as in a .pal', () => {
 
 const two = '[[point]]\nvalue = 1\ncolor = "#000000"\n[[point]]\nvalue = 2\ncolor = "#ffffff"\n';
 
-test('errors of TOML name the line', () => {
+test('errors in a TOML file name the line', () => {
     assert.equal(message(toml, two), '');
     for (const [text, wanted] of [
         [`moment = "RAIN"\n${two}`, 't.toml:1: moment must be'],
@@ -163,7 +163,7 @@ test('errors of TOML name the line', () => {
         assert(message(toml, text).startsWith(wanted), `${message(toml, text)} for ${text.slice(0, 60)}`);
 });
 
-test('lines are found behind texts of several lines, and in arrays of inline tables', () => {
+test('lines are found after texts of several lines, and in arrays of inline tables', () => {
     for (const [text, wanted] of [
         [`name = """a \\"""\n[b]"""\nq = 1\n${two}`, 't.toml:3: q is an unknown key'],
         [`"#" = [ # ]\n'''\n]''',\n]\n${two}`, 't.toml:1: # is an unknown key'],
@@ -178,14 +178,14 @@ test('lines are found behind texts of several lines, and in arrays of inline tab
         assert(message(toml, text).startsWith(wanted), `${message(toml, text)} for ${text}`);
 });
 
-test('a key named after a part of the language is unknown like any other', () => {
+test('a key named like a property of JavaScript objects is unknown like any other', () => {
     assert.equal(message(toml, `constructor = 1\n${two}`), 't.toml:1: constructor is an unknown key');
     assert.equal(message(toml, `__proto__ = 1\n${two}`), 't.toml:1: __proto__ is an unknown key');
     assert(message(toml, `moment = "constructor"\n${two}`).includes('must be one of'));
     assert.equal(pal('Product: constructor\nUnits: __proto__\nColor: 1 2 3 4\n').moment, '');
 });
 
-test('what is written is read again', () => {
+test('a written file is read as the same table', () => {
     const file = readToml(colors, 't.toml');
     assert.deepEqual(readToml(writeToml(file), 't.toml'), file);
     const named = { ...file, name: 'a "b\\c"' };
@@ -198,8 +198,7 @@ test('what is written is read again', () => {
     assert.deepEqual(again.range_folded, table.range_folded);
 });
 
-// A changed file gives an error of one line, or a table whose numbers make sense.
-test('changed files are tables or errors', () => {
+test('a damaged file gives an error of one line, or a table whose numbers make sense', () => {
     let seed = 20261127;
     const random = (below: number) => ((seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) >>> 8) % below;
     const spice = '0123456789-+.e:;#\n" []=,nanCSolidcolor4{}\'\0\x80é';

@@ -1,6 +1,6 @@
-// Reads color tables in TOML, as docs/rendering.md and render/color/color_file.h have them.
+// Reads color tables in TOML, whose keys docs/rendering.md and render/color/color_file.h describe.
 //
-// Errors: see table_file.ts; of several complaints the one on the earliest line.
+// Errors: see table_file.ts. If there are several errors, reports the first line that has one.
 
 import { Rgba } from '../wire/color_tables';
 import {

@@ -1,13 +1,14 @@
-// Reads TOML with smol-toml, and finds the lines of its keys, which smol-toml does not tell.
+// Reads TOML with smol-toml, and finds the lines of its keys, which smol-toml does not report.
 //
-// Errors: a TableError, "FILE:LINE: why". Nothing is deeper than `deepest`, so that no text exhausts the stack.
+// Errors: a TableError, "FILE:LINE: why". Values nested deeper than `deepest` are an error, so that no text exhausts
+// the stack.
 
 import { TomlError, parse } from 'smol-toml';
 import { TableError, shownWord } from './table_file';
 
 const deepest = 16;
 
-// Place and contents of a value: keys of a table, or items of an array.
+// Line of a value, and places of its keys if it is a table, or of its items if it is an array.
 interface Place {
     line: number;
     keys: Map<string, Place>;
@@ -16,7 +17,7 @@ interface Place {
 
 const placeAt = (line: number): Place => ({ line, keys: new Map(), items: [] });
 
-// A table, whose tables and arrays are read as they are asked for.
+// A table of a TOML file, with the lines of its keys.
 export class TomlTable {
     constructor(
         private values: Record<string, unknown>,
@@ -29,11 +30,11 @@ export class TomlTable {
     has(key: string): boolean {
         return Object.prototype.hasOwnProperty.call(this.values, key);
     }
-    // Returns the value of a key as smol-toml reads it; undefined if it is not there.
+    // Returns the value of a key as smol-toml reads it; undefined without this key.
     get(key: string): unknown {
         return this.has(key) ? this.values[key] : undefined;
     }
-    // Returns the tables of an array; null if the value is none, or has other items.
+    // Returns the tables of an array; null if the value is not an array, or not all of its items are tables.
     tables(key: string): TomlTable[] | null {
         const items = this.get(key);
         const places = this.place.keys.get(key)?.items ?? [];
@@ -48,11 +49,11 @@ export class TomlTable {
 const isTable = (value: unknown): value is Record<string, unknown> =>
     typeof value === 'object' && value !== null && !Array.isArray(value) && !(value instanceof Date);
 
-// Texts, comments, ends of lines, brackets and the like, and all between them.
+// Matches a text, a comment, an end of line, a bracket, ',', '=', or a run of other characters.
 const token =
     /"""(?:\\[^]|[^\\])*?"{3,5}|'''[^]*?'{3,5}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#.*|\n|[[\]{},=]|(?:(?!["'#\n[\]{},=])[^])+/g;
 
-// Finds the lines of keys in a text that is known to be TOML.
+// Finds the lines of keys in a text that smol-toml accepts.
 class LineFinder {
     private tokens: { text: string; line: number }[] = [];
     private at = 0;
@@ -88,7 +89,7 @@ class LineFinder {
         return this.tokens[this.at]?.line ?? 1;
     }
 
-    // Reads the parts of a key, up to one of the ends.
+    // Reads the parts of a key, up to the token `end`.
     private key(end: string): string[] {
         let text = '';
         for (; !this.isAtEnd && this.next !== end; ++this.at) text += this.next;
@@ -96,7 +97,8 @@ class LineFinder {
         return parts.map((part) => Object.keys(parse(`${part} = 0`))[0]!);
     }
 
-    // Returns the place of a key, which may be that of a table that is there already.
+    // Returns the place of a dotted key, and makes places for its parts where there are none. In an array of tables,
+    // goes to the last table.
     private descend(table: Place, parts: string[], line: number): Place {
         for (const part of parts) {
             const known = table.keys.get(part) ?? placeAt(line);
@@ -106,7 +108,7 @@ class LineFinder {
         return table;
     }
 
-    // Reads [key] or [[key]], and the brackets behind it.
+    // Reads [key] or [[key]]. Returns the place of the table that begins there.
     private header(root: Place): Place {
         const { line } = this;
         ++this.at;
@@ -123,7 +125,7 @@ class LineFinder {
         return list.items[list.items.length - 1]!;
     }
 
-    // Reads key = value.
+    // Reads "key = value" into a table.
     private pair(table: Place): void {
         const { line } = this;
         const place = this.descend(table, this.key('='), line);
@@ -131,7 +133,7 @@ class LineFinder {
         this.value(place);
     }
 
-    // Ends at the last token of the value.
+    // Reads a value, up to its last token.
     private value(place: Place): void {
         const close = { '[': ']', '{': '}' }[this.next];
         if (!close) {

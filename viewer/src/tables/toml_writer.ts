@@ -1,4 +1,5 @@
-// Writes color tables in TOML, as docs/rendering.md has them. It is apart from the reader, which comes with the editor.
+// Writes color tables in TOML, as docs/rendering.md describes. The reader is in another file, because the page loads it
+// only with the editor.
 
 import { TableFile, hexOf } from './table_file';
 

@@ -41,7 +41,7 @@ test('a bin begins at each stop, and bin 0 is clear', () => {
     assert.deepEqual(entry(0, 0), [0, 0, 0, 0]);
 });
 
-test('a step through one value has its color and its optical depth', () => {
+test('a step through one value has the color and the optical depth of this value', () => {
     const value = 12;
     const bin = binOf(codeOf(value));
     const bins = chooseBins(stepped);
@@ -52,7 +52,7 @@ test('a step through one value has its color and its optical depth', () => {
     assert(Math.abs(depth - extinctionPerM(stepped, middle, opacity) * stepM) < 1e-6);
 });
 
-// The slow, obvious form: many thin layers from front to back.
+// Computes a step slowly and obviously, as many thin layers from front to back.
 function layered(front: number, back: number): { color: [number, number]; depth: number } {
     const layers = 20000;
     const bins = chooseBins(stepped);
@@ -74,7 +74,7 @@ function layered(front: number, back: number): { color: [number, number]; depth:
     return { color: [red / (1 - through), green / (1 - through)], depth };
 }
 
-test('a step over many values shows them in their order, as thin layers do', () => {
+test('a step over many values equals many thin layers in their order', () => {
     for (const [front, back] of [
         [10, 200],
         [200, 10],
@@ -90,19 +90,19 @@ test('a step over many values shows them in their order, as thin layers do', () 
     }
 });
 
-test('what is seen first hides what comes later', () => {
+test('near values hide far values', () => {
     const towards = entry(10, 200);
     const away = entry(200, 10);
     assert.equal(towards[3], away[3]);
     assert(towards[0]! > away[0]!, 'red is the color of the weak end');
 });
 
-test('no value below the least visible code shows', () => {
+test('no value below the least visible code is visible', () => {
     assert.equal(binOf(made.leastVisibleCode - 1), 0);
     assert(binOf(made.leastVisibleCode) >= 1);
 });
 
-test('values below the least that is shown are clear, the others as they were', () => {
+test('values below the threshold are clear, and other values look as without it', () => {
     const above = makeTransfer(stepped, quantization, { opacity, least: 10 }, stepM);
     const bins = chooseBins(stepped, 10);
     assert.equal(bins.lowest, 10, 'the bins are those of a table that begins there');
@@ -121,7 +121,7 @@ test('values below the least that is shown are clear, the others as they were', 
     assert(makeTransfer(stepped, quantization, { opacity, least: 1000 }, stepM).leastVisibleCode >= codeOf(1000));
 });
 
-test('a step that stays in a value has that value’s look', () => {
+test('a step between two equal values has the look of this value', () => {
     const transfer = makeTransfer(smooth, quantization, { opacity: 1, least: -Infinity }, 1000);
     for (const value of [10, 30, 50, 62]) {
         const bin = Math.floor(transfer.binOffset + transfer.binSlope * codeOf(value));
@@ -133,8 +133,8 @@ test('a step that stays in a value has that value’s look', () => {
     assert(transfer.leastVisibleCode > codeOf(4) && transfer.leastVisibleCode <= codeOf(5.5));
 });
 
-// The sum over many thin steps is what a step from end to end must be.
-test('a step between two values shows all of them in their order', () => {
+// Compares a step from end to end with the sum of many thin steps.
+test('a step between two values shows all values between them in their order', () => {
     const stepM = 5000;
     const transfer = makeTransfer(smooth, quantization, { opacity: 1, least: -Infinity }, stepM);
     const binAt = (value: number) => Math.floor(transfer.binOffset + transfer.binSlope * codeOf(value));

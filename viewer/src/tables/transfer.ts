@@ -1,5 +1,5 @@
-// Prepares a color table for steps through a volume: the look of a step from one of its ends to the other, as
-// render/volume/transfer_function.h has it (pre-integrated, second order).
+// Prepares a color table for steps through a volume. A transfer function has the color and the optical depth of a step
+// for each pair of values at its ends, as render/volume/transfer_function.h does (pre-integrated, second order).
 
 import { firstValueCode } from '../wire/packed_grid';
 import { colorOf, extinctionPerM } from './color_table';
@@ -12,9 +12,9 @@ export interface Transfer {
     // bin = binOffset + binSlope * code; bin 0 is clear
     binOffset: number;
     binSlope: number;
-    leastVisibleCode: number; // infinite: nothing is visible
-    // Four numbers for each pair of bins (the nearer end is the row): red, green, blue (0 to 1) and optical
-    // depth of a step of the reference length.
+    leastVisibleCode: number; // Infinity if nothing is visible
+    // Four numbers for each pair of bins: red, green, blue (0 to 1) and optical depth of a step of the reference
+    // length. The row is the bin of the nearer end, and the column the bin of the farther end.
     entries: Float32Array;
 }
 
@@ -28,8 +28,9 @@ export interface Bins {
     width: number;
 }
 
-// A stop begins a bin if a whole number of bins fits between any two stops. What is below `least` is clear: the
-// bins are those of a table that begins there, as its file does (draft.ts).
+// Chooses the bins of values for a table. The smallest distance between two stops is a whole number of bins, so that
+// the stops of an evenly spaced table begin bins. With a threshold `least`, bins are chosen as for a table that begins
+// there, which a saved file does (draft.ts).
 export function chooseBins(table: ColorTable, least = -Infinity): Bins {
     const { extinction } = table;
     const all = table.stops.map((stop) => stop.from);
@@ -64,7 +65,7 @@ function looksOfBins(table: ColorTable, bins: Bins, shown: Shown, stepM: number)
     return looks;
 }
 
-// Integrates the step over `distance` bins from `from` on, in the direction of `sign`.
+// Integrates a step from the bin `from` to the bin from + sign * distance, and stores its entry.
 function putStep(
     looks: Looks,
     from: number,

@@ -15,7 +15,7 @@ import {
 
 const american = unitsOf('kft,knots,miles');
 
-test('units are named in any order, and what has no sense is left', () => {
+test('units are named in any order, and unknown names are ignored', () => {
     assert.equal(american.speed.symbol, 'kt');
     assert.equal(american.distance.symbol, 'mi');
     assert.equal(american.height.symbol, 'kft');
@@ -23,7 +23,7 @@ test('units are named in any order, and what has no sense is left', () => {
     assert.deepEqual(unitsOf(''), usualUnits);
 });
 
-test('every choice of units comes back from its names', () => {
+test('the names of each choice of units give the same choice', () => {
     for (const speed of knownUnits.speed) {
         for (const distance of knownUnits.distance) {
             for (const height of knownUnits.height)
@@ -46,13 +46,13 @@ test('heights, distances and speeds are converted', () => {
     assert.equal(valueText(-0.5, 'm/s', usualUnits), '-0.5 m/s');
 });
 
-test('what is no speed stays as it is', () => {
+test('values that are no speeds are not converted', () => {
     assert.equal(valueText(52.5, 'dBZ', american), '52.5 dBZ');
     assert.equal(valueText(0.973, '1', american, 3), '0.973');
     assert.deepEqual(shownUnit('dB', american), { symbol: 'dB', perStored: 1 });
 });
 
-test('rings lie at round numbers of the unit of distances', () => {
+test('rings are at round numbers of the chosen unit', () => {
     assert.equal(ringSpacingM(460e3, usualUnits), 200e3);
     assert.equal(ringSpacingM(230e3, usualUnits), 100e3);
     assert.equal(ringSpacingM(230e3, american) / 1609.344, 50);

@@ -1,19 +1,19 @@
-// The units in which the page writes speeds, distances and heights (render/view/units.cpp has the same table).
-// They change texts and the distances of rings, never what is drawn or stored: that is in meters and meters per
-// second everywhere. Temperatures do not occur.
+// Writes speeds, distances and heights in the units that the user chose (render/view/units.cpp has the same table).
+// Units change texts, marks of axes and the distances of rings. All data are in meters and meters per second. The page
+// has no temperatures.
 
 import { units as facts } from '../facts';
 
 export interface Unit {
     name: string; // on the command line and in addresses
     symbol: string; // on the page
-    si: number; // one of it in meters, or in meters per second
+    si: number; // length of one unit in meters, or its speed in meters per second
 }
 
 export type Quantity = keyof typeof facts;
 export type Units = Record<Quantity, Unit>;
 
-// The usual one comes first.
+// Units by quantity, the usual unit first.
 export const knownUnits: Record<Quantity, readonly [Unit, ...Unit[]]> = facts;
 export const quantities = Object.keys(knownUnits) as Quantity[];
 
@@ -23,7 +23,7 @@ export const usualUnits: Units = {
     height: knownUnits.height[0],
 };
 
-// Reads "knots,miles,kft", in any order. A quantity without a name that makes sense has its usual unit.
+// Reads names of units in any order, as "knots,miles,kft". A quantity without a known name has its usual unit.
 export function unitsOf(names: string): Units {
     const given = names.split(',');
     const chosen = (quantity: Quantity) =>
@@ -31,7 +31,7 @@ export function unitsOf(names: string): Units {
     return { speed: chosen('speed'), distance: chosen('distance'), height: chosen('height') };
 }
 
-// Names the units that are not the usual ones, as unitsOf() and `stormcellar frame --units` read them.
+// Returns the names of the units that are not usual, as unitsOf() and `stormcellar frame --units` read them.
 export function namesOf(units: Units): string {
     return quantities
         .filter((quantity) => units[quantity].name !== usualUnits[quantity].name)
@@ -39,7 +39,7 @@ export function namesOf(units: Units): string {
         .join(',');
 }
 
-// Rounds feet to hundreds, and other units to tenths.
+// Returns a length as text, rounded to hundreds of feet or to tenths of another unit.
 function rounded(meters: number, { name, si }: Unit): string {
     return name === 'feet' ? String(100 * Math.round(meters / si / 100)) : (meters / si).toFixed(1);
 }
@@ -57,24 +57,25 @@ export function distanceText(meters: number, units: Units): string {
 
 export interface ShownUnit {
     symbol: string; // empty for a number without a unit
-    perStored: number; // shown = stored * perStored
+    perStored: number; // factor from a stored value to the shown value
 }
 
-// Returns the unit to write for values that are stored in the unit of a moment: the chosen unit for speeds,
-// else the stored one.
+// Returns the unit in which to write values that are stored in the unit `stored`. This is the chosen unit for speeds,
+// and the stored unit for all others.
 export function shownUnit(stored: string, units: Units): ShownUnit {
     if (stored === usualUnits.speed.symbol) return { symbol: units.speed.symbol, perStored: 1 / units.speed.si };
     return { symbol: stored === '1' ? '' : stored, perStored: 1 };
 }
 
-// Writes a value of a moment with its unit, with as many digits as its stored form has, at most `digits`.
+// Returns a value with its unit as text. A converted value has at most one decimal, and any other at most `digits`.
 export function valueText(value: number, stored: string, units: Units, digits = 2): string {
     const { symbol, perStored } = shownUnit(stored, units);
     const number = Number((value * perStored).toFixed(perStored === 1 ? digits : 1));
     return symbol === '' ? String(number) : `${number} ${symbol}`;
 }
 
-// Returns the distance between rings, so that about three fit into `halfM`.
+// Returns the distance between rings: the least round number for which at most four rings fit into `halfM`, but not
+// more than 1000 units.
 export function ringSpacingM(halfM: number, units: Units): number {
     const wanted = (halfM / 3) * 0.7;
     const steps = [10, 25, 50, 100, 200, 500, 1000].map((number) => number * units.distance.si);

@@ -1,5 +1,5 @@
-// Finds the opacity of a moment's echo if a table does not say it, as default_extinction() of
-// render/color/built_in_tables.h does, from the tables of the server.
+// Finds the opacity for a table whose file does not state it, by the tables of the server. default_extinction() of
+// render/color/built_in_tables.h gives the same.
 
 import { colorOf } from './color_table';
 import { ColorTable, ExtinctionPoint } from '../wire/color_tables';
@@ -10,8 +10,8 @@ export interface UsualOpacity {
 
 const [lowestDbz, highestDbz] = [-32, 79];
 
-// Reflectivity has a point at each decibel from the lowest color on, and the veil of its first point
-// below; other moments have the same points in each table.
+// Returns the points for a table of reflectivity that begins at `lowest`. There is a point at each decibel from there
+// on; decibels below the server's first point get the opacity of that point.
 function reflectivityFrom(points: ExtinctionPoint[], lowest: number): ExtinctionPoint[] {
     const first = Math.floor(Math.min(highestDbz, Math.max(lowestDbz, lowest)));
     const made: ExtinctionPoint[] = [];
@@ -19,7 +19,7 @@ function reflectivityFrom(points: ExtinctionPoint[], lowest: number): Extinction
     return [...made, ...points.filter((point) => point.value >= first)];
 }
 
-// `usual` names the table of each moment whose opacity is the moment's own.
+// Returns the usual opacities. `usual` names for each moment the table that has the usual opacity of the moment.
 export function usualOpacity(tables: ColorTable[], usual: Record<string, string>): UsualOpacity {
     return {
         of(moment, lowest) {
@@ -30,7 +30,7 @@ export function usualOpacity(tables: ColorTable[], usual: Record<string, string>
     };
 }
 
-// Returns the opacity of a table that is for no moment.
+// Returns the opacity for a table that is for no moment.
 export function rising(lowest: number, end: number): ExtinctionPoint[] {
     return [
         { value: lowest, per_km: 0.02 },
@@ -38,7 +38,7 @@ export function rising(lowest: number, end: number): ExtinctionPoint[] {
     ];
 }
 
-// Multiplies by the table's alpha, so that what is transparent in the table is so in a volume, too.
+// Multiplies opacities by the alpha of the table's colors, so that transparent colors are transparent in a volume, too.
 export function fadedByAlpha(points: ExtinctionPoint[], table: ColorTable): ExtinctionPoint[] {
     const lowest = table.stops[0]!.from;
     return points.map(({ value, per_km }) => ({

@@ -1,4 +1,4 @@
-// A table of reflectivity and the moment's usual opacity, small enough to reason about.
+// Makes a small table of reflectivity, and a small usual opacity, for tests.
 
 import { ColorTable, Rgba } from '../wire/color_tables';
 import { usualOpacity } from '../tables/usual_opacity';

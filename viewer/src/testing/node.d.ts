@@ -1,4 +1,4 @@
-// Declares what the tests use of node, without its own types.
+// Declares the parts of node that the tests use, so that they do not need node's own types.
 declare module 'node:test' {
     export default function test(name: string, body: () => void | Promise<void>): void;
 }

@@ -1,4 +1,5 @@
-// Compiles and links each variant of each program with glslangValidator, as a browser does. Status 77 without it.
+// Compiles and links each variant of each program with glslangValidator, as a browser would. Exits with 77 if there is
+// no glslangValidator.
 
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -40,7 +41,7 @@ const all: programs.ShaderProgram[] = [
     ]),
 ];
 
-// Returns what is wrong with a program; nothing if it links.
+// Returns the errors of a program; an empty text if it links.
 function complaintOf(directory: string, { name, defines, vertex, fragment }: programs.ShaderProgram): string {
     const files = [join(directory, 'program.vert'), join(directory, 'program.frag')];
     [vertex, fragment].forEach((parts, i) => writeFileSync(files[i]!, programs.shaderText(parts, defines)));

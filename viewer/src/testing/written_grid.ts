@@ -1,4 +1,4 @@
-// Writes packed grids for tests as docs/web/packed-grid.md says.
+// Writes packed grids (docs/web/packed-grid.md) for tests.
 
 import { GridPlace } from '../wire/packed_grid';
 
@@ -12,7 +12,7 @@ export interface Made {
     spacing?: number;
     offsetCells?: [number, number];
     halvings?: number;
-    // 0 not seen, 1 no echo, 2 range folded, from 3 on a value
+    // Returns the code of a cell: 0 not seen, 1 no echo, 2 range folded, 3 and above a value.
     codeOf(x: number, y: number, z: number): number;
 }
 
@@ -138,14 +138,14 @@ export function evenLevels(count: number, spacingM = 500): number[] {
     return Array.from({ length: count }, (_, i) => 500 + i * spacingM);
 }
 
-// Numbers without a pattern, the same in each run.
+// Returns a pseudo-random number for a cell, the same in each run.
 export function scrambled(x: number, y: number, z: number): number {
     let bits = (x * 73856093) ^ (y * 19349663) ^ (z * 83492791);
     bits = Math.imul(bits ^ (bits >>> 13), 1274126177);
     return (bits ^ (bits >>> 16)) >>> 0;
 }
 
-// Makes a slanted band of echo with seen air about it and unseen air beyond. Its codes tell every axis apart.
+// Makes a slanted band of echo with clear air about it and unseen air beyond. Codes change along each axis.
 export function slantedGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 1, scale = 1): Uint8Array {
     const codeOf = (x: number, y: number, z: number): number => {
         const far = Math.abs(x - 2 * y + 3 * z - 10);

@@ -1,12 +1,15 @@
-// Finds the kept grids that are outdated after one was made again.
-//
-// Their keys are DOMAIN/MOMENT/TIME, and times are rising texts of ISO 8601.
+// Finds the kept grids that are outdated after the server made a grid again. Keys of grids are DOMAIN/MOMENT/TIME;
+// times are ISO 8601.
 
 import { longestBridgeMs } from './between';
 
-// Returns a test that is true for old keys: the grid of `of` (DOMAIN/MOMENT) at the time, frames between it
-// and its neighbors among `times` (without times: as far as frames are made), and regions, which are merged of
-// it. The region that is shown (`shown`) is left out, because the page knows which of its instants are new.
+// Returns a function that is true for the keys of outdated grids. The grid that was made again is of `of`
+// (DOMAIN/MOMENT) at `time`. Outdated are
+//   - the kept grid of this time;
+//   - frames between this time and its neighbors in `times`, which rise; if `times` is empty, frames within
+//     longestBridgeMs;
+//   - regions, which may be merged from this grid, except `shown` (DOMAIN/MOMENT), because the page knows which of its
+//     instants changed.
 export function outdatedBy(of: string, time: string, times: string[], shown: string): (key: string) => boolean {
     const far = (ms: number) => (times.length > 0 ? time : new Date(Date.parse(time) + ms).toISOString());
     const before = times.filter((one) => one < time).pop() ?? far(-longestBridgeMs);

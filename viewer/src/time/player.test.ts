@@ -5,13 +5,13 @@ import { advanced, at, followed, looped, nearestTime, nextOf, stepped, stopped, 
 
 const times = ['a', 'b', 'c', 'd'];
 
-test('who follows sees the newest as soon as it is there', () => {
+test('a player that follows shows the newest time as soon as it comes', () => {
     const player = withTimes(stopped, times);
     assert.equal(player.at, 3);
     assert.equal(withTimes(player, [...times, 'e']).at, 4);
 });
 
-test('who looks at a time keeps it when newer ones come and older ones go', () => {
+test('a player that does not follow keeps its time when newer times come and older times go', () => {
     const player = at(withTimes(stopped, times), 1);
     assert.equal(player.follows, false);
     const later = withTimes(player, ['b', 'c', 'd', 'e']);
@@ -19,16 +19,16 @@ test('who looks at a time keeps it when newer ones come and older ones go', () =
     assert.equal(withTimes(later, ['c', 'd']).at, 0, 'b was evicted, so the next one is shown');
 });
 
-test('without times there is none', () => assert.equal(withTimes(at(withTimes(stopped, times), 1), []).at, -1));
+test('without times, none is shown', () => assert.equal(withTimes(at(withTimes(stopped, times), 1), []).at, -1));
 
-test('playback waits for a time that is not loaded, and says for which', () => {
+test('playback waits for a time that is not loaded, and names it', () => {
     const player = { ...at(withTimes(stopped, times), 0), isPlaying: true };
     const waiting = advanced(player, () => false);
     assert.deepEqual([waiting.player.at, waiting.waitsFor], [0, 'b']);
     assert.equal(advanced(player, (time) => time === 'b').player.at, 1);
 });
 
-test('playback begins again after the last time, and a step ends it', () => {
+test('playback begins again after the last time, and a step ends playback', () => {
     const player = { ...at(withTimes(stopped, times), 3), isPlaying: true };
     assert.equal(advanced(player, () => true).player.at, 0);
     assert.equal(stepped(player, -1).isPlaying, false);
@@ -36,7 +36,7 @@ test('playback begins again after the last time, and a step ends it', () => {
     assert.equal(followed(at(player, 0)).at, 3);
 });
 
-test('playback stays in its loop, and enters it from outside', () => {
+test('playback stays in its loop, and enters the loop from outside', () => {
     const player = { ...looped(at(withTimes(stopped, times), 1), 'from'), isPlaying: true };
     const closed = { ...looped(at(player, 2), 'to'), isPlaying: true };
     assert.deepEqual(closed.loop, { from: 'b', to: 'c' });
@@ -45,7 +45,7 @@ test('playback stays in its loop, and enters it from outside', () => {
     assert.equal(nextOf(closed, 2), 2);
 });
 
-test('a loop over older times stays until they have come, and goes when they are evicted', () => {
+test('a loop over older times is kept until they have come, and is dropped when they are evicted', () => {
     const player = looped(at(looped(at(withTimes(stopped, times), 0), 'from'), 1), 'to');
     assert.deepEqual(player.loop, { from: 'a', to: 'b' });
     const another = withTimes(withTimes(player, []), times.slice(2));
@@ -53,14 +53,14 @@ test('a loop over older times stays until they have come, and goes when they are
     assert.equal(withTimes(withTimes(another, times), times.slice(2)).loop, null);
 });
 
-test('an end of a loop takes the other along, and a loop of one time does not play', () => {
+test('an end of a loop pushes the other end along, and a loop of one time does not play', () => {
     const player = looped(at(withTimes(stopped, times), 2), 'to');
     const later = looped(at(player, 3), 'from');
     assert.deepEqual(later.loop, { from: 'd', to: 'd' });
     assert.equal(nextOf(later), null);
 });
 
-test('a link to a time that is not there shows the nearest one (2026-11-28: it was the next, and was called the nearest)', () => {
+test('a link to a missing time shows the nearest (2026-11-28: it showed the next, and called it the nearest)', () => {
     const all = ['2010-09-11T01:10:00Z', '2010-09-11T01:20:00Z', '2010-09-11T01:35:00Z'];
     for (const [wanted, index] of [
         ['01:25', 1],

@@ -1,14 +1,14 @@
-// Chooses the time that is shown next. Playback never shows a time that is not loaded: it waits, and says so.
+// Chooses the time to show next. Playback never goes to a time that is not loaded; it waits, and names the time.
 
 export interface PlayerState {
     times: string[]; // rising
     at: number; // index in times; -1: none
     isPlaying: boolean;
-    follows: boolean; // the newest is shown as soon as it is there
-    loop: Loop | null; // playback stays in it; null: all times
+    follows: boolean; // a new time is shown as soon as it comes
+    loop: Loop | null; // times to which playback keeps; null: all times
 }
 
-// Both ends belong to it.
+// Times from `from` to `to`, both included.
 export interface Loop {
     from: string;
     to: string;
@@ -16,14 +16,16 @@ export interface Loop {
 
 export const stopped: PlayerState = { times: [], at: -1, isPlaying: false, follows: true, loop: null };
 
-// Takes a new list, of which the time at `newest` is followed. Keeps the time that is shown, or goes to the nearest.
+// Takes a new list of times. A player that follows goes to the index `newest`; another keeps its time, or goes to the
+// nearest if its time is not in the list.
 export function withTimes(player: PlayerState, times: string[], newest = times.length - 1): PlayerState {
     const shown = player.times[player.at];
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
     const { loop, follows } = player;
     const ofLoop = (all: string[]) =>
         loop && loop.from < loop.to ? all.filter((time) => time >= loop.from && time <= loop.to).length : 2;
-    // The newest times of another moment come before its older ones, so a loop over older times has none for a while.
+    // Drop a loop only after it had times. When the moment changes, its newest times come first, so a loop over older
+    // times has none for a while.
     const isOver = ofLoop(times) < 2 && ofLoop(player.times) >= 2;
     return {
         ...player,
@@ -33,7 +35,7 @@ export function withTimes(player: PlayerState, times: string[], newest = times.l
     };
 }
 
-// Returns the index of the time nearest to another; -1 without times.
+// Returns the index of the time nearest to `wanted`; -1 without times.
 export function nearestTime(times: string[], wanted: string): number {
     const away = (index: number) => Math.abs(Date.parse(times[index]!) - Date.parse(wanted));
     return times.reduce((best, _, i) => (best < 0 || away(i) < away(best) ? i : best), -1);
@@ -49,7 +51,8 @@ export function stepped(player: PlayerState, by: number): PlayerState {
     return { ...at(player, player.at + by), isPlaying: false };
 }
 
-// Returns the index that is played next, after the end of the loop its beginning; null for fewer than two times.
+// Returns the index that is played after `by` steps. The beginning of the loop follows its end; null if the loop has
+// fewer than two times.
 export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null {
     const first = loop ? times.findIndex((time) => time >= loop.from) : 0;
     const last = loop ? times.reduce((found, time, i) => (time <= loop.to ? i : found), -1) : times.length - 1;
@@ -59,7 +62,7 @@ export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null 
     return first + ((at - first + by) % count);
 }
 
-// Goes to the next time of a loop, or stays if that is not loaded yet.
+// Goes to the next time if playback is on and the time is loaded. If it is not loaded, `waitsFor` names it.
 export function advanced(
     player: PlayerState,
     isLoaded: (time: string) => boolean,
@@ -71,7 +74,7 @@ export function advanced(
     return { player: { ...player, at: next, follows: false }, waitsFor: null };
 }
 
-// Puts an end of the loop where the player is. An end beyond the other takes it along.
+// Moves one end of the loop to the current time. If the ends would cross, moves both there.
 export function looped(player: PlayerState, end: 'from' | 'to'): PlayerState {
     const now = player.times[player.at];
     if (now === undefined) return player;

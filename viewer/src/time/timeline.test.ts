@@ -15,7 +15,7 @@ function made(stored: string[], betweenS = 0, follows = false, believed = '23:59
     return timeline;
 }
 
-test('frames between volumes have their places, and those that there are not leave them', () => {
+test('the timeline has times of frames between volumes, and leaves out missing frames', () => {
     const timeline = made(['10:00:30', '10:03:10'], 60);
     assert.deepEqual(timeline.player.times, ['10:00:30', '10:01:00', '10:02:00', '10:03:00', '10:03:10'].map(at));
     assert.deepEqual(
@@ -29,7 +29,7 @@ test('frames between volumes have their places, and those that there are not lea
     assert.equal(timeline.player.times.length, 5, 'another moment may have them');
 });
 
-test('a volume is left out of a loop alone', () => {
+test('a volume is left out only during playback', () => {
     const timeline = made(['10:00:00', '10:05:00', '10:10:00']);
     assert.equal(timeline.leaveOut(at('10:05:00')), false);
     timeline.player = { ...stepped(timeline.player, -1), isPlaying: true };
@@ -37,7 +37,7 @@ test('a volume is left out of a loop alone', () => {
     assert.deepEqual(timeline.stored, ['10:00:00', '10:10:00'].map(at));
 });
 
-test('the volume of a link is there if it has the second that the page tells (2026-11-28: "no volume of" it)', () => {
+test('a link finds a volume by the second that the page tells (2026-11-28: the page said "no volume of" that time)', () => {
     const timeline = made(['10:00:00', '10:05:06.742']);
     assert.equal(timeline.find(at('10:05:06')), true);
     assert.equal(timeline.now, at('10:05:06.742'));
@@ -45,14 +45,14 @@ test('the volume of a link is there if it has the second that the page tells (20
     assert.equal(timeline.now, at('10:05:06.742'));
 });
 
-test('a time that is gone gives way to the nearest (2026-11-28: to the next one, which was called the nearest)', () => {
+test('the nearest time replaces an evicted time (2026-11-28: the next one did, and was called the nearest)', () => {
     const timeline = made(['10:00:00', '10:00:50', '10:05:00']);
     timeline.find(at('10:00:50'));
     timeline.take(['10:00:00', '10:05:00'].map(at));
     assert.equal(timeline.now, at('10:00:00'));
 });
 
-test('a volume of a wrong time in the future is not followed (2026-11-28: it was the newest for good)', () => {
+test('a volume with a wrong time in the future is not followed (2026-11-28: it stayed the newest forever)', () => {
     const timeline = made(['10:00:00', '10:05:00', '12:00:00'], 0, true, '10:15:00');
     assert.deepEqual([timeline.now, timeline.newest], [at('10:05:00'), at('10:05:00')]);
     timeline.player = stepped(timeline.player, 1);
@@ -64,7 +64,7 @@ test('a volume of a wrong time in the future is not followed (2026-11-28: it was
     assert.equal(made(['12:00:00'], 0, true, '10:15:00').now, at('12:00:00'), 'it is all that there is');
 });
 
-test('a loop whose ends are gone is over (2026-11-28: it stood still for good, and said that it plays)', () => {
+test('a loop without times is dropped (2026-11-28: playback stood still, and the page said that it plays)', () => {
     const timeline = made(['10:00:00', '10:05:00', '10:10:00', '10:15:00']);
     timeline.find(at('10:05:00'));
     timeline.player = { ...looped({ ...looped(timeline.player, 'to'), at: 0 }, 'from'), isPlaying: true };

@@ -1,18 +1,18 @@
-// The times of the chosen domain and moment, of stored grids and of frames between them, and the one to show.
+// Keeps the times of the chosen domain and moment, of stored grids and of frames between them, and the time to show.
 
 import { instantsBetween } from './between';
 import { PlayerState, followed, nearestTime, stopped, withTimes } from './player';
 
-export const toleratedFutureMs = 10 * 60 * 1000; // as base/utc_time.h has it
+export const toleratedFutureMs = 10 * 60 * 1000; // as in base/utc_time.h
 export const isAhead = (ageS: number): boolean => 1000 * ageS < -toleratedFutureMs;
 
 export class Timeline {
     player: PlayerState;
     stored: string[] = []; // times of the domain's grids
-    private missing = new Set<string>(); // instants between them for which there is no frame
+    private missing = new Set<string>(); // times without a grid
 
-    // `betweenS`: seconds from one frame between volumes to the next; 0: there are none. A time beyond `believedMs` is
-    // of a radar whose clock is wrong.
+    // `betweenS` returns the seconds between frames that are made between volumes, or 0 without such frames.
+    // `believedMs` returns the latest time that can be right; later times come from a radar whose clock is wrong.
     constructor(
         follows: boolean,
         private betweenS: () => number,
@@ -25,7 +25,7 @@ export class Timeline {
     get now(): string | undefined {
         return this.player.times[this.player.at];
     }
-    // Returns the time to follow: one in the future only if all are.
+    // Returns the newest time up to `believedMs`; the newest of all if every time is later.
     get newest(): string | undefined {
         return this.player.times[this.newestOf(this.player.times)];
     }
@@ -38,7 +38,7 @@ export class Timeline {
         return this.betweenS() > 0 && !this.stored.includes(time);
     }
 
-    // Forgets the times, because another domain or moment is chosen. Its times come with take().
+    // Call when another domain or moment is chosen. Its times come with take().
     forget(): void {
         this.missing.clear();
         this.player = { ...this.player, times: [], at: -1 };
@@ -52,14 +52,14 @@ export class Timeline {
     follow(): void {
         this.player = followed(this.player, this.newestOf(this.player.times));
     }
-    // Goes to the time nearest to the wanted one. Returns false if that is in another second.
+    // Goes to the time nearest to `wanted`. Returns false if that time is in another second.
     find(wanted: string): boolean {
         this.player = { ...this.player, at: nearestTime(this.player.times, wanted) };
         const second = (time: string) => Math.floor(Date.parse(time) / 1000);
         return this.now === undefined || second(this.now) === second(wanted);
     }
-    // Leaves out a time without a grid: a frame near an end or in a gap, or an evicted grid of a loop. Returns false if
-    // the time stays.
+    // Leaves out a time whose grid does not exist: a frame between volumes, or during playback an evicted grid. Returns
+    // false if the time stays.
     leaveOut(time: string): boolean {
         const isBetween = this.isBetween(time);
         if (!isBetween && !this.player.isPlaying) return false;

@@ -1,6 +1,6 @@
 // Asks the data server (docs/web/grids.md).
 //
-// Errors: an ApiError with the status and the server's own sentence.
+// Errors: an ApiError with status and text if the server refuses, and a TypeError if it does not answer.
 
 import { ColorTable } from './color_tables';
 import { isRegion, sidesOf } from './region';
@@ -16,7 +16,7 @@ export class ApiError extends Error {
     }
 }
 
-// Returns true if the server answered that it has no such thing.
+// Returns true if the server answered that it does not have what was asked for (404 or 410).
 export const isAbsent = (error: unknown): boolean =>
     error instanceof ApiError && (error.status === 404 || error.status === 410);
 
@@ -25,7 +25,7 @@ export interface MomentOfDomain {
     units: string;
     grids: number;
     newest: string;
-    age_s: number; // of the newest
+    age_s: number; // of the newest grid
 }
 export interface Domain {
     domain: string;
@@ -38,18 +38,18 @@ export interface Newest {
 }
 export interface Station {
     station: string;
-    name?: string; // what is not known of it is left out
+    name?: string; // unknown members are left out
     state?: string;
     latitude_deg?: number;
     longitude_deg?: number;
-    newest_volume?: Newest | null; // left out: it cannot be read now
+    newest_volume?: Newest | null; // left out if the server cannot read it now
     newest_grid: Newest | null;
     moments: string[];
-    silent_s?: number | null; // for how long nothing came; null: it is not silent
+    silent_s?: number | null; // seconds since data came from a silent station; null: it is not silent
 }
-// Facts of a grid, as far as the page uses them.
+// The facts of a grid that the page uses.
 export interface GridFacts {
-    id: string; // another one if it is made again
+    id: string; // changes if the grid is made again
     time: string;
     projection: string;
     center: [number, number];
@@ -68,14 +68,14 @@ export interface GridFacts {
     };
     audit: { unit: string; summary: string; rows: AuditRow[] } | null;
 }
-// Start of a sweep of the grid, and how fast it turned.
+// A sweep of the grid's volume: when and where it began, and how fast the antenna turned.
 export interface SweepTime {
     elevation_deg: number;
     start: string;
     first_azimuth_deg: number;
     degrees_per_s: number;
 }
-// Difference between the grid's values and the gates of a sweep, between two ranges.
+// Difference between the grid's values and the gates of a sweep in an interval of range.
 export interface AuditRow {
     elevation_deg: number;
     range_from_m: number;
@@ -109,22 +109,21 @@ export interface MapAnswer {
     cities: City[];
 }
 
-// The page lies at BASE/view/.
+// The page is at BASE/view/.
 const base = new URL('..', document.baseURI);
 export const address = (path: string): string => new URL(path.replace(/^\//, ''), base).href;
 
-// Greatest width of a map: all around the earth, but for what sides lose when they are rounded.
+// Greatest width of a map. It is a little less than 360, because sides are rounded.
 const mostWideDeg = 359.99;
 
-// The status of a server that computes as much as it may. The page then asks again.
-const busy = 503;
+const busy = 503; // status of a server that is busy with other requests; the page then asks again
 const mostTries = 10;
 
-// Returns the server's time in ms since 1970; NaN if it does not say.
+// Returns the time of the server in ms since 1970; NaN if the answer has no date.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
-// A proxy in front of a server that is gone, or that wants a password, answers for it. The server sends no
-// page for these requests, and its own refusals have this header.
+// Header of the server's own refusals. A proxy answers without it if the server is gone or the proxy wants a password;
+// the page then acts as if there was no answer. Answers in HTML are also from a proxy.
 const ownRefusal = 'Stormcellar-Status';
 
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
@@ -150,8 +149,8 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return (await told<{ stations: Station[] }>('api/v1/stations')).stations;
 }
-// Returns the silent stations, each with the seconds since something came from it (undefined: the server
-// cannot say), and the time of the server.
+// Returns the silent stations, each with the seconds since data came from it, and the time of the server. Includes the
+// stations of which the server does not know whether they are silent, with undefined instead of seconds.
 export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
@@ -169,24 +168,24 @@ export async function region(domain: string): Promise<Region> {
     const found = await told<Omit<Region, 'part_of'>>(`api/v1/regions?${query}`);
     return { ...found, domain, part_of: null };
 }
-// Volumes that a site of a region is made of at an instant, and how far their middles are from it.
+// The volumes of a site that are in a grid of a region, and the seconds from the grid's instant to their middles.
 export interface RegionSite {
     site: string;
     volumes: { time: string; middle_s: number }[];
 }
 export interface RegionSites {
     sites: RegionSite[];
-    left_out_because: Record<string, string>; // of each site that is not in the picture
+    left_out_because: Record<string, string>; // reason for each site that is not in the picture
 }
 export function regionSites(domain: string, moment: string, time: string): Promise<RegionSites> {
     return told(`${gridPath(domain, moment, time)}/sites`);
 }
 export interface Times {
     times: string[]; // rising
-    more: boolean; // there are older ones
+    more: boolean; // the server has older times
 }
-// Returns the newest times of a domain's grids until `to`, inclusive: at most `limit`, up to 10,000, but all of a
-// region.
+// Returns the times of a domain's grids up to `to`, inclusive. If there are more than `limit` (at most 10,000), returns
+// the newest. For a region, returns all times.
 export async function times(domain: string, moment: string, limit: number, to?: string): Promise<Times> {
     if (isRegion(domain)) {
         const found = (await region(domain)).moments.find((one) => one.moment === moment);
@@ -203,7 +202,7 @@ export const gridPath = (domain: string, moment: string, time: string): string =
         : `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
 export const rawPath = (station: string, name: string): string =>
     address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
-// `query`: the parameters of docs/web/packed-grid.md.
+// Returns a packed grid, or a part of one. docs/web/packed-grid.md describes the parameters in `query`.
 export function packed(
     domain: string,
     moment: string,
@@ -211,18 +210,19 @@ export function packed(
     query: Record<string, string>,
     signal?: AbortSignal,
 ): Promise<ArrayBuffer> {
-    // A grid without its id may have been made again, and the bricks of two grids do not fit together.
+    // Without an id, check with the server that a cached answer is still right, because the grid may have been made
+    // again and bricks of two grids do not fit together.
     const options: RequestInit = { ...(query['id'] === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
     return bytesOf(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options);
 }
-// Returns a whole grid that is made on request: for an instant between volumes, or of a region.
+// Returns a whole grid that the server makes on request, for a region or for an instant between volumes.
 export function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
     const path = isRegion(domain)
         ? `${gridPath(domain, moment, time)}/packed`
         : `api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
     return bytesOf(path);
 }
-// Opens the stream of events after the one of this id; empty: from now on. Errors: those of fetch().
+// Opens the stream of events after the event `id`, or of new events if `id` is empty. Errors are as in fetch().
 export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
     const query = id === '' ? '' : `?last_event_id=${encodeURIComponent(id)}`;
     return fetch(address(`api/v1/events${query}`), {
@@ -233,12 +233,12 @@ export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
 }
 export interface Tables {
     tables: ColorTable[];
-    usual: Record<string, string>; // of a moment
+    usual: Record<string, string>; // name of the usual table of each moment
 }
 export function tables(): Promise<Tables> {
     return told('api/v1/tables');
 }
-// East may be beyond 180, and the answer's longitudes go on there, too.
+// Returns the lines and cities in a box. `east` may be above 180, and then the longitudes of the answer are, too.
 export function map(
     { west, south, east, north }: { west: number; south: number; east: number; north: number },
     detail: number,
@@ -257,21 +257,22 @@ export interface SweepRow {
     sweep: number; // from 0
     elevation_deg: number;
     start?: string;
-    moments: { moment: string; chosen?: boolean }[]; // chosen: `stormcellar frame` takes it of its elevation
+    moments: { moment: string; chosen?: boolean }[]; // chosen: `stormcellar frame` draws this cut of its elevation
 }
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
 
 export interface RawVolume {
     time: string | null;
-    raw: string | null; // the name under which its file is given; null: it is not
-    number_in_file: number; // of the volume in it
+    raw: string | null; // name of the raw file at the server; null: the server does not offer it
+    number_in_file: number; // number of the volume in the file
 }
-// Returns true if the file is there, or may be.
+// Returns false if the server answers that it does not have the file.
 export async function hasRaw(station: string, name: string): Promise<boolean> {
     const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
     return status !== 404 && status !== 410;
 }
-// Returns the newest volume of a station that began at a time or before. It may have come in several files.
+// Returns the newest volume of a station that began at a time or before; null if there is none. If the volume has
+// several files, returns the last file that the server offers, if any.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
     const { volumes } = await told<{ volumes: RawVolume[] }>(
         `${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=8`,
@@ -281,8 +282,8 @@ export async function rawBefore(station: string, time: string): Promise<RawVolum
         ? newest
         : (volumes.filter((one) => one.time === newest?.time && one.raw).pop() ?? newest ?? null);
 }
-const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
-// Returns the volume that began at a time; null if the server does not give its file.
+const sameVolumeMs = 15_000; // the times of a volume's header and of its first radial differ a little
+// Returns the volume that began at a time; null if the server has no such volume, or does not offer its file.
 export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
     return volume?.time && volume.raw && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs

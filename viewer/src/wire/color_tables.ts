@@ -1,4 +1,4 @@
-// Color tables as the server gives them (/api/v1/tables).
+// Declares color tables as in answers of the server (/api/v1/tables).
 
 export type Rgba = [number, number, number, number];
 

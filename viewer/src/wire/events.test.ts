@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { EventText } from './events';
 
-test('events come in pieces, between heartbeats', () => {
+test('events are read from pieces of text with heartbeats between them', () => {
     const all = 'retry: 3000\nid: 5f-0\n\nid: 5f-1\nevent: mosaic\ndata: {"a": "b: c"}\n\n: heartbeat\nid: 5f-9\n\n';
     const whole = [
         { kind: '', id: '5f-0', data: '' },

@@ -1,9 +1,9 @@
-// The stream of events (docs/web/events.md), read by hand: an EventSource tells neither of heartbeats nor why it was
-// refused.
+// Parses the stream of events (docs/web/events.md). The page does not use an EventSource, which reports neither
+// heartbeats nor the reason of a refusal.
 
 export interface ServerEvent {
-    kind: string; // empty: a heartbeat, or the opening
-    id: string; // empty: none
+    kind: string; // empty for a heartbeat, and for the opening of the stream
+    id: string; // empty without an id
     data: string;
 }
 
@@ -18,7 +18,7 @@ function eventOf(frame: string): ServerEvent {
     return event;
 }
 
-// Makes events of text that comes in pieces.
+// Makes events of text that comes in pieces, and keeps the beginning of an event until the rest comes.
 export class EventText {
     private rest = '';
 

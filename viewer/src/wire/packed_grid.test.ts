@@ -4,7 +4,7 @@ import test from 'node:test';
 import { PackedError, codeAt, readPackedGrid, readPlace, valueOf } from './packed_grid';
 import { Made, evenLevels, packedGrid, scrambled } from '../testing/written_grid';
 
-// Bricks of each kind: values, mixed states, one state; edges that are no whole brick.
+// A grid with bricks of each kind (values, mixed states, one state), and with incomplete bricks at its edges.
 const mixed: Made = {
     nx: 49,
     ny: 21,
@@ -16,7 +16,7 @@ const mixed: Made = {
     },
 };
 
-test('every cell comes back, in bricks of each kind', () => {
+test('every cell is read right, in bricks of each kind', () => {
     for (const codeBytes of [1, 2] as const) {
         const grid = readPackedGrid(packedGrid({ ...mixed, codeBytes }));
         assert.deepEqual([...new Set(grid.kind)].sort(), [0, 1, 2]);
@@ -27,12 +27,12 @@ test('every cell comes back, in bricks of each kind', () => {
     }
 });
 
-test('codes of two bytes reach beyond 255', () => {
+test('codes of two bytes may be above 255', () => {
     const grid = readPackedGrid(packedGrid({ ...mixed, codeBytes: 2, codeOf: (x) => 300 + x }));
     assert.equal(codeAt(grid, 48, 3, 3), 348);
 });
 
-test('the header says what and where the grid is', () => {
+test('the header has moment, time and place of the grid', () => {
     const grid = readPackedGrid(packedGrid(mixed));
     assert.equal(grid.id, 'abc0123456789def');
     assert.deepEqual([grid.nx, grid.ny, grid.nz], [49, 21, 18]);
@@ -43,7 +43,7 @@ test('the header says what and where the grid is', () => {
     assert.deepEqual([...grid.levelsM], evenLevels(18));
 });
 
-test('where a grid is stands in its header, before it is decoded', () => {
+test('the place of a grid is read from its header alone', () => {
     const bytes = packedGrid({ ...mixed, spacing: 500 });
     const place = readPlace(bytes);
     assert.deepEqual(place, {
@@ -59,7 +59,7 @@ test('where a grid is stands in its header, before it is decoded', () => {
     for (const [name, value] of Object.entries(place)) assert.deepEqual(grid[name], value, name);
 });
 
-test('a form that is cut or is something else is refused, wherever it is cut', () => {
+test('bytes that are cut anywhere, or are no packed grid, are refused', () => {
     const whole = packedGrid(mixed);
     for (const size of [0, 8, 255, 256, 300, 800, whole.length - 1])
         assert.throws(() => readPackedGrid(whole.slice(0, size)), PackedError, String(size));
@@ -71,10 +71,10 @@ test('a form that is cut or is something else is refused, wherever it is cut', (
 test('a header or a table that contradicts the rest is refused', () => {
     const tableAt = Number(new DataView(packedGrid(mixed).buffer).getBigUint64(224, true));
     for (const [at, value, error] of [
-        [tableAt + 8, 1e6, PackedError], // the first brick has values, and names a block that is not there
-        [tableAt, 3, /unknown kind/], // of the first brick
-        [196, 0, PackedError], // blocks of codes
-        [204, 7, PackedError], // rows
+        [tableAt + 8, 1e6, PackedError], // the block of the first brick does not exist
+        [tableAt, 3, /unknown kind/], // kind of the first brick
+        [196, 0, PackedError], // number of blocks of codes
+        [204, 7, PackedError], // number of rows
     ] as const) {
         const bytes = packedGrid(mixed);
         new DataView(bytes.buffer).setUint32(at, value, true);

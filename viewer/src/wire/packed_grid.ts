@@ -1,7 +1,7 @@
 // Reads the packed form of a grid (docs/web/packed-grid.md).
 //
 // Units: meters and degrees; heights are above mean sea level.
-// Errors: a PackedError for bytes that are no packed grid or are cut.
+// Errors: a PackedError if the bytes are cut or are no packed grid.
 
 export class PackedError extends Error {}
 
@@ -26,13 +26,13 @@ export interface Site {
     icao: string;
 }
 
-// Places of the columns of a grid on the earth.
+// Describes where the columns of a grid are on the earth.
 export interface GridPlace {
     projection: number;
     nx: number;
     ny: number;
     centerDeg: [number, number]; // latitude, longitude
-    spacing: number; // meters, or degrees of a grid in latitude and longitude
+    spacing: number; // in meters, or in degrees for a grid in latitude and longitude
     parallelsDeg: [number, number];
     offsetCells: [number, number];
 }
@@ -61,8 +61,8 @@ export interface PackedGrid extends GridPlace {
     leastCode: Uint16Array;
     greatestCode: Uint16Array;
     block: Uint32Array;
-    states: Uint8Array; // of all blocks of states, four cells a byte
-    codes: Uint8Array | Uint16Array; // of all blocks of codes
+    states: Uint8Array; // all blocks of states, four cells in a byte
+    codes: Uint8Array | Uint16Array; // all blocks of codes
 }
 
 const magic = [0x89, 0x53, 0x43, 0x50, 0x0d, 0x0a, 0x1a, 0x0a];
@@ -103,9 +103,9 @@ export interface PackedBricks {
     halvings: number;
     first: number;
     end: number;
-    firstStates: number; // number of the first block of states among all of the grid
+    firstStates: number; // number of the first block of states, among all blocks of states of the grid
     states: Uint8Array;
-    firstBlock: number; // the same of codes
+    firstBlock: number; // number of the first block of codes, among all blocks of codes of the grid
     codes: Uint8Array | Uint16Array;
 }
 
@@ -115,12 +115,12 @@ export const enum Part {
     bricks = 2,
 }
 
-// The numbers of the header, by their offsets.
+// Reads numbers and sections by the offsets of docs/web/packed-grid.md.
 class Header {
     private view: DataView;
     readonly part: Part;
     readonly codeBytes: number;
-    readonly cells: number; // of a brick
+    readonly cells: number; // number of cells in a brick
 
     constructor(private bytes: Uint8Array) {
         need(isMagic(bytes), 'this is no packed grid');
@@ -164,7 +164,7 @@ class Header {
             offsetCells: [this.f64(88), this.f64(96)],
         };
     }
-    // Returns the section of the blocks of states or of codes, whose offset is at `offsetAt`.
+    // Returns a section of `size` bytes. The header has the offset of the section at `offsetAt`.
     section(offsetAt: number, size: number): Uint8Array {
         if (size === 0) return new Uint8Array(0);
         const from = this.big(offsetAt);
@@ -173,7 +173,7 @@ class Header {
     }
     codes(count = this.u32(196) * this.cells): Uint8Array | Uint16Array {
         const section = this.section(240, count * this.codeBytes);
-        // A copy is aligned, and does not hold the rest of the answer in memory.
+        // Copy the section, so that it is aligned and the rest of the answer can be freed.
         const own = section.slice();
         return this.codeBytes === 1 ? own : new Uint16Array(own.buffer);
     }
@@ -196,12 +196,12 @@ function readTable(header: Header, grid: PackedGrid): void {
     }
 }
 
-// Reads the place of a grid from the header, before the rest is read.
+// Reads the place of a grid, which is in the header.
 export function readPlace(bytes: Uint8Array): GridPlace {
     return new Header(bytes).place;
 }
 
-// Reads a whole grid, or the table of one, which has no states and codes.
+// Reads a whole grid, or the table of a grid without states and codes.
 export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole: boolean } {
     const header = new Header(bytes);
     need(header.part !== Part.bricks, 'a part of a packed grid is no grid');
@@ -252,8 +252,8 @@ export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole:
     return { grid, isWhole };
 }
 
-// Puts the codes of values alone into the cells that have them, by the states of these. Each code is stored
-// as its difference from the one before it.
+// Decodes the form that has codes only for cells with values. The states of all cells tell which cells these are. Each
+// code is stored as its difference from the code before.
 function spreadValues(header: Header, grid: PackedGrid): void {
     const { cells } = header;
     const states = header.section(232, (header.u32(188) * cells) / 4);
@@ -316,7 +316,7 @@ export function readPackedBricks(bytes: Uint8Array): PackedBricks {
     };
 }
 
-// Returns the grid of a table with the cells of some bricks. Its other bricks must not be read.
+// Adds the cells of some bricks to the table of a grid. Only these bricks of the result may be read.
 export function withBricks(grid: PackedGrid, bricks: PackedBricks): PackedGrid {
     const block = grid.block.slice();
     for (let i = bricks.first; i < bricks.end; ++i)
@@ -324,7 +324,7 @@ export function withBricks(grid: PackedGrid, bricks: PackedBricks): PackedGrid {
     return { ...grid, block, states: bricks.states, codes: bricks.codes };
 }
 
-// Returns the code of a cell: 0 not seen, 1 no echo, 2 range folded, from 3 on a value.
+// Returns the code of a cell: 0 not seen, 1 no echo, 2 range folded, 3 and above a value.
 export function codeAt(grid: PackedGrid, x: number, y: number, z: number): number {
     const edge = grid.brickEdge;
     const brick =

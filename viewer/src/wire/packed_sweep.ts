@@ -1,7 +1,7 @@
 // Reads the packed form of a sweep's gates (docs/web/packed-grid.md).
 //
 // Units: meters and degrees; heights are above mean sea level.
-// Errors: a PackedError for bytes that are no packed sweep or are cut.
+// Errors: a PackedError if the bytes are cut or are no packed sweep.
 
 import { PackedError } from './packed_grid';
 
@@ -16,7 +16,7 @@ export interface PackedSweep {
     firstValueCode: number;
     scale: number; // value = (code - offset) / scale
     offset: number;
-    gateStride: number; // codes of a radial
+    gateStride: number; // number of codes for each radial
     azimuthsDeg: Float32Array; // of the radials
     elevationsDeg: Float32Array;
     gateCounts: Uint32Array;

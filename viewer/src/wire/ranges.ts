@@ -2,12 +2,12 @@
 
 export interface BrickRange {
     first: number;
-    end: number; // behind the last
+    end: number; // one behind the last brick
 }
 
-// Returns the ranges of columns of `layers` bricks each. One range has columns that follow each other or that have
-// little between them: by the bytes of a column, `weightOf`, it skips at most `mostSkipped` in a row and holds at most
-// `most`.
+// Returns ranges of bricks that hold the columns, each of `layers` bricks. Columns share a range if the columns between
+// them have at most `mostSkipped` bytes, and the range has at most `most` bytes. `weightOf` returns the bytes of a
+// column.
 export function rangesOf(
     columns: readonly number[],
     layers: number,
@@ -40,5 +40,4 @@ export function rangesOf(
     }
     return ranges;
 }
-// The server refuses more.
-const mostBricks = 16384;
+const mostBricks = 16384; // the server refuses longer ranges

@@ -1,9 +1,10 @@
-// The names of regions: "region:west,south,east,north", in degrees.
+// Reads and writes names of regions: "region:west,south,east,north", in degrees.
 
 const side = String.raw`-?\d{1,3}(\.\d+)?`;
 const pattern = new RegExp(`^region:(${side},){3}${side}$`);
 
-// Returns true for exactly four numbers, because the name goes into requests and commands as it is.
+// Returns true for a name with exactly four numbers. Other text must not pass, because names go into requests and
+// commands unchanged.
 export const isRegion = (domain: string): boolean => pattern.test(domain);
 
 export function regionName({
@@ -20,7 +21,7 @@ export function regionName({
     return `region:${[west, south, east, north].map((degrees) => Number(degrees.toFixed(3))).join(',')}`;
 }
 
-// Returns the four numbers of a name, as the server takes them.
+// Returns the text after "region:", which has the four numbers separated by commas.
 export function sidesOf(domain: string): string {
     return domain.replace(/^region:/, '');
 }

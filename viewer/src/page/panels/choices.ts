@@ -1,4 +1,4 @@
-// The head of the page: domain, moments, and what is shown.
+// Fills the head of the page: domain, moments, title and messages.
 
 import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
@@ -23,7 +23,7 @@ function putChoices(app: App): void {
     putMoment(app);
 }
 
-// Lights the button of the moment that is drawn, and marks a chosen moment as busy until it comes.
+// Highlights the button of the drawn moment, and marks the button of a chosen moment as busy until the moment is drawn.
 function putMoment({ state, shown, domain }: App): void {
     const drawn = shown?.domain === state.domain ? shown.moment : '';
     for (const { moment } of domain?.moments ?? []) {
@@ -32,9 +32,9 @@ function putMoment({ state, shown, domain }: App): void {
     }
 }
 
-const newsS = 48 * 3600; // older data are an archive, whose date says enough
+const newsS = 48 * 3600; // older data have no age in the title, because their date is enough
 const liveS = 30 * 60; // no radar takes so long from one volume to the next
-const againAfterMs = 20_000; // ages grow
+const againAfterMs = 20_000; // between updates of ages
 
 function putTitle(app: App): void {
     const { shown } = app;
@@ -48,13 +48,13 @@ function putTitle(app: App): void {
         .replace(/\.\d+Z/, ' UTC');
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
     const notes = [grid.isPartial ? texts.partial : '', shown.isBetween ? texts.isBetween : ''];
-    // A saved picture has no age.
+    // Put the age into a span of its own, which a saved picture leaves out.
     const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '');
     element('title').replaceChildren([names, time, ...notes.filter((note) => note !== '')].join('  '), age);
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 
-// Tells troubles of the server, of radars and of the request until they are over.
+// Shows problems of the server, of radars and of the request until they are over.
 function putNotice(app: App): void {
     const sites = app.shown?.loaded.grid.sites.map((site) => site.icao) ?? [];
     const silent = sites.flatMap((site) => {
@@ -79,7 +79,7 @@ function putNotice(app: App): void {
     element('follow').textContent = isLive ? texts.live : texts.latest;
 }
 
-// Tells when each site of a region was seen, and why others are not in the picture.
+// Shows when each site of a region was seen, and why other sites are not in the picture.
 function putSites(app: App, { sites }: FactsOfShown): void {
     const box = element('sites-told');
     const { shown } = app;

@@ -8,7 +8,7 @@ import { App } from '../app';
 import { ExportedFile, TableEditing } from '../table_editing';
 import { editorTexts } from '../texts';
 
-// Returns the draft of a file, and a sentence for the user. Errors: a TableError.
+// Returns the draft of a file, and a sentence for the user. Throws a TableError for a bad file.
 export function draftFrom({ state, book }: App, text: string, fileName: string): { draft: Draft; said: string } {
     const ending = /\.(pal|toml)$/i.exec(fileName)?.[1]?.toLowerCase();
     if (!ending || !book) throw new TableError(editorTexts.otherEnding(fileName));
@@ -31,7 +31,7 @@ export function draftFrom({ state, book }: App, text: string, fileName: string):
     };
 }
 
-// Returns the table as it is shown, without what is hidden, as far as a .pal can hold it.
+// Returns a .pal file with the shown table, without values below the threshold, as far as a .pal file can express it.
 export function palOf({ state, book }: App, { draft }: TableEditing): ExportedFile | undefined {
     if (!draft || !book) return undefined;
     const { table, isWhole } = tableForPal(draft, book.usual, state.least);

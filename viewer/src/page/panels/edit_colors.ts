@@ -1,4 +1,4 @@
-// The button and the key that open the editor of colors. The first press loads it.
+// Adds the button and the key that open the editor of colors. The first press loads the editor.
 
 import { address } from '../../wire/api';
 import { App } from '../app';

@@ -1,5 +1,5 @@
-// The editor of colors and opacity: presets, points, threshold, undo and redo, files. It is a program of its own, which
-// is loaded when it is first opened (edit_colors.ts); while it is closed it costs nothing.
+// Shows the editor of colors and opacity: presets, points, threshold, undo and redo, files. The editor is a script of
+// its own, which the page loads when the user first opens it (edit_colors.ts).
 
 import { Draft, OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
 import {
@@ -54,7 +54,7 @@ export class Editor {
     begin(keys: Keys): void {
         keys.add('Escape', () => this.close());
         this.app.on(['view', 'shown', 'choices', 'units'], () => this.put());
-        // One panel is open at a time.
+        // Close when another panel opens, because only one is open at a time.
         for (const other of otherPanels) element(other.opener).addEventListener('click', () => this.close(false));
         window.addEventListener('resize', () => this.put());
     }
@@ -175,7 +175,7 @@ export class Editor {
         const { draft } = this.editing;
         const { table, book } = this.app;
         if (!draft || !table || !book) return [];
-        // A table of another moment: its opacity is not the usual one, and becomes points.
+        // Make points of the table's opacity. Without its moment, the opacity does not count as the usual one.
         return draft.opacity ?? draftOf({ ...table, moment: '' }, draft.moment, book.usual).opacity ?? [];
     }
     private valueOfSelected(): number {
@@ -270,7 +270,7 @@ export class Editor {
         this.say(isWhole ? words.saved(name) : words.savedInPart(name), !isWhole);
     }
 
-    // -- what is shown
+    // -- state of the panel
 
     private put(): void {
         const { app, editing } = this;

@@ -1,5 +1,5 @@
-// The plot of the editor: a histogram of the values, their opacity and color, and handles for the points of color and
-// of opacity and for the threshold.
+// Draws the plot of the editor: a histogram of the values, their opacity and color, and handles for the points of
+// color, for the points of opacity, and for the threshold.
 
 import { shades } from '../../renderer/shades';
 import { colorOf, extinctionPerM } from '../../tables/color_table';
@@ -17,9 +17,9 @@ export interface Selection {
 }
 export interface PlotContent {
     draft: Draft;
-    opacity: OpacityPoint[]; // the draft's, or what the usual ones would become
-    table: ColorTable; // that is drawn
-    least: number; // the start of the axis: nothing is hidden
+    opacity: OpacityPoint[]; // points of the draft, or points made of the usual opacity
+    table: ColorTable; // table of the picture
+    least: number; // threshold; at the start of the axis it hides nothing
     histogram: Uint32Array | null;
     unit: ShownUnit;
     selected: Selection;
@@ -37,7 +37,7 @@ export interface PlotActions {
 const [left, right, top, below] = [34, 8, 16, 44];
 const stripHeight = 16;
 const farthestClick = 4;
-// The axis of opacity is logarithmic; what is below its start is clear.
+// Ends of the axis of opacity, which is logarithmic. Lower opacities are clear.
 const [leastPerKm, mostPerKm] = [0.0005, 30];
 
 export class EditorPlot {
@@ -45,9 +45,9 @@ export class EditorPlot {
     private canvas = make('canvas', { 'aria-hidden': 'true' });
     private handles: Record<Kind, HTMLElement[]> = { color: [], opacity: [], least: [] };
     private groups: Record<Kind, HTMLElement>;
-    private content!: PlotContent; // show() comes before all that reads it
+    private content!: PlotContent; // set by show(), which the editor calls first
     private drags = 0;
-    private scale = 1; // pixels of the page in one of the plot
+    private scale = 1; // pixels of the page in a pixel of the plot
 
     constructor(private actions: PlotActions) {
         this.canvas.addEventListener('pointerup', (event) => this.addAt(event));
@@ -97,7 +97,7 @@ export class EditorPlot {
         return share <= 0 ? 0 : leastPerKm * (mostPerKm / leastPerKm) ** Math.min(1, share);
     }
 
-    // -- what is shown
+    // -- drawing
 
     show(content: PlotContent): void {
         this.content = content;
@@ -192,7 +192,7 @@ export class EditorPlot {
 
     // -- handles
 
-    // Tab reaches only the selected handle of a group; the Page keys go to the others.
+    // Makes the handles of a group. Tab reaches one handle of each group, and Page keys go to the others.
     private putHandles(kind: Kind, count: number): void {
         const handles = this.handles[kind];
         while (handles.length > count) handles.pop()!.remove();
@@ -289,7 +289,7 @@ export class EditorPlot {
         if (sideways !== undefined) {
             this.actions.move(selection, value + sideways, perKm, doing);
         } else if (upward !== undefined && perKm !== null) {
-            // A step up from nothing reaches the start of the axis.
+            // From 0, count a step up from the start of the axis.
             const next = Math.max(perKm, leastPerKm) * (event.shiftKey ? 2 : 1.1) ** upward;
             this.actions.move(selection, value, next < leastPerKm ? 0 : next, doing);
         } else if (upward !== undefined) {
@@ -307,7 +307,8 @@ export class EditorPlot {
         event.stopPropagation();
     }
 
-    // Returns the value half way between a point and the next one; the last point takes the one before it.
+    // Returns the value half way between a point and the next point. For the last point, returns the value half way to
+    // the point before, or to the end of the axis if there is only one point.
     middleAfter(kind: 'color' | 'opacity', at: number): number {
         const points: { value: number }[] = kind === 'color' ? this.content.draft.colors : this.content.opacity;
         const first = Math.max(0, Math.min(at, points.length - 2));

@@ -1,4 +1,4 @@
-// Shows beside the pointer what is under it: value, height, beam, time and stated error.
+// Shows beside the pointer what is under the pointer: value, height, beam, time and stated error.
 
 import { beamReading, beamWidthM, nearestTo } from '../../fields/beam_reading';
 import { GateHit } from '../../scene/solid_hits';
@@ -13,8 +13,8 @@ import { Picked, pick } from '../picked';
 import { texts } from '../texts';
 
 const restsAfterMs = 120;
-const mostDigits = 6; // of a value that is stored
-const mixedDigits = 1; // of one between others
+const mostDigits = 6; // decimals of a stored value
+const mixedDigits = 1; // decimals of a value that is mixed from several cells
 
 export class Hover {
     private timer = 0;
@@ -28,14 +28,14 @@ export class Hover {
 
     begin(): void {
         this.app.on(['choices', 'camera', 'map'], () => this.hide());
-        // Each new picture is read again, because the box tells what is drawn, not what will be.
+        // Read each new picture, so that the box tells what is drawn.
         this.drawing.pictureChanged.push(() => this.timer === 0 && this.put());
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
         this.drawing.picture.addEventListener('pointerdown', () => this.hide());
         window.addEventListener('resize', () => this.hide());
     }
 
-    // The pointer rests over a pixel of the picture.
+    // Call when the pointer moves over the picture. Shows the box once the pointer rests.
     over(x: number, y: number): void {
         this.hide();
         this.at = [x, y];
@@ -66,14 +66,14 @@ export class Hover {
         box.style.top = `${Math.max(4, y + 14 + height < window.innerHeight ? y + 14 : y - 14 - height)}px`;
     }
 
-    // Calls `again` once the server has told the beam, the time and the error.
+    // Calls `again` once the facts for beam, time and error have come; not at all if they are here or fail.
     whenTold(again: () => void): void {
         const isRegional = isRegion(this.app.shown?.domain ?? '');
         if (isRegional ? this.facts.sites : this.facts.known) return;
         (isRegional ? this.facts.askSites() : this.facts.ask()).then(again, () => undefined);
     }
 
-    // Returns what is told of a place: its value, from which layer, which beam saw it and when, and the stated error.
+    // Returns the lines about a place: value, layer, beam, time and stated error.
     lines(picked: Picked): string[] {
         const { app } = this;
         const { units } = app.state;
@@ -94,9 +94,9 @@ export class Hover {
                   )
                 : [texts.notSeen, texts.noEcho, texts.rangeFolded][state ?? 0]!;
         if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
-        // Air that is range folded all along the ray has no one height.
+        // Tell no height of range folded air, which is all along the ray.
         if (layer === 'volume' && state !== CellState.value) return [told, ...from];
-        // A maximum of halved cells, or of none with a value, has no one height either.
+        // Tell the height of a column maximum only if it has a value and its cells are not halved.
         const isAtOne = layer !== 'maximum' || (picked.halvings === 0 && state === CellState.value);
         const lines = [isAtOne ? words.value(told, heightText(heightM, units)) : told];
         if (layer !== 'volume' && layer !== 'sweep') lines.push(words.layers[layer]);
@@ -105,7 +105,7 @@ export class Hover {
         return [...lines, ...(isAtOne && state === CellState.value ? this.beamLines(picked, from) : from)];
     }
 
-    // Tells no age, because what is read may stay on the page.
+    // Returns the time of day. Tells no age, because the text may stay on the page.
     private when(timeMs: number): string {
         return texts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
     }
@@ -122,7 +122,8 @@ export class Hover {
         return state === CellState.notSeen ? [beam] : [beam, this.when(timeMs)];
     }
 
-    // If the grid does not name its sweeps, maybe no beam had this elevation, so tells only the way `from` the site.
+    // Returns the lines about the beam. If the facts list no sweeps, no beam may have had this elevation, so the lines
+    // have only `from`, the way from the site.
     private beamLines(picked: Picked, from: string[]): string[] {
         const { units } = this.app.state;
         const { known } = this.facts;

@@ -1,4 +1,4 @@
-// The panel of layers: a checkbox and a key for each, and the controls of those that are on.
+// Shows the panel of layers. Each layer has a checkbox and a key, and controls while it is on.
 
 import { cutsOf, isChosen } from '../../fields/sweep_choice';
 import { Crop, Layers, isBelow, sectionOf, sectionText, toggledFolded, veilsFolded } from '../../scene/layers';
@@ -20,7 +20,7 @@ const words = texts.layers;
 const usualPlaneM = 3000;
 const planeStepM = 500;
 const usualReflectivity = 45;
-const lowestSweepDeg = 0.5; // the nearest is shown
+const lowestSweepDeg = 0.5; // the sweep nearest to this elevation is shown first
 const axes = [
     ['westM', 'eastM'],
     ['southM', 'northM'],
@@ -29,13 +29,13 @@ const axes = [
 const sides = axes.flat();
 const cropSliderId = (side: keyof Crop): string => `crop-${side.slice(0, -1)}`;
 
-// Puts a slider to a value within a range. Screen readers read the text.
+// Sets range, step and value of a slider. Screen readers read the text.
 function putSlider(id: string, [low, high]: [number, number], step: number, value: number, text: string): void {
     const slider = element<HTMLInputElement>(id);
     slider.min = String(low);
     slider.max = String(high);
     slider.step = String(step);
-    slider.value = String(value); // the last, because a browser keeps it within the range
+    slider.value = String(value); // set after the range, because a browser limits the value to the range
     slider.setAttribute('aria-valuetext', text);
 }
 
@@ -44,12 +44,12 @@ type ToggleName =
 interface Toggle {
     box: HTMLInputElement;
     isOn: () => boolean;
-    more: HTMLElement | null; // controls that are shown while the layer is on
+    more: HTMLElement | null; // controls that are visible while the layer is on
 }
 
 export class LayersPanel {
     private box = make('section', { id: 'layers', hidden: '', 'aria-label': words.title });
-    private told = make('p', { id: 'layers-told' }); // the layers that are shown, under the title
+    private told = make('p', { id: 'layers-told' }); // text under the title, which names the shown layers
     private toggles: Toggle[] = [];
 
     constructor(
@@ -184,9 +184,9 @@ export class LayersPanel {
         return [button('crop-draw', words.draw, () => this.drawCrop()), ...sliders];
     }
 
-    // -- what they do
+    // -- actions
 
-    // Returns the chosen moment; empty if the address names none that the page knows.
+    // Returns the chosen moment; an empty text if the page does not know it.
     private get momentOfVeils(): string {
         const { moment } = this.app.state;
         return isMoment(moment) ? moment : '';
@@ -248,7 +248,7 @@ export class LayersPanel {
         );
         says.textContent = hint;
     }
-    // Looks at the section from the side on which A is at the left.
+    // Turns the camera to the side of the section on which its end A is at the left.
     private lookAtSection(): void {
         const { section } = this.layers;
         const { shown, state } = this.app;
@@ -281,7 +281,7 @@ export class LayersPanel {
     private toggleSweep(): void {
         this.set({ sweepDeg: this.layers.sweepDeg === null ? lowestSweepDeg : null, sweepNumber: null });
     }
-    // Pictures take one cut of an elevation in every volume. Names a cut by its number only if it is another one.
+    // Chooses a cut by its elevation, and also by its number if pictures take another cut of this elevation.
     private chooseCut(number: number): void {
         const row = this.drawing.layers.sweepRows()?.find((one) => one.sweep === number);
         if (!row) return;
@@ -298,7 +298,7 @@ export class LayersPanel {
     private drawCrop(): void {
         this.draw(CropTool, words.dragCrop);
     }
-    // Moves a side of the box, but leaves a hundredth of the range to the side opposite.
+    // Moves a side of the box. It stays at least a hundredth of the range from the opposite side.
     private slideCrop(side: keyof Crop, value: number): void {
         const box = wholeBox(this.app);
         if (!this.layers.crop || !box) return;
@@ -312,7 +312,7 @@ export class LayersPanel {
         this.slide({ crop });
     }
 
-    // -- what they show
+    // -- state of the controls
 
     private put(): void {
         const { layers } = this;

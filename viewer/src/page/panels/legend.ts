@@ -14,7 +14,7 @@ interface Row {
     isHatched?: boolean;
 }
 
-// Lists the shades of what is drawn: another moment may be on its way.
+// Returns the rows for the shades of the shown picture.
 function rowsOf({ state, shown, shownTable: table }: App): Row[] {
     const { layers, hasGround, exaggeration } = state;
     const rows: Row[] = [];

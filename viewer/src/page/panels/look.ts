@@ -1,4 +1,4 @@
-// The settings of the view: colors, threshold, opacity, exaggeration of heights, and camera.
+// Adds the settings of the view: colors, threshold, opacity, exaggeration of heights, and camera.
 
 import { valueText } from '../../tables/units';
 import { usualRungs } from '../../renderer/ladder';
@@ -51,7 +51,7 @@ function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     slider('exaggeration', (value) => (app.state.exaggeration = value));
 }
 
-// Adds the choice of a rung of the ladder, or of the rung that time allows.
+// Adds the list of rungs of the ladder. Its first entry lets the page choose the rung.
 function addQuality(app: App): void {
     const select = element<HTMLSelectElement>('quality');
     select.append(

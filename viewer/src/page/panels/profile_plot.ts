@@ -1,4 +1,4 @@
-// Plots the column at a place: values over height, and the heights that a beam saw.
+// Plots the column at a place: its values over height, and the heights that beams saw.
 
 import { colorOf } from '../../tables/color_table';
 import { heightText, shownUnit } from '../../tables/units';
@@ -27,7 +27,8 @@ export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement
     const x = (value: number) => left + ((value - from) / (to - from)) * (width - left - 8);
     const y = (heightM: number) =>
         height - bottom - ((heightM - lowM) / Math.max(1, highM - lowM)) * (height - bottom - 8);
-    // A level is gray if no beam saw it, purple if range folded, else dark; a value is a bar in its color.
+    // Draw a level gray if no beam saw it, in the color of range folded air if it is range folded, and dark otherwise.
+    // A value is a bar in its color.
     for (let i = 0; i < levels.length; ++i) {
         const { heightM, code, value } = levels[i]!;
         const middle = (other: LevelReading | undefined) => y(((other?.heightM ?? heightM) + heightM) / 2);

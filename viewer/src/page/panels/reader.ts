@@ -1,4 +1,4 @@
-// Shows the column under a click. Reads the same place again in each volume that comes.
+// Shows the column under a click, and reads the same place again in each new grid.
 
 import { ViewGeometry } from '../../camera/geometry';
 import { shades } from '../../renderer/shades';
@@ -20,7 +20,7 @@ import { profilePlot } from './profile_plot';
 
 const mostRows = 10;
 const markColor = '#ffffff';
-const mostDigits = 6; // of a value: all that its code has
+const mostDigits = 6; // decimals of a value, which are enough for any code
 
 function summaryOf({ levels, greatest, seenM }: ColumnReading, unit: string, units: Units): string {
     if (!greatest && levels.some((level) => level.code === CellState.rangeFolded)) return texts.rangeFolded;
@@ -56,9 +56,9 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
 }
 
 export class Reader implements Tool {
-    private at: Plane | null = null; // the place that was clicked, meters from the middle
-    private picked: { of: Shown; what: Picked } | null = null; // what was clicked there
-    private waits: [number, number] | null = null; // the pixel that was clicked, until the cells along its ray have come
+    private at: Plane | null = null; // place of the last click, in meters from the middle of the grid
+    private picked: { of: Shown; what: Picked } | null = null; // reading of that click, and the grid that was shown
+    private waits: [number, number] | null = null; // pixel of a click for which cells along the ray have not come
     private domain = '';
     private close = labeledButton('reading-close', '×', texts.close, () => this.leave());
 
@@ -88,7 +88,7 @@ export class Reader implements Tool {
         this.pointed.over(x, y);
     }
 
-    // Another tool has the pointer.
+    // Called when another tool takes the pointer.
     end(): void {
         this.pointed.hide();
     }
@@ -102,7 +102,7 @@ export class Reader implements Tool {
         this.drawing.drawMarks();
     }
 
-    // Marks the column from the ground up to the place that was clicked.
+    // Marks the clicked column, from the ground up to the height of the reading.
     private draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry): void {
         const { at, picked } = this;
         if (!at) return;
@@ -131,7 +131,7 @@ export class Reader implements Tool {
         pen.fill();
     }
 
-    // Keeps the place when the moment changes, but not when the domain does.
+    // Drops the place if the domain has changed.
     private takeDomain(): void {
         if (this.domain !== this.app.state.domain) this.clear();
         this.domain = this.app.state.domain;
@@ -158,7 +158,7 @@ export class Reader implements Tool {
         const place = planeOf(grid).toPlace(this.at);
         const title = make('h2', {}, texts.place(place.latitudeDeg, place.longitudeDeg));
         const body = make('div');
-        // Tell what was clicked only in the picture of that click, but read the column again at each time.
+        // Tell the reading of the click only while the same grid is shown. Read the column in each new grid.
         const { picked } = this;
         const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];
         if (picked?.of === shown) this.pointed.whenTold(() => this.at === at && this.put());

@@ -1,4 +1,4 @@
-// A flat plot of the section over distance and height. It tells the value under the pointer.
+// Plots the section over distance and height, and tells the value under the pointer.
 
 import { Section, cutSection, greatestOf } from '../../fields/section';
 import { shades } from '../../renderer/shades';
@@ -15,7 +15,7 @@ const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pix
 const keyStep = 4;
 const hatchPeriod = 9;
 
-// Tells why a section has no value.
+// Returns the reason why a section has no value.
 function nothingIn({ field, inGrid }: Section): string {
     if (!inGrid.includes(1)) return texts.layers.beyond;
     if (field.states.includes(CellState.rangeFolded)) return texts.layers.nothingButFolded;
@@ -27,7 +27,7 @@ function tickStep(range: number, most: number): number {
     return [1, 2, 5, 10].map((step) => step * power).find((step) => range / step <= most) ?? 10 * power;
 }
 
-// Colors a section as `stormcellar frame --product section` does, a pixel for each of its places.
+// Returns the pixels of a section, one for each of its places. Colors are as in `stormcellar frame --product section`.
 export function sectionPixels(section: Section, table: ColorTable, least: number | null): Uint8ClampedArray {
     const { field, inGrid } = section;
     const { width, height } = field;

@@ -1,4 +1,4 @@
-// Buttons that give away what is shown: its link, its command, its picture, its grid.
+// Adds the buttons that copy or save the view: as a link, a command, a picture, or a grid.
 
 import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
@@ -13,7 +13,8 @@ import { snapshotOf } from '../snapshot';
 import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
-// Browsers give no clipboard to pages that came over plain HTTP from another machine.
+// Copies a text, and says so. Browsers give no clipboard to pages from another machine over plain HTTP; the user then
+// copies the text from a dialog.
 function copy(app: App, text: string, said: string, ...notes: string[]): void {
     const { clipboard } = navigator as Partial<Navigator>;
     (clipboard ? clipboard.writeText(text) : Promise.reject(new Error('no clipboard'))).then(
@@ -22,7 +23,7 @@ function copy(app: App, text: string, said: string, ...notes: string[]): void {
     );
 }
 
-// Saves a picture of what is on the screen, or none: with the time and moment of what is drawn, not of what comes.
+// Saves the next fine picture under its own domain, moment and time, which may differ from those that are being loaded.
 function save(app: App, drawing: Drawing): void {
     app.say(texts.saving);
     drawing.whenFine(
@@ -37,21 +38,22 @@ function save(app: App, drawing: Drawing): void {
     );
 }
 
-const savedFiles = new Set<string>(); // files that commands name, once saved
+const savedFiles = new Set<string>(); // names of the files of colors that were saved for commands
 
-// The raw file of the grid, if there is just one. Its command needs no cache. A browser lets a click copy only at
-// once, so the page asks for the file before.
+// Finds the raw file of the grid, if there is just one. A command that reads this file needs no cache. The page asks
+// for the file before a click on the button, because browsers allow copying only at once after a click.
 class RawFile {
     private of: LoadedGrid | null = null;
     private name = '';
-    number = 1; // of the volume in it
+    number = 1; // number of the volume in the file
 
     constructor(
         private app: App,
         private facts: FactsOfShown,
     ) {}
 
-    // The program makes its usual grid of a file; a picture of another grid would show another part of the country.
+    // Returns the name of the file; an empty text if there is none, or if the shown grid is not the usual grid. The
+    // command makes the usual grid of a file, which may show another area than the shown grid.
     get known(): string {
         const loaded = this.app.shown?.loaded;
         return loaded && this.of === loaded && isUsualGrid(loaded.grid) && isPrintable(this.name) ? this.name : '';
@@ -60,7 +62,7 @@ class RawFile {
         const { shown } = this.app;
         if (!shown || this.of === shown.loaded || isRegion(shown.domain) || shown.isBetween) return;
         const { provenance } = await this.facts.ask();
-        // A mosaic may be of one station at an instant.
+        // Check the domain, because a mosaic may have a single station at some instants.
         const isOne =
             provenance.source_files.length === 1 &&
             provenance.stations.length === 1 &&
@@ -71,7 +73,7 @@ class RawFile {
     }
 }
 
-// Says why no command draws what is shown; empty if one does.
+// Returns the reason why no command draws the view; an empty text if one does.
 function whyNoCommand(app: App, drawing: Drawing): string {
     const { shown, state } = app;
     const words = texts.noCommand;
@@ -89,14 +91,14 @@ function whyNoCommand(app: App, drawing: Drawing): string {
     return state.layers.sweepDeg !== null && !drawing.layers.shownCut() ? words.noSweep : '';
 }
 
-// Copies the command that draws what is shown: at its time even if the page follows the newest, and as large as
-// the page shows it. If no table of the program has the colors, saves them in a file that the command names.
+// Copies the command that draws the view in the size of the page. The command names the shown time even if the page
+// follows the newest. If no table of the program has the colors, saves them in a file that the command names.
 function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile: RawFile): void {
     const why = whyNoCommand(app, drawing);
     const size = drawing.geometry();
     if (why || !size || !app.shown) return app.say(why);
     const { domain, moment, time } = app.shown;
-    // The cut that is drawn, whichever rule has chosen it.
+    // Name the drawn cut by its number.
     const layers = { ...app.state.layers, sweepNumber: drawing.layers.shownCut()?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
     const raw = rawFile.known;
@@ -123,7 +125,7 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
     const askRaw = () => void (element('settings').hidden || raw.ask().catch(() => undefined));
     element('open').addEventListener('click', askRaw);
     app.on('shown', askRaw);
-    // Marks the button as disabled if no command draws what is shown; a press says why.
+    // Marks the button as disabled if no command draws the view. A press then tells the reason.
     const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app, drawing) !== ''));
     app.on(['view', 'shown', 'choices', 'cells'], mark);
     drawing.pictureChanged.push(mark);

@@ -1,5 +1,5 @@
-// The foot of the page: a slider over the times of the domain, and buttons to play and to follow the newest. The
-// settings have speed and loops.
+// Fills the foot of the page: a slider over the times of the domain, and buttons to play and to follow the newest. Adds
+// speed and loops to the settings.
 
 import { App } from '../app';
 import { button, element, labeled, make } from '../dom';
@@ -9,7 +9,7 @@ import { texts } from '../texts';
 const speeds = [1, 2, 4, 8, 15, 30];
 const betweens = [0, 30, 60, 120];
 
-// Marks the part of the slider that is played.
+// Marks the loop on the slider.
 function putLoop(app: App, slider: HTMLInputElement): void {
     const { times, loop } = app.player;
     const shareOf = (wanted: string) => {

@@ -1,4 +1,4 @@
-// The tools of the pointer (distance, area, flight), and links to the raw volumes of what is shown.
+// Adds the tools of the pointer (distance, area, flight), and links to the raw volumes of the shown grid.
 
 import { LoadedGrid } from '../../atlas/loaded_grid';
 import { domains, hasRaw, isAbsent, rawAt, rawBefore, rawPath } from '../../wire/api';
@@ -17,7 +17,7 @@ interface RawFile {
     name: string;
 }
 
-// Returns the files that the server has of volumes that began at these times.
+// Returns the files that the server offers of volumes that began at these times.
 async function filesOf(volumes: { station: string; time: string }[]): Promise<RawFile[]> {
     const found = await Promise.all(volumes.map(({ station, time }) => rawAt(station, time)));
     return volumes.flatMap(({ station }, i) => {
@@ -27,7 +27,7 @@ async function filesOf(volumes: { station: string; time: string }[]): Promise<Ra
 }
 
 export class ToolsPanel {
-    private toldOf: LoadedGrid | null = null; // the grid whose raw volumes the page tells
+    private toldOf: LoadedGrid | null = null; // grid whose raw volumes the page lists
 
     constructor(
         private app: App,
@@ -81,7 +81,7 @@ export class ToolsPanel {
         if (!isUsed) this.tell(texts.tools.flyHint);
     }
 
-    // Begins a tool, or ends it if it is in use.
+    // Ends the tool in use, and begins a tool unless that was in use.
     private use(id: string, isUsed: boolean, make: (ended: () => void) => Tool): void {
         this.toldOf = null;
         this.pointers.use(null);
@@ -94,8 +94,9 @@ export class ToolsPanel {
         press(id, true);
     }
 
-    // Finds the raw files of the sites of a region, of the volume before a frame between volumes, or of a
-    // grid. Returns null if the server does not tell the facts of the grid, after saying so.
+    // Returns the raw files that the server offers of the shown grid. For a region, these are the files of its sites;
+    // for a frame between volumes, the file of the volume before it. If the facts of the grid do not come, tells the
+    // error and returns null.
     private async rawFiles(): Promise<RawFile[] | null> {
         const { shown } = this.app;
         if (!shown) return [];
@@ -116,11 +117,11 @@ export class ToolsPanel {
         if (source_files.length === 1 && own) return [own];
         const named = source_files.map((name) => ({ station: name.slice(0, 4), name }));
         const isThere = await Promise.all(named.map(({ station, name }) => hasRaw(station, name)));
-        if (!isThere.includes(true)) await domains(); // it may be a proxy that has none
+        if (!isThere.includes(true)) await domains(); // throws if the server does not answer, and a proxy did
         return named.filter((_, i) => isThere[i]);
     }
 
-    // Offers a link to each raw volume that the grid was made of; the download of a single one begins at once.
+    // Lists a link to each raw volume from which the grid was made. If there is a single volume, downloads it at once.
     private async download(): Promise<void> {
         const loaded = this.app.shown?.loaded ?? null;
         const files = await this.rawFiles().catch((error: unknown) => {

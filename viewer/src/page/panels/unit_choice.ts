@@ -1,4 +1,4 @@
-// The choice of units in the settings. The address and the browser keep it.
+// Adds the choice of units to the settings. The address and the browser keep the choice.
 
 import { Quantity, knownUnits, quantities } from '../../tables/units';
 import { App } from '../app';

@@ -1,13 +1,13 @@
-// The lines below the start map: coarse ones of all that it shows, finer ones of where it is looked at.
+// Loads the lines of the start map: coarse lines of all that it shows, and finer lines of a near view.
 
 import { MapBox, MapView, boxBetween, grownBox, holdsBox } from '../../map/mercator';
 import { City, map } from '../../wire/api';
 import { MapPaths, mapPaths } from './painter';
 
-const fineFromScale = 8000; // pixels of the earth, from which finer lines are worth their bytes
-const finestFromScale = 24000;
+const fineFromScale = 8000; // least scale of a view (pixels around the earth) for finer lines
+const finestFromScale = 24000; // least scale for counties
 const settledAfterMs = 250;
-const mostLatitudeDeg = 85; // of a box of lines
+const mostLatitudeDeg = 85; // limit of a box in the north and south
 
 interface Area {
     box: MapBox;
@@ -19,11 +19,11 @@ export class BaseMap {
     private coarse: Area | null = null;
     private fine: Area | null = null;
     private timer = 0;
-    private isComing = false; // the coarse lines
+    private isComing = false; // coarse lines are being loaded
 
     constructor(private loaded: () => void) {}
 
-    // The greatest cities of all that is shown.
+    // Returns the greatest cities in the box of the coarse lines.
     get cities(): City[] {
         return this.coarse?.paths.cities ?? [];
     }
@@ -39,7 +39,8 @@ export class BaseMap {
         this.loaded();
     }
 
-    // The lines for a view; others, and finer ones, are loaded once it rests.
+    // Returns the best lines that are here for a view; null if none are. Once the view rests, loads the lines that it
+    // needs.
     for(view: MapView): MapPaths | null {
         const seen = boxBetween(view, [0, 0], [view.width, view.height]);
         const box = {
@@ -61,7 +62,7 @@ export class BaseMap {
     }
 
     private async refine(box: MapBox, withCounties: boolean): Promise<void> {
-        // If there are too many lines, the coarse ones stay.
+        // Keep the coarse lines if the server refuses the fine lines, because there are too many.
         const area = await this.load(box, 0, withCounties).catch(() => null);
         if (area) this.fine = area;
         if (area) this.loaded();

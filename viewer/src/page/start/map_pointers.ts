@@ -1,4 +1,4 @@
-// Mouse and fingers on the start map.
+// Handles mouse and fingers on the start map.
 
 import { Pixel } from '../../map/places';
 
@@ -47,7 +47,7 @@ export class MapPointers {
         this.canvas.setPointerCapture(event.pointerId);
         this.pointers.set(event.pointerId, event);
         if (this.pointers.size > 1) {
-            this.travelled = Infinity; // no click any more
+            this.travelled = Infinity; // this is no click
             if (this.isBox) this.map.dropBox();
             this.isBox = false;
             return;

@@ -17,7 +17,7 @@ const land = color(shades.notSeen);
 const accent = '#7db8f0';
 const freshS = 20 * 60;
 
-// Lines of one kind, and areas, as paths in the square of the earth.
+// Areas and lines of the map as paths in the square of the earth (map/mercator.ts).
 export interface MapPaths {
     areas: { land: Path2D; lakes: Path2D };
     lines: { path: Path2D; color: string; width: number }[];
@@ -27,7 +27,8 @@ export interface MapPaths {
 function pathOf(lines: [number, number][][]): Path2D {
     const path = new Path2D();
     for (const line of lines) {
-        // The page draws each earth from 180 degrees west to 180 east.
+        // Shift lines that are east of 180 degrees, because the page draws each copy of the earth from 180 west to 180
+        // east.
         const turn = line.some(([longitudeDeg]) => longitudeDeg > 180) ? 1 : 0;
         line.forEach(([longitudeDeg, latitudeDeg], i) => {
             const point = mapPoint({ latitudeDeg, longitudeDeg });
@@ -63,18 +64,18 @@ export interface Outline {
 
 export interface StartScene {
     view: MapView; // in pixels of the page
-    map: MapPaths | null; // none until it is loaded
+    map: MapPaths | null; // null until the lines have come
     pictures: (Picture & { outline: Outline; within: Rect })[];
     outlines: Outline[];
     stations: StationPlace[];
-    chosen: string | null; // the station or domain that is pointed at
+    chosen: string | null; // station or domain under the pointer, or chosen by keys
     box: [Pixel, Pixel] | null;
     boxed: Set<string>; // stations in the box
-    covered: Rect[]; // by the page
+    covered: Rect[]; // parts of the map that the page covers
 }
 
 export const pixelsOf = (view: MapView, { places }: Outline): Pixel[] => {
-    // All corners are copies near the first, so that the outline holds together.
+    // Take the copies of all corners that are nearest to the first corner, so that the outline is in one piece.
     const points = places.map(mapPoint);
     const first = points[0] ? nearestCopy(points[0], view.center) : ([0, 0] as [number, number]);
     return points.map((point) => {
@@ -92,7 +93,7 @@ function trace(pen: CanvasRenderingContext2D, pixels: Pixel[]): void {
     pen.closePath();
 }
 
-// Calls `draw` once for each copy of the earth that the view shows, in its own coordinates.
+// Calls `draw` once for each copy of the earth in the view, with the pen in the coordinates of map/mercator.ts.
 function onEarths(pen: CanvasRenderingContext2D, view: MapView, draw: () => void): void {
     const half = view.width / 2 / view.scale;
     for (let copy = Math.floor(view.center[0] - half); copy <= Math.floor(view.center[0] + half); ++copy) {
@@ -108,7 +109,7 @@ function onEarths(pen: CanvasRenderingContext2D, view: MapView, draw: () => void
 function drawLand(pen: CanvasRenderingContext2D, { view, map }: StartScene): void {
     if (!map) return;
     onEarths(pen, view, () => {
-        // The stroke hides the seams between the pieces of an area.
+        // Add a stroke, which hides the seams between the pieces of an area.
         pen.lineWidth = 0.7 / view.scale;
         pen.fillStyle = pen.strokeStyle = land;
         pen.fill(map.areas.land);
@@ -163,7 +164,7 @@ function drawOutlines(pen: CanvasRenderingContext2D, scene: StartScene, taken: R
     }
 }
 
-// Draws a station: bright with a new grid, gray with an old one, hollow without.
+// Draws a station: bright if its newest grid is new, gray if it is old, and hollow without a grid.
 function drawDot(pen: CanvasRenderingContext2D, [x, y]: Pixel, station: StationPlace, isMarked: boolean): void {
     const isFresh = station.ageS !== null && station.ageS < freshS && !isAhead(station.ageS);
     pen.beginPath();
@@ -223,7 +224,7 @@ function drawCities(pen: CanvasRenderingContext2D, { view, map }: StartScene, ta
     }
 }
 
-// Returns the scene in larger pixels, as texts are larger on large screens.
+// Returns the scene in larger pixels, for large screens, on which texts are larger.
 function inLargerPixels(scene: StartScene, scale: number): StartScene {
     const { view, box, covered } = scene;
     const pixel = ([x, y]: Pixel): Pixel => [x / scale, y / scale];

@@ -1,4 +1,4 @@
-// The list beside the start map: domains, and the stations of a search.
+// Shows the list beside the start map: domains, and the stations that a search finds.
 
 import { Found } from '../../map/places';
 import { element, make } from '../dom';
@@ -8,7 +8,7 @@ export interface ListedPlace {
     domain: string;
     name: string;
     note: string;
-    isThere: boolean; // it has grids
+    isThere: boolean; // the domain has grids
 }
 
 export function listedStation({ station, near, distanceM }: Found): ListedPlace {
@@ -69,7 +69,7 @@ export class PlaceList {
         return [...this.list.querySelectorAll('button')];
     }
 
-    // Goes through the list by arrows; Enter in the field opens the first place.
+    // Handles keys: arrows go through the list, and Enter in the field opens the first place.
     private press(event: KeyboardEvent): void {
         const usable = this.buttons.filter((one) => !one.disabled);
         const at = usable.indexOf(document.activeElement as HTMLButtonElement);

@@ -1,4 +1,4 @@
-// The start map's pictures, and the tiles that it asks for.
+// Tests which pictures the start map shows, and which tiles it asks for.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
@@ -81,7 +81,7 @@ async function drawn(
     return { names: pictures().map((seen) => seen.domain.domain), data };
 }
 
-test('a mosaic stands for the radars that it is made of (2026-11-28: others in its box were not drawn)', async () => {
+test('a mosaic replaces only the radars that are in it (2026-11-28: other radars in its box were not drawn)', async () => {
     server.stations = [station('KBGM', at(10)), station('KCCX', at(10))];
     server.stationsOf = { south: ['KBGM'] };
     assert.deepEqual((await drawn([domain('KBGM', at(10)), domain('KCCX', at(10)), domain('south', at(5))])).names, [
@@ -90,7 +90,7 @@ test('a mosaic stands for the radars that it is made of (2026-11-28: others in i
     ]);
 });
 
-test('a mosaic that is behind a radar within it is not what is seen now (2026-11-28: it hid what the radar sees)', async () => {
+test('a mosaic that is far behind one of its radars is not drawn (2026-11-28: it hid the newer picture of the radar)', async () => {
     server.stations = [station('KBGM', at(45)), station('KCCX', at(10))];
     server.stationsOf = { south: ['KBGM', 'KCCX'] };
     assert.deepEqual(
@@ -110,14 +110,14 @@ test('a radar whose clock is ahead does not make a mosaic old', async () => {
     ]);
 });
 
-test('radars without reflectivity are not counted among those that are left out', async () => {
+test('the count of radars that are not drawn leaves out radars without reflectivity', async () => {
     const names = Array.from({ length: 14 }, (_, i) => `K${String.fromCharCode(65 + i)}AA`);
     server.stations = names.map((name) => station(name, at(10)));
     const { data } = await drawn(names.map((name, i) => domain(name, at(10), i < 13 ? 'REF' : 'VEL')));
     assert.equal(data.unpictured, 1);
 });
 
-test('a grid that was made again is another one, and the age of a mosaic grows (2026-11-28: both were kept by the time)', async () => {
+test('a remade grid and the age of a mosaic are updated (2026-11-28: both were kept while the time stayed the same)', async () => {
     server.stations = [station('KCCX', at(10))];
     server.stationsOf = { south: ['KBGM'] };
     const domains = [domain('KCCX', at(10)), domain('south', at(10))];
@@ -130,7 +130,7 @@ test('a grid that was made again is another one, and the age of a mosaic grows (
     );
 });
 
-test('tiles of a grid that was made again are asked for anew, and those before stay until they come', async () => {
+test('tiles of a remade grid are asked for again, and the old tiles stay until they come', async () => {
     const { Tiles } = await import('./tiles');
     let images: unknown[] = [];
     const pen = { drawImage: (image: unknown) => images.push(image) } as unknown as CanvasRenderingContext2D;

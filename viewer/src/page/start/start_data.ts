@@ -1,4 +1,4 @@
-// Keeps what the start map knows of stations and domains: where they are, and what each sees now.
+// Keeps the data of the start map: where stations and domains are, and their newest grids.
 
 import { circleOf, outlineOf } from '../../map/outline';
 import { StationPlace, stationPlaces } from '../../map/places';
@@ -8,17 +8,17 @@ import { Domain, GridFacts, gridFacts, stations } from '../../wire/api';
 import { Outline } from './painter';
 
 const pictured = 'REF';
-const mostPicturedStations = 12; // at a time, where no mosaic shows what they see
-const mostBehindMs = 20 * 60 * 1000; // a mosaic that is further behind a radar within it is not what is seen now
-const usualReachM = 230_000; // of a radar's own grid
+const mostPicturedStations = 12; // most stations that are drawn at a time
+const mostBehindMs = 20 * 60 * 1000; // a mosaic is not drawn if it is farther behind a radar in it
+const usualReachM = 230_000; // half of the width of a radar's own grid
 
 export interface SeenDomain {
     domain: Domain;
-    facts: GridFacts | null; // of its newest grid; null until they are known
-    outline: Outline | null; // its border; of a station, a circle
+    facts: GridFacts | null; // facts of its newest grid; null if they have not come
+    outline: Outline | null; // border of the grid, or a circle for a station
 }
 
-// A domain whose newest grid is known.
+// A domain that can be drawn, because the facts of its newest grid are known.
 export interface PicturedDomain extends SeenDomain {
     facts: GridFacts;
     outline: Outline;
@@ -26,18 +26,19 @@ export interface PicturedDomain extends SeenDomain {
 const isPictured = (seen: SeenDomain | null): seen is PicturedDomain => Boolean(seen?.facts && seen.outline);
 
 export class StartData {
-    unpictured = 0; // stations of the view whose echo is not drawn, because there are too many
-    lacks = false; // what some domain of the picture is has not come yet
+    unpictured = 0; // number of stations in the view whose echo is not drawn, because there are too many
+    lacks = false; // facts of some domain in the picture have not come
     stations: StationPlace[] = [];
-    mosaics: SeenDomain[] = [];
-    reachM = usualReachM; // of the station whose grid is the largest
+    mosaics: SeenDomain[] = []; // domains that are not stations
+    reachM = usualReachM; // greatest reach of a station's grid
     private seen = new Map<string, SeenDomain>(); // by domain
-    private asked = new Set<string>(); // domains with the times of their grids
+    private asked = new Set<string>(); // domains and times for which find() has asked
     private drawn: Domain[] = []; // stations of the last picture
 
     constructor(private changed: () => void) {}
 
-    // A grid that is made again keeps its time, so asks again for all that is drawn or `chosen`.
+    // Loads the stations and the facts of all other domains. Also asks again for the stations that are drawn or
+    // `chosen`, because a grid may have been made again under the same time.
     async load(domains: Domain[], chosen: string | null): Promise<void> {
         this.stations = stationPlaces(await stations());
         const known = new Set(this.stations.map((one) => one.icao));
@@ -60,7 +61,7 @@ export class StartData {
         return domain.moments.find((one) => one.moment === pictured) ?? domain.moments[0];
     }
 
-    // Asks for the facts of a domain's newest grid.
+    // Asks for the facts of a domain's newest grid. If that fails, keeps the facts of this grid if they are known.
     private async see(domain: Domain, isStation: boolean): Promise<SeenDomain> {
         const moment = StartData.momentOf(domain);
         const facts = moment
@@ -85,30 +86,32 @@ export class StartData {
             : undefined;
     }
 
-    // Returns what is known of a station, and asks for its newest grid if that is not known.
+    // Returns the newest known facts of a station; null if there are none. Asks for its newest grid if that is not
+    // known.
     find(domain: Domain): SeenDomain | null {
         const key = `${domain.domain} ${StartData.momentOf(domain)?.newest ?? ''}`;
         if (!this.known(domain) && !this.asked.has(key)) {
             this.asked.add(key);
             void this.see(domain, true).then(() => this.changed());
         }
-        // The map draws the grid before until the newest one is known.
+        // The map draws the previous grid until the facts of the newest grid have come.
         return this.seen.get(domain.domain) ?? null;
     }
 
-    // Returns the newest time of what can be pictured; null if there is none.
+    // Returns the newest time of the moment that is drawn; null if the domain does not have the moment.
     static pictureTime(domain: Domain): string | null {
         return domain.moments.find((one) => one.moment === pictured)?.newest ?? null;
     }
 
-    // Returns what is drawn, the lowest first: the nearest of the `visible` stations that no mosaic shows, the oldest
-    // picture first, and then the mosaics that show what is seen now.
+    // Returns the domains to draw, in the order of drawing. First come the stations that no mosaic shows, the oldest
+    // picture first, then the mosaics that are up to date. Takes the first mostPicturedStations of `visible`, which is
+    // sorted by distance.
     pictures(
         domains: Domain[],
         visible: StationPlace[],
         isWithin: (outline: Outline, station: StationPlace) => boolean,
     ): PicturedDomain[] {
-        // A radar whose clock is wrong makes no mosaic old.
+        // Ignore radars whose clock is ahead, which would make every mosaic look old.
         const newestMs = (outline: Outline) =>
             Math.max(
                 ...this.stations

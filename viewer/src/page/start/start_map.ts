@@ -1,4 +1,4 @@
-// The map of all stations, from which a user enters: by a click, a touch, the keys or the list.
+// Shows the map of all stations, from which a user opens a station or domain by a click, a touch, keys or the list.
 
 import {
     MapBox,
@@ -25,11 +25,11 @@ import { PlaceList, ListedPlace, listedStation } from './place_list';
 import { StartData } from './start_data';
 import { Tiles } from './tiles';
 
-const reach = 28; // pixels about a station that mean it
+const reach = 28; // a pointer chooses a station within so many pixels
 const lookAgainAfterMs = 30_000;
-const mostScaleAtFirst = 12_000; // a lone station has its surroundings
-const toldAfterMs = 1000; // what has not come until then
-const edge = 60; // pixels left free about what is shown
+const mostScaleAtFirst = 12_000; // so that the first view of a lone station shows its surroundings
+const toldAfterMs = 1000; // the page tells that echo is loading if it takes longer
+const edge = 60; // margin about the stations, in pixels
 
 export class StartMap {
     private readonly canvas = element<HTMLCanvasElement>('map');
@@ -41,11 +41,11 @@ export class StartMap {
     private view: MapView | null = null;
     private chosen: string | null = null;
     private box: [Pixel, Pixel] | null = null;
-    private anchor: string | null = null; // a station at which keys began a box
+    private anchor: string | null = null; // station at which the user began a box by keys
     private isDrawing = false;
     private timer = 0;
     private said = '';
-    private lacksSince = Infinity; // ms
+    private lacksSince = Infinity; // time in ms since which echo is missing; Infinity if none is missing
     boxes = false; // a drag makes a box instead of moving the map
 
     constructor(private app: App) {
@@ -73,7 +73,7 @@ export class StartMap {
         this.app.on('map', () => this.show(this.app.isOnMap));
     }
 
-    // -- what is shown
+    // -- drawing
 
     private show(isShown: boolean): void {
         const was = !this.page.hidden;
@@ -118,7 +118,8 @@ export class StartMap {
         this.draw();
     }
 
-    // Shows all stations, or most of them, so that a few on other continents do not shrink the rest.
+    // Shows all stations, or only the main group if at least 80 % are in it, so that a few stations on other continents
+    // do not shrink the others. Returns null if there is nothing to show.
     private fit(): MapView | null {
         const { stations, mosaics } = this.data;
         const middleDeg = stations.map((one) => one.longitudeDeg).sort((a, b) => a - b)[
@@ -168,7 +169,7 @@ export class StartMap {
         if (lacks && this.lacksSince === Infinity) window.setTimeout(() => this.draw(), toldAfterMs);
         this.lacksSince = lacks ? Math.min(this.lacksSince, performance.now()) : Infinity;
         this.putCard();
-        // Positions of the stations, for tests of the page.
+        // Publish the positions of the stations for tests of the page.
         const places = this.data.stations.map((one) =>
             [one.icao, ...pixelOf(view, mapPoint(one)).map(Math.round)].join(' '),
         );
@@ -210,7 +211,7 @@ export class StartMap {
         };
     }
 
-    // -- what a pointer or a key means
+    // -- pointer
 
     move(dx: number, dy: number): void {
         if (this.view) this.view = draggedMap(this.view, dx, dy);
@@ -221,7 +222,7 @@ export class StartMap {
         this.draw();
     }
 
-    // Returns the station near a pixel, else the smallest domain that holds it; null if there is none.
+    // Returns the station near a pixel, else the smallest domain around the pixel; null if there is none.
     at(x: number, y: number): string | null {
         const { view, data } = this;
         if (!view) return null;
@@ -315,7 +316,7 @@ export class StartMap {
     private tellBox(): void {
         this.say(texts.start.boxed(this.stationsInBox().map((one) => one.icao)));
     }
-    // Opens the region of the box, or its station if it holds just one.
+    // Opens the region of the box, or the station if the box holds just one. Without stations, tells so.
     async openBox(): Promise<void> {
         const box = this.boxDegrees();
         const inside = this.stationsInBox();
@@ -362,7 +363,8 @@ export class StartMap {
         event.preventDefault();
     }
 
-    // Chooses the next station from the chosen one, or from the middle.
+    // Chooses the next station in a direction from the chosen station, or without one the station nearest to the
+    // middle.
     private step(way: Pixel): void {
         const { view, data } = this;
         if (!view || data.stations.length === 0) return;
@@ -389,7 +391,8 @@ export class StartMap {
         if (dx !== 0 || dy !== 0) this.move(dx, dy);
     }
 
-    // Begins a box at the chosen station, which arrows then widen, or drops it.
+    // Begins a box at the chosen station, which arrows then widen. Drops the box if there is one already. Without a
+    // chosen station, lets drags make boxes.
     private boxByKeys(): void {
         if (this.anchor) return this.dropBox();
         this.anchor = this.chosen;

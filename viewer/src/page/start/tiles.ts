@@ -1,13 +1,13 @@
-// The composites of domains as tiles of the data server (docs/web/pictures.md), loaded a few at a time.
+// Loads composites of domains as tiles from the data server (docs/web/pictures.md), a few at a time.
 
 import { Tile } from '../../map/mercator';
 import { address } from '../../wire/api';
 
 const mostAtOnce = 4;
 const mostKept = 400;
-const againAfterMs = 1500; // the server draws a few pictures at a time, and says so
-const longestPause = 10; // times that; a tile is asked for until it comes: without it the map shows no echo there
-const mostUp = 5; // zooms of a coarser tile that is drawn until then
+const againAfterMs = 1500; // pause after the first refusal, which the server gives while it draws other pictures
+const longestPause = 10; // the pause grows with each refusal, to so many times againAfterMs
+const mostUp = 5; // a coarser tile is drawn until a tile comes if it is at most so many zooms coarser
 
 interface Kept {
     image: HTMLImageElement;
@@ -15,7 +15,7 @@ interface Kept {
     tries: number;
 }
 
-// Composite that is drawn as the ground: of a domain at the time of its newest grid.
+// A composite that is drawn on the map, of a domain at the time of its newest grid.
 export interface Picture {
     domain: string;
     time: string;
@@ -25,11 +25,11 @@ export interface Picture {
 type TilePlace = Pick<Tile, 'zoom' | 'column' | 'row'>;
 
 export class Tiles {
-    private kept = new Map<string, Kept>(); // the least recently asked first, by path and id
+    private kept = new Map<string, Kept>(); // by path and id, the least recently used first
     private waiting: string[] = [];
     private loading = 0;
-    private drawn = new Map<string, Picture[]>(); // of a domain: the last picture, and the one before it
-    lacks = false; // some tile of what was drawn last has not come
+    private drawn = new Map<string, Picture[]>(); // last and previous picture of each domain
+    lacks = false; // some tile of the last view has not come
 
     constructor(private loaded: () => void) {}
 
@@ -37,14 +37,15 @@ export class Tiles {
         return `tiles/${encodeURIComponent(domain)}/composite.REF/${encodeURIComponent(time)}/${zoom}/${column}/${row}.png#${id}`;
     }
 
-    // Begins another view: forgets the tiles that wait to be loaded.
+    // Call before a view is drawn. Forgets the tiles that wait to be loaded.
     begin(): void {
         for (const key of this.waiting) this.kept.delete(key);
         this.waiting = [];
         this.lacks = false;
     }
 
-    // Draws a tile, and asks for it. Until it is there, draws that of the grid before, or the part of a coarser one.
+    // Draws a tile, or asks for it. Until it comes, draws the tile of the previous picture, or a part of a coarser
+    // tile.
     draw(pen: CanvasRenderingContext2D, picture: Picture, tile: Tile): void {
         const before = this.drawn.get(picture.domain) ?? [];
         if (before[0]?.id !== picture.id) this.drawn.set(picture.domain, [picture, ...before.slice(0, 1)]);
@@ -117,7 +118,7 @@ export class Tiles {
                 });
         }
     }
-    // Asks the server even if the browser keeps the tile, because its grid may have been made again.
+    // Loads a tile. Asks the server even if the browser has cached the tile, because its grid may have been made again.
     private async load(path: string, image: HTMLImageElement): Promise<void> {
         const answer = await fetch(address(path), { cache: 'no-cache' });
         if (!answer.ok) throw new Error(answer.statusText);

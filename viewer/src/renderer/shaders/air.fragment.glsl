@@ -1,7 +1,8 @@
-// Veils of air that was not seen, or is range folded, before the ground and behind all echo (render/volume/haze.h).
-uniform sampler3D air; // shares of not seen and of range folded
-uniform vec2 airFirst; // where it begins, in cells of the grid
-uniform vec2 airCells; // how many of these a coarse cell is wide and high
+// Draws veils of air that was not seen or is range folded, before the ground and behind all echo
+// (render/volume/haze.h).
+uniform sampler3D air; // in coarse cells, the share of air that was not seen, and of range folded air
+uniform vec2 airFirst; // where the coarse cells begin, in cells of the grid
+uniform vec2 airCells; // width of a coarse cell in cells of the grid, and its height in levels
 uniform vec3 hazeColor, foldedColor;
 const int steps = 192;
 void main() {
@@ -9,9 +10,9 @@ void main() {
     vec2 depths = depthsInBox(start, along);
     float enter = depths.x, leave = depths.y;
     color = vec4(0.0);
-    // Leave rays alone that miss the grid: of a ray along an axis, depths there are beyond all whole numbers.
+    // Return before depths become step numbers, because they can be too large for an integer if a ray misses the grid.
     if (!(enter < leave)) return;
-    // Divide the whole depth of the grid into the same steps for all rays, so that a veil has no edges.
+    // Divide the whole depth of the grid into steps that are the same for all rays, so that a veil has no edges.
     float whole = slices * stepM, each = whole / float(steps);
     vec2 way = vec2(0.0);
     int first = int(max(0.0, floor((enter - near) / each)));
@@ -25,7 +26,7 @@ void main() {
         if (any(lessThan(at, vec3(0.0))) || any(greaterThanEqual(at, size3))) continue;
         way += texture(air, (at + 0.5) / size3).rg;
     }
-    // Turn the ways into opacities of at most 0.6, of which a fifth of the depth reaches two thirds.
+    // Turn the lengths into opacities of at most 0.6. A length of a fifth of the grid's depth gives about 0.4.
     way = 0.6 * (1.0 - exp(-way * each * length(along) / (0.2 * whole)));
 #ifdef HAS_HAZE
     color = vec4(hazeColor, 1.0) * way.x;

@@ -1,7 +1,8 @@
-// Makes sides of a surface lighter that face the sun, and edges that are seen along the surface.
-uniform vec3 sun; // its direction
+// Makes a surface lighter where it faces the sun, and at edges where it is seen from the side.
+uniform vec3 sun; // direction of the sun
 
-// Returns the factor of the light. `slope` is how the surface falls, and `share` how much all this counts.
+// Returns the factor of the light. `slope` points in the direction in which values fall, `share` is the weight of the
+// effect from 0 to 1, and `looks` is the direction of the ray.
 float facing(vec3 slope, float share, vec3 looks) {
     float steep = length(slope);
     vec3 outward = slope / max(steep, 1e-12);

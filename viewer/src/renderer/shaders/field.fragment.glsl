@@ -1,4 +1,4 @@
-// A plane or a section: a border of 1.25 pixels about a field.
+// Draws a plane or a section, which is a field with a border of 1.25 pixels.
 void main() {
     vec2 extent = vec2(textureSize(field, 0));
     vec2 border = min(at, extent - at) / fwidth(at);

@@ -1,14 +1,14 @@
-// A field of values and states (fields/flat_field.ts): on a plane, or upright. State 4 lies beyond the grid.
+// Reads a field of values and states (fields/flat_field.ts). State 4 is a place beyond the grid.
 uniform sampler2D field; // value, state
 uniform bool mixes;
 
 // Returns value and state at a place in texels.
 vec2 fieldAt(vec2 place) {
-    // Take the nearest texel if values do not mix, or if the place lies beyond the grid.
+    // Take the nearest texel if values do not mix, or if the place is beyond the grid.
     ivec2 most = textureSize(field, 0) - 1;
     vec2 nearest = texelFetch(field, clamp(ivec2(floor(place)), ivec2(0), most), 0).rg;
     if (!mixes || nearest.y > 3.5) return nearest;
-    // Add up the weights of each state among the four texels about the place, and the values of those with values.
+    // Add up the weights of each state among the four texels about the place, and the weighted values.
     vec2 low = floor(place - 0.5), share = place - 0.5 - low;
     vec4 weights = vec4(0.0);
     float sum = 0.0;
@@ -21,7 +21,7 @@ vec2 fieldAt(vec2 place) {
         else if (one.y < 2.5) weights.z += weight;
         else if (one.y < 3.5) { weights.w += weight; sum += weight * one.x; }
     }
-    // Choose the state by the status rule (fields/status_rule.ts); a value is the mean of the values alone.
+    // Choose the state by the status rule (fields/status_rule.ts). A value is the mean of the texels with values.
     if (weights.x > weights.y + weights.z + weights.w) return vec2(0.0, 0.0);
     if (weights.z > weights.w && weights.z > weights.y) return vec2(0.0, 2.0);
     if (weights.w < weights.y || weights.w == 0.0) return vec2(0.0, 1.0);

@@ -1,4 +1,4 @@
-// One triangle that covers the picture, made of the numbers of its corners alone.
+// Draws one triangle that covers the picture. The numbers of its corners give their places.
 void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     gl_Position = vec4(4.0 * corner - 1.0, 0.0, 1.0);

@@ -1,11 +1,11 @@
 // Steps rays through the cells of a grid, whose bricks of 16 x 16 x 16 cells are scattered over a texture, the atlas.
 //
-// A processor that runs a program checks each reading of a uniform, and goes through all sides of a condition. So
-// the programs read what loops need before them, and have few conditions.
+// If the processor runs a program, each read of a uniform costs a check, and all branches of a condition are run. So
+// the programs read uniforms before loops, and have few conditions.
 uniform sampler3D atlas;
-// An entry for each brick: 21 bits with its slot + 1, or 0 if it has none; three bits with the halvings of its grid;
-// eight bits with the greatest shown code. Without a slot, the three bits say how many columns away the nearest brick
-// with one is (atlas/atlas.ts).
+// An entry for each brick (atlas/atlas.ts). 21 bits have the slot + 1, or 0 without a slot; 3 bits have the halvings of
+// the brick in the slot; 8 bits have the greatest shown code. Without a slot, the 3 bits have the distance in columns
+// to the nearest column with a slot.
 uniform usampler3D indirection;
 uniform sampler2D transfer;
 #ifdef HAS_UNEVEN_LEVELS
@@ -15,10 +15,10 @@ uniform vec2 levelRange; // of drawn heights
 uniform vec2 levelLine; // level = x + y * drawn height
 #endif
 uniform vec3 boxLow, boxHigh;
-uniform float brickHeights[66]; // drawn, of the lower ends of layers of bricks and of the last one's upper end
+uniform float brickHeights[66]; // drawn heights at which layers of bricks begin, and at which the last layer ends
 uniform vec3 cells;
 uniform vec2 perCell; // cells a meter
-uniform vec3 slots; // along x, along y, and both multiplied
+uniform vec3 slots; // numbers of slots along x, along y, and in a layer
 uniform vec3 perTexel; // of the atlas
 uniform vec2 binLine; // bin = x + y * shown code
 uniform uint leastShown; // shown code
@@ -45,7 +45,7 @@ float levelOf(float height) {
 #endif
 }
 
-// Returns a place in cells, which may lie outside of the grid.
+// Returns a place in cells, which may be outside of the grid.
 vec3 placeInCells(vec3 p) {
     return vec3(p.xy * perCell + 0.5 * (cells.xy - 1.0), levelOf(p.z));
 }
@@ -53,13 +53,13 @@ vec3 cellOf(vec3 p) {
     return clamp(placeInCells(p), vec3(0.0), cells - 1.0);
 }
 
-// A ray in cells. The unit in which it counts how far it went is the caller's.
+// A ray in cells. The caller chooses the unit of its length.
 struct Ray {
     vec3 start, along, perCell;
-    vec3 ahead; // 1 along the axes on which it rises
-    vec3 last; // cell
+    vec3 ahead; // 1 for axes along which the ray rises, else 0
+    vec3 last; // last cell of the grid
 #ifdef HAS_UNEVEN_LEVELS
-    vec2 height; // drawn: at the start, and by how much it rises
+    vec2 height; // drawn height at the start, and its change per unit of length
 #endif
 };
 
@@ -74,7 +74,7 @@ Ray rayOf(vec3 start, vec3 along) {
     ray.along = vec3(along.xy * perCell, levelLine.y * along.z);
 #endif
     ray.ahead = step(0.0, ray.along);
-    // Take a tiny number for zero, so that a ray along an axis divides by none.
+    // Replace 0 by a tiny number, so that a ray along an axis does not divide by 0.
     ray.perCell = 1.0 / mix(vec3(1e-20), ray.along, step(1e-20, abs(ray.along)));
     ray.last = cells - 1.0;
     return ray;
@@ -88,8 +88,8 @@ vec3 cellAt(Ray ray, float far) {
     return clamp(place, vec3(0.0), ray.last);
 }
 
-// Returns the depths between which a ray is in the box, as far as the slices go; the first is not the smaller one
-// of a ray that misses it.
+// Returns the depths at which a ray enters and leaves the box, limited to the depths of the slices. If the ray misses
+// the box, the first depth is not less than the second.
 vec2 depthsInBox(vec3 start, vec3 along) {
     vec3 safe = mix(vec3(1e-12), along, step(1e-12, abs(along)));
     vec3 a = (boxLow - start) / safe, b = (boxHigh - start) / safe;
@@ -105,15 +105,14 @@ bool isEmpty(uint entry) {
 
 // Returns the way from cells to texels in a brick: an offset, and the factor of columns and rows.
 vec4 placeOf(ivec3 brick, uint entry, vec3 slots) {
-    // Find the slot in the atlas. With half a slot added, no quotient is so near to a whole number that rounding
-    // matters.
+    // Find the slot in the atlas. Half a slot is added, so that rounding cannot change the whole part of a quotient.
     float slot = float(int(entry & 0x1FFFFFu)) - 1.0;
     float z = floor((slot + 0.5) / slots.z);
     float y = floor((slot - z * slots.z + 0.5) / slots.x);
     vec4 place = vec4(vec3(slot - z * slots.z - y * slots.x, y, z) * padded + 1.5, 1.0);
 #ifdef HAS_HALVED
-    // Shrink columns and rows of a halved grid: cell j of a grid that was halved n times stands for the cells from
-    // j 2^n on, whose middle is at (j + 1/2) 2^n - 1/2.
+    // Scale columns and rows of a halved grid. After n halvings, cell j covers 2^n cells from j 2^n on, whose middle is
+    // at (j + 1/2) 2^n - 1/2.
     int halvings = int((entry >> 21) & 7u);
     place.w = exp2(-float(halvings));
     place.xy += 0.5 * place.w - 0.5;
@@ -123,7 +122,7 @@ vec4 placeOf(ivec3 brick, uint entry, vec3 slots) {
     return place;
 }
 
-// Returns the mean of eight cells of the atlas: code times share, and share.
+// Interpolates eight cells of the atlas. Returns the mean code times the share of cells with values, and this share.
 vec2 fetchAt(vec3 cell, vec4 place, vec3 perTexel) {
     COUNT_FETCH
 #ifdef HAS_HALVED
@@ -132,14 +131,14 @@ vec2 fetchAt(vec3 cell, vec4 place, vec3 perTexel) {
     return texture(atlas, (cell + place.xyz) * perTexel).rg;
 }
 
-// Returns how far the ray has gone when it leaves a brick. From a column of bricks without anything to show it
-// leaves at once all columns about it that are as empty.
+// Returns the length of the ray at which it leaves a brick. If the column of the brick is empty, the ray also leaves
+// all empty columns about it.
 float leaves(Ray ray, ivec3 brick, uint entry) {
-    // Take the box of the brick, or of as many columns as the entry says, and its sides that the ray leaves by.
+    // Take the box of the brick, or of the empty columns about it, and the three sides by which the ray may leave it.
     float reach = isEmpty(entry) ? float(int(entry)) * (1.0 / 2097152.0) : 0.0;
     float beside = max(reach - 1.0, 0.0);
     vec3 bounds = (vec3(brick) + vec3(mix(vec2(-beside), vec2(beside + 1.0), ray.ahead.xy), ray.ahead.z)) * edge;
-    // Follow the ray to each of these sides; the nearest is where it leaves.
+    // Follow the ray to each of these sides. It leaves through the nearest.
     vec3 far = (bounds - ray.start) * ray.perCell;
 #ifdef HAS_UNEVEN_LEVELS
     far.z = (brickHeights[brick.z + int(ray.ahead.z)] - ray.height.x) * ray.perCell.z;

@@ -1,7 +1,7 @@
-// Covers a pixel as far as the line does, whose edges fade over one pixel.
+// Draws a line whose edges fade over one pixel.
 uniform vec4 look;
 uniform float width;
-in float off; // pixels from the middle of the line
+in float off; // distance from the middle of the line, in pixels
 out vec4 color;
 void main() {
     float cover = clamp(0.5 * width + 0.5 - abs(off), 0.0, 1.0);

@@ -1,5 +1,5 @@
-// Lit colors as render/volume/lit_layer.h makes them: lighter or darker by a factor, in OKLab, where the hue stays.
-// Colors are sRGB from 0 to 1.
+// Makes colors lighter or darker by a factor, as render/volume/lit_layer.h does. OKLab keeps the hue. Colors are sRGB
+// from 0 to 1.
 
 vec3 toLinear(vec3 c) {
     return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
@@ -20,7 +20,7 @@ vec3 toLab(vec3 srgb) {
         dot(lms, vec3(0.0259040371, 0.7827717662, -0.8086757660)));
 }
 
-// Returns linear light, which may lie outside of 0 to 1.
+// Returns linear light, which may be outside of 0 to 1.
 vec3 fromLab(vec3 lab) {
     vec3 lms = vec3(lab.x) + lab.y * vec3(0.3963377774, -0.1055613458, -0.0894841775)
         + lab.z * vec3(0.2158037573, -0.0638541728, -1.2914855480);
@@ -41,7 +41,7 @@ bool canBeShown(vec3 linear) {
 vec3 litColor(vec3 srgb, float factor) {
     vec3 lab = toLab(srgb);
     float l = lab.x;
-    // Darken to half at most, and take chroma away with the lightness, or make lighter toward white.
+    // Below 1, darken to half of the lightness at most, and reduce chroma with it. Above 1, lighten toward white.
     if (factor < 1.0) {
         l *= max(0.5, 1.0 - 0.9 * (1.0 - factor));
         lab.yz *= lab.x > 0.0 ? sqrt(l / lab.x) : 1.0;
@@ -50,7 +50,7 @@ vec3 litColor(vec3 srgb, float factor) {
     }
     lab.x = l;
     vec3 linear = fromLab(lab);
-    // Search for the greatest chroma that can be shown, because cutting off channels would turn the hue.
+    // Search for the greatest chroma that can be shown. Clamping the channels instead would change the hue.
     if (!canBeShown(linear)) {
         float low = 0.0, high = 1.0;
         for (int i = 0; i < 7; ++i) {

@@ -1,4 +1,4 @@
-// Colors by value, or by code of a value (tables/looks.ts).
+// Looks up the color of a value, or of a code (tables/looks.ts).
 uniform sampler2D looks;
 uniform vec2 lookLine; // entry = x + y * value
 vec4 lookOf(float value) {

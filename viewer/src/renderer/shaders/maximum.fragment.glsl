@@ -1,4 +1,4 @@
-// The greatest values of the columns, on the ground.
+// Draws the maxima of columns on the ground.
 uniform vec3 seenColor, foldedColor;
 uniform vec2 halfSize; // of the grid
 uniform vec4 extent; // of the field: west, south, east, north
@@ -13,7 +13,7 @@ void main() {
     vec2 place = (on - extent.xy) / (extent.zw - extent.xy);
     if (any(greaterThanEqual(abs(on), halfSize))) discard;
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) discard;
-    // Cover the ground where there is a value or a range folded one; leave it as it is elsewhere.
+    // Cover the ground where there is a value or range folded air. Elsewhere the ground stays visible.
     vec2 found = fieldAt(place * vec2(textureSize(field, 0)));
     int state = int(found.y + 0.5);
     if (state == 2) color = vec4(foldedColor, 1.0);

@@ -1,4 +1,4 @@
-// Precision of everything that a shader reads or computes; each shader begins with this file.
+// Sets the default precision. Each shader begins with this file.
 precision highp float;
 precision highp int;
 precision highp sampler3D;

@@ -1,17 +1,17 @@
-// The ray of a pixel in drawn space. Pixels count from the top left.
+// Computes the ray of a pixel in drawn space. Pixels count from the top left.
 
 vec2 pixel() {
     return vec2(gl_FragCoord.x, size.y - gl_FragCoord.y);
 }
 
-// Returns where the pixel is beside the middle of the picture, to the right and upward.
+// Returns the offset of the pixel from the middle of the picture, to the right and upward.
 vec2 aside() {
     vec2 p = pixel();
     return vec2(p.x - 0.5 * size.x, 0.5 * size.y - p.y);
 }
 
-// A ray is rayStart() + depth * rayStep(). The step has a length of 1 along `forward`, so that a depth is
-// counted along the view and not along the ray.
+// A ray is rayStart() + depth * rayStep(). The component of rayStep() along `forward` is 1, so depths are along the
+// direction of the view, not along the ray.
 #ifdef IS_PERSPECTIVE
 vec3 rayStart() {
     return eye;

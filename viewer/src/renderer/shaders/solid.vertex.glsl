@@ -1,9 +1,9 @@
-// Places on a field or a cone as triangles in drawn space.
+// Draws triangles of a field or of a cone in drawn space.
 layout(location = 0) in vec3 corner; // x and y from the middle of the grid, height above sea level
-layout(location = 1) in vec2 place; // on what is shown
+layout(location = 1) in vec2 place; // place in the field (texels), or azimuth and slant range on the cone
 uniform float exaggeration;
 out vec2 at;
-out float away; // depth along the ray
+out float away; // depth
 void main() {
     vec3 p = vec3(corner.xy, corner.z * exaggeration) - eye;
     away = dot(p, forward);

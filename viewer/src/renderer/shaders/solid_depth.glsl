@@ -1,4 +1,4 @@
-// Distance along the ray to something solid, which ends the ray.
+// Reads the depth of the nearest solid layer in this pixel, where the ray ends; 1e30 if there is none.
 uniform sampler2D solidDepth; // as a share of depthRange
 uniform vec2 depthRange;
 float solidAt() {

@@ -1,4 +1,4 @@
-// Puts what is solid over the picture.
+// Draws the solid layers over the picture.
 uniform sampler2D solidColor, solidDepth;
 out vec4 color;
 void main() {

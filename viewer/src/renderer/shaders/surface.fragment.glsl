@@ -1,12 +1,12 @@
-// A surface that encloses where at least half of the cells about have values, and their mean is at least the one that
-// was chosen (at most, if it IS_BELOW). Where a crop cuts it open, its inside shows the values there.
+// Draws a surface. Inside of it, at least half of the cells about a place have values, and the mean of these is at
+// least the chosen value (with IS_BELOW, at most). Where a crop cuts the surface open, the cut shows the values inside.
 uniform float chosen; // shown code
 uniform vec2 depthRange;
 uniform vec3 cellM; // of drawn space
 
-const float surfaceExposure = 0.86; // by it the lightness of a surface is about that of its color
-const vec3 plainColor = vec3(0.62); // where the table has none
-const float nowhere = 1e30; // the depth of what a ray does not meet; a depth may be less than 0
+const float surfaceExposure = 0.86; // with it a surface is about as light as its color
+const vec3 plainColor = vec3(0.62); // where the table has no color
+const float nowhere = 1e30; // depth if the ray misses the surface; other depths may be less than 0
 
 // Returns the mean code at a place, and the share of cells with values.
 vec2 codeAt(vec3 p) {
@@ -23,7 +23,7 @@ uniform sampler3D otherAtlas;
 uniform usampler3D otherIndirection;
 uniform vec3 otherSlots;
 uniform vec3 otherPerTexel;
-// Returns the code of another moment's grid, by which the surface is colored; less than 0 where there is none.
+// Returns the code of the other moment, which colors the surface; less than 0 without a value.
 float coloringCode(vec3 p) {
     vec3 cell = cellOf(p);
     ivec3 brick = ivec3(cell / edge);
@@ -57,7 +57,7 @@ float levelAt(vec3 p) {
 #endif
 }
 
-// Returns how the measure falls, by the differences between the cells on both sides.
+// Returns in which direction and how steeply the measure falls, by differences between the cells on both sides.
 vec3 outwardAt(vec3 p) {
     vec3 x = vec3(cellM.x, 0.0, 0.0), y = vec3(0.0, cellM.y, 0.0), z = vec3(0.0, 0.0, cellM.z);
     vec3 fall = vec3(
@@ -67,8 +67,8 @@ vec3 outwardAt(vec3 p) {
     return fall / cellM;
 }
 
-// Steps along a ray until it is inside. Returns the depths of the last step outside and of the first one inside, which
-// may be nowhere.
+// Steps along a ray until it is inside of the surface. Returns the depth of the last step outside and of the first step
+// inside; the latter is `nowhere` if the ray misses the surface.
 vec2 stepsAcross(vec3 start, vec3 along, float enter, float leave) {
     float k = max(0.0, floor((enter - near) / stepM));
     float last = min(slices, ceil((leave - near) / stepM));
@@ -77,7 +77,7 @@ vec2 stepsAcross(vec3 start, vec3 along, float enter, float leave) {
     for (int guard = 0; guard < 8192 && k < last; ++guard) {
         float depth = min(near + (k + 1.0) * stepM, leave);
         vec3 p = start + depth * along;
-        // Leave a brick at once in which nothing can be inside.
+        // Skip the rest of a brick whose values are all outside.
         ivec3 brick = ivec3(cellOf(p) / edge);
         uint entry = texelFetch(indirection, brick, 0).r;
         if (isEmpty(entry) || (entry >> 24) < leastShown) {
@@ -97,12 +97,12 @@ void main() {
     vec2 depths = depthsInBox(start, along);
     float enter = depths.x, leave = depths.y;
     if (!(enter < leave)) discard;
-    // Find the step in which the ray gets inside; where a crop cuts the surface open it is there from the beginning.
+    // Find the step in which the ray gets inside. Where a crop cuts the surface open, the ray begins inside.
     bool isCut = insideAt(start + enter * along);
     vec2 found = isCut ? vec2(enter) : stepsAcross(start, along, enter, leave);
     float outside = found.x, hit = found.y;
     if (hit == nowhere) discard;
-    // Halve that step ten times, so that the surface has no steps of slices.
+    // Halve that step ten times, so that slices do not show in the surface.
     if (!isCut) {
         for (int i = 0; i < 10; ++i) {
             float middle = 0.5 * (outside + hit);
@@ -110,7 +110,7 @@ void main() {
             else outside = middle;
         }
     }
-    // Color the place by its value, or by another moment's there, and light it as a surface unless it is cut.
+    // Color the place by its value, or by the value of the other moment. Light it unless it is on a cut.
     vec3 p = start + hit * along;
     float code = coloringCode(p);
     vec4 look = lookOf(code);

@@ -1,5 +1,5 @@
-// The volume is drawn as points, each a square of the picture (echo_tiles.ts).
-layout(location = 0) in vec4 tile; // its middle, and between which depths its rays may meet what shows
+// Draws the tiles of the volume as points (echo_tiles.ts).
+layout(location = 0) in vec4 tile; // middle, and least and greatest depth at which its rays may meet visible echo
 uniform float side; // in pixels
 flat out vec2 reach;
 void main() {

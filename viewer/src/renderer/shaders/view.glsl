@@ -1,4 +1,4 @@
-// The camera in drawn space: meters from the middle of the grid, with exaggerated heights.
+// Declares the camera in drawn space, which is in meters from the middle of the grid, with exaggerated heights.
 uniform vec2 size; // of the picture, in pixels
 uniform vec3 eye, right, up, forward;
 uniform float scale; // focal length in pixels, or meters a pixel

@@ -1,6 +1,6 @@
-// The volume in slices, as render/volume/slicer.h has them: between two slices, values at both ends select an entry
-// of the transfer function.
-flat in vec2 reach; // the depths between which the square of the picture may show something
+// Draws the volume in slices, as render/volume/slicer.h does. The values at two neighboring slices select an entry of
+// the transfer function.
+flat in vec2 reach; // least and greatest depth at which this tile may show something
 #ifdef IS_LIT
 uniform float exposure;
 #endif
@@ -12,16 +12,17 @@ vec2 sampleOf(vec2 found, vec2 binLine) {
     return vec2(found.y > 0.0 ? bin : 0.0, found.y);
 }
 
-// Returns color and optical depth between two samples. A sample without a value takes the bin of the other one.
+// Returns color and optical depth between two samples. A sample without a value takes the bin of the other sample.
 vec4 lookBetween(vec2 front, vec2 back) {
-    // Bin 0 is clear: between two ends in it there is nothing to see.
+    // Bin 0 is clear, so between two samples in it there is nothing to see.
     if (front.x + back.x <= 0.0) return vec4(0.0);
     COUNT_FETCH
     ivec2 bins = ivec2(int(back.y > 0.0 ? back.x : front.x), int(front.y > 0.0 ? front.x : back.x));
     return texelFetch(transfer, bins, 0);
 }
 
-// Returns what the picture shows of the light that a ray has gathered; `lit` is its sum with the factors of light.
+// Returns the pixel for the light that a ray has gathered, or for its count of fetches. `lit` is the sum of the light's
+// factors, weighted like `light`.
 vec4 shown(vec3 light, float through, float lit) {
     float alpha = 1.0 - through;
 #if defined(COUNTS_FETCHES)
@@ -37,7 +38,7 @@ vec4 shown(vec3 light, float through, float lit) {
 #endif
 }
 
-// Returns the depths at which a ray enters the box, and leaves it or meets something solid.
+// Returns the depths at which a ray enters the box, and at which it leaves the box or meets a solid layer.
 vec2 depthsInSight(vec3 start, vec3 along) {
     vec2 depths = depthsInBox(start, along);
 #ifdef ENDS_AT_SOLIDS
@@ -52,7 +53,7 @@ void main() {
     vec2 depths = depthsInSight(start, along);
     float enter = depths.x, leave = depths.y;
     if (!(enter < leave)) discard;
-    // Count depths in slices from here on, and read what the loop needs of the uniforms.
+    // Count depths in slices from here on, and read the uniforms for the loop.
     float first = (enter - near) / stepM, end = (leave - near) / stepM;
     float last = min(slices, ceil(min(end, (reach.y - near) / stepM)));
     Ray ray = rayOf(start + near * along, stepM * along);
@@ -67,9 +68,9 @@ void main() {
     vec3 looks = normalize(along);
 #endif
     vec2 front = vec2(0.0); // bin, and share of cells with values
-    ivec3 held = ivec3(-1); // the brick whose entry the ray has
+    ivec3 held = ivec3(-1); // brick of `entry`
     uint entry = 0u;
-    // Begin one step before the ray enters: that step ends where it enters, and shows nothing.
+    // Begin one step before the ray enters the box. This step ends where the ray enters, and shows nothing.
     for (float k = max(0.0, floor(max(first, (reach.x - near) / stepM))) - 1.0; k < last && through >= enough;) {
         // Read the entry of the brick at the far end of the step, unless the ray is still in the same one.
         vec3 cell = cellAt(ray, clamp(k + 1.0, first, end));
@@ -78,20 +79,20 @@ void main() {
             COUNT_FETCH
             entry = texelFetch(indirection, brick, 0).r;
         }
-        // Sample the far end, and look up what is between both ends; the near end is the far one of the step before.
+        // Sample the far end of the step, and look up its color. The near end is the far end of the step before.
         bool isClear = entry < leastEntry;
         vec2 found = vec2(0.0);
         if (!isClear) found = fetchAt(cell, placeOf(brick, entry, slotsHere), perTexelHere);
         vec2 back = sampleOf(found, binLineHere);
         vec4 look = lookBetween(front, back);
-        // Composite the step over what the ray has seen: its depth counts as far as it is in the box, times the mean
-        // share of cells with values at its ends, so that echo tapers to nothing.
+        // Composite the step behind what the ray has seen. Its optical depth is scaled by the part of the step in the
+        // box, and by the mean share of cells with values at both ends, so that echo tapers off.
         float inside = max(0.0, min(k + 1.0, end) - max(k, first));
         float seen = through * (1.0 - exp(-look.a * depthOfHalf * (front.y + back.y) * inside));
         light += seen * look.rgb;
         through -= seen;
 #ifdef IS_LIT
-        // Light the step. Two steps share the light between them, but a step that shows much has its own.
+        // Light the step. Two steps share one computation of the light, but a step that shows much has its own.
         if (seen > 0.0) {
             bool isOwn = frontLight < 0.0 || seen > 0.02;
             float at = clamp(isOwn ? k + 0.5 : k + 1.0, first, end);
@@ -100,7 +101,7 @@ void main() {
         } else frontLight = -1.0;
 #endif
         front = back;
-        // Leave a brick without visible values at once: the next slice that is looked at is the last one in it.
+        // Skip the rest of a brick without visible values, and continue with the last slice in it.
         k = isClear ? max(k + 1.0, floor(leaves(ray, brick, entry))) : k + 1.0;
     }
     color = shown(light, through, lit);
