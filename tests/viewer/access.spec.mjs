@@ -1,22 +1,22 @@
-// Checks that everybody can use the page: names of controls, keys, contrast, small and large windows, and units.
+// Checks that everybody can use the page: names of controls, keys, contrast, small and large windows, units.
 import { expect, test as base } from './fixtures.mjs';
 
 // Contrast of WCAG 2.1 AA.
 const leastContrast = 4.5;
 const controls = new Set(['button', 'combobox', 'slider', 'textbox', 'spinbutton', 'checkbox', 'radio', 'link', 'ColorWell', 'listbox', 'menuitem', 'searchbox', 'tab']);
-// The panels, each as it is opened by a button, and what it is.
+// The panels: id of the button that opens a panel, and id of the panel.
 const panels = [
   ['open', 'settings'],
   ['layers-open', 'layers'],
   ['edit-colors', 'editor'],
 ];
-// Windows, and the size of their texts in pixels.
+// Sizes of windows, and the least size of texts in each, in pixels.
 const sizes = [[360, 640, 13], [800, 600, 13], [1920, 1080, 14], [3840, 2160, 24]];
 
 const test = base.extend({
   viewport: { width: 800, height: 600 },
   contextOptions: { reducedMotion: 'reduce' },
-  // The page with a picture from far away, which takes little time.
+  // The page with a picture from far away, which is drawn quickly.
   near: async ({ viewer, server: { station } }, use) => {
     await viewer.open(`domain=${station}&moment=REF&zoom=0.3&least=30`);
     await use(viewer);
@@ -33,14 +33,14 @@ const test = base.extend({
 async function open(viewer, [opener, panel]) {
   const isShown = (id) => viewer.page.evaluate((id) => document.getElementById(id)?.checkVisibility() ?? false, id);
   if (await isShown(panel)) return;
-  // The button of the editor is in the settings.
+  // Open the settings first, which have the button of the editor.
   if (panel === 'editor' && !(await isShown('settings'))) await open(viewer, panels[0]);
   await viewer.press(opener);
   await viewer.until((id) => document.getElementById(id)?.checkVisibility(), panel);
   for (const [, other] of panels) if (other !== panel) expect(await isShown(other), `${panel} is open alone, without ${other}`).toBe(false);
 }
 
-// Checks that each control has a name, in the tree that screen readers get, and returns how many there are.
+// Checks that each control has a name for screen readers. Returns the number of controls.
 async function expectNames(viewer) {
   const { nodes } = await (await viewer.protocol()).send('Accessibility.getFullAXTree');
   const all = nodes.filter(({ ignored, role }) => !ignored && controls.has(role?.value));
@@ -49,8 +49,8 @@ async function expectNames(viewer) {
   return all.length;
 }
 
-// Returns the least contrasts of texts with what is behind them, where that is the darkest and the lightest that a
-// picture has. A function of the page.
+// Returns the five lowest contrasts between texts and their background, over a black and over a white picture. Runs in
+// the page.
 function contrasts() {
   const linear = (c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
   const luminance = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
@@ -68,7 +68,7 @@ function contrasts() {
     const layers = [];
     for (let at = node; at; at = at.parentElement) layers.unshift(rgba(getComputedStyle(at).backgroundColor));
     for (const picture of [[0, 0, 0], [255, 255, 255]]) {
-      // The page's own ground is behind the picture.
+      // Leave out the backgrounds of html, body and main, which are behind the picture.
       const back = layers.slice(3).reduce((below, layer) => over(layer, below), picture);
       const color = rgba(getComputedStyle(node, node.placeholder ? '::placeholder' : null).color);
       const [a, b] = [luminance(over(color, back)), luminance(back)].sort((x, y) => y - x);
@@ -82,12 +82,12 @@ async function expectContrast(viewer) {
   expect(worst[0][0], JSON.stringify(worst)).toBeGreaterThanOrEqual(leastContrast);
 }
 
-// Returns what is beyond the window, cut, or covered by another panel. A function of the page.
+// Returns texts about elements that are beyond the window, cut off, or covered by another panel. Runs in the page.
 function misplaced() {
   const bad = [];
   const box = (node) => node.getBoundingClientRect();
   const shown = (node) => node && node.checkVisibility() && box(node).width > 0;
-  // The map of the stations lies over all others.
+  // Check only the map of the stations if it is open, because it covers all panels.
   const start = document.getElementById('start');
   const root = shown(start) ? start : document.querySelector('main');
   for (const node of root.querySelectorAll('button, select, input, p, output')) {
@@ -109,7 +109,7 @@ function misplaced() {
   if (document.documentElement.scrollWidth > innerWidth) bad.push('the page scrolls sideways');
   return bad;
 }
-// A panel makes room for the head one frame after its text has changed.
+// Checks the places of panels, and waits, because a panel makes room for the head one frame after the head has changed.
 const expectInPlace = (viewer, what) => expect.poll(() => viewer.page.evaluate(misplaced), `${what}: what is not in its place`).toEqual([]);
 
 test('each control has a name, and texts have contrast', async ({ near: viewer }) => {
@@ -121,7 +121,7 @@ test('each control has a name, and texts have contrast', async ({ near: viewer }
 });
 
 test('everything is in its place in small and large windows', async ({ near: viewer }) => {
-  // Large pictures take long: what is looked at here are panels.
+  // Show a tiny grid, because large pictures take long and this test is about panels.
   await viewer.turnTo(viewer.page.url().split('#')[1].replace(/zoom=[^&]*/, 'zoom=0.01&ground=0'));
   for (const [width, height, least] of sizes) {
     await viewer.resize(width, height);
@@ -138,7 +138,7 @@ test('everything is in its place in small and large windows', async ({ near: vie
 test('the map of the stations has names, contrast and everything in its place', async ({ map: viewer }) => {
   expect(await expectNames(viewer), 'controls').toBeGreaterThan(3);
   await expectContrast(viewer);
-  // Painting it at 3840 x 2160 takes very long without a graphics processor.
+  // Leave out 3840 x 2160, which takes very long to paint without a graphics processor.
   for (const [width, height] of sizes.slice(0, 3)) {
     await viewer.resize(width, height);
     await expectInPlace(viewer, `${width} x ${height}`);
@@ -149,7 +149,7 @@ test('the map of the stations has names, contrast and everything in its place', 
   await expect(viewer.byId('start')).toBeHidden();
 });
 
-test('Tab comes to every control in the order of the page, and leaves it again', async ({ page, near: viewer }) => {
+test('Tab reaches every control in the order of the page, and leaves the page again', async ({ page, near: viewer }) => {
   await open(viewer, panels[0]);
   await viewer.byId('picture').focus();
   const visited = [];
@@ -173,7 +173,7 @@ test('Tab comes to every control in the order of the page, and leaves it again',
   expect(visited.filter((id) => wanted.includes(id)), 'the order').toEqual(wanted);
 });
 
-test('keys are for the picture first, and Escape closes a panel and leads back', async ({ page, near: viewer }) => {
+test('keys work in the picture at first, and Escape closes a panel and returns the focus', async ({ page, near: viewer }) => {
   expect(await page.evaluate(() => matchMedia('(prefers-reduced-motion: reduce)').matches)).toBe(true);
   expect(await page.evaluate(() => document.getAnimations().length), 'what moves by itself').toBe(0);
   await page.evaluate(() => document.activeElement.blur());
@@ -185,7 +185,7 @@ test('keys are for the picture first, and Escape closes a panel and leads back',
   await expect(viewer.byId('settings')).toBeHidden();
 });
 
-test('units are chosen, told and remembered', async ({ viewer, server: { station } }) => {
+test('chosen units are shown and remembered', async ({ viewer, server: { station } }) => {
   await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=0.5&field-of-view=0&least=75`);
   await open(viewer, panels[0]);
   for (const [id, value] of [['units-height', 'kft'], ['units-distance', 'miles'], ['units-speed', 'knots']]) {

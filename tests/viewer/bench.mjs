@@ -1,6 +1,7 @@
 // Measures how fast the viewer's page is in Chromium (scripts/bench-viewer). Prints a row for each figure.
 //   node bench.mjs ADDRESS first|steps|nation [ROUNDS]
-// The server has one volume for `first`, a grid at several times for `steps`, a mosaic of the country for `nation`.
+// The server must have one volume for `first`, grids at several times for `steps`, and a mosaic of the country for
+// `nation`.
 import { openPage, withBrowser } from './viewer_page.mjs';
 
 const [address, what, roundsText] = process.argv.slice(2);
@@ -11,7 +12,7 @@ const row = (name, ...cells) => console.log(`| ${[name, ...cells].join(' | ')} |
 const ms = (list) => `${Math.round(median(list))} ms (${list.map(Math.round).join(', ')})`;
 const frameMs = async (viewer) => Number(await viewer.data('frameMs'));
 
-// A page that has nothing yet, and its first picture.
+// Measures the first picture in a new page.
 async function firstPicture(browser, view) {
   const viewer = await openPage(browser, address, width, height);
   await viewer.countBytes();
@@ -33,7 +34,7 @@ async function first(browser) {
   row('bytes on the wire until then', median(pictures.map(({ bytes }) => bytes)));
 }
 
-// Counts the frames that are drawn a second while a hand turns the view, and names the rung of the last one.
+// Turns the view, and measures the frames per second and the rung of the last frame.
 async function turning({ page }) {
   await page.evaluate(() => {
     window.frames_ = [];
@@ -46,7 +47,7 @@ async function turning({ page }) {
   for (let x = 300; performance.now() < end; x = x < 500 ? x + 1 : 300) await page.mouse.move(x, 300);
   const frames = await page.evaluate(() => window.frames_);
   await page.mouse.up();
-  // The first second is the governor's.
+  // Leave out the first second, in which the governor chooses a rung.
   const after = frames.filter(([at]) => at > frames[0][0] + 1000);
   const last = after[after.length - 1];
   row('frames a second while the view turns', `${((after.length - 1) / ((last[0] - after[0][0]) / 1000)).toFixed(1)} (${last[1]})`);

@@ -1,5 +1,5 @@
-// Checks the editor of colors: what mouse, fingers and keys do in it, and that `stormcellar frame` draws the same with
-// the files that it saves.
+// Checks the editor of colors: what mouse, fingers and keys do, and that `stormcellar frame` draws the same with the
+// saved files.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -7,7 +7,7 @@ import { expect, expectLikeSlicer, test as base } from './fixtures.mjs';
 import { mostDifference, viewOf } from './slicer.mjs';
 
 const [colorsPart, opacityPart] = [6, 7];
-// A zoom from which pictures take little time.
+// A zoom at which pictures are drawn quickly.
 const far = 0.2;
 const handle = (kind) => `#editor .handle.${kind}`;
 
@@ -41,7 +41,7 @@ class Editor {
   press(id) {
     return this.viewer.settled(() => this.viewer.press(id));
   }
-  // Waits until a file is saved, and returns its path.
+  // Carries out an act that saves a file, and returns the path of the file.
   async saved(act) {
     const [download] = await Promise.all([this.page.waitForEvent('download'), act()]);
     const path = join(this.directory, download.suggestedFilename());
@@ -57,12 +57,12 @@ class Editor {
   async lookFrom(zoom) {
     await this.viewer.settled(() => this.viewer.turnTo(this.page.url().split('#')[1].replace(/zoom=[^&]*/, `zoom=${zoom}`)));
   }
-  // Returns the picture of the page and how far it is from the slicer's with a file of colors.
+  // Returns the picture of the page, and its difference from the slicer's picture with a file of colors.
   async compare(name, file) {
     await this.lookFrom(this.scene.zoom);
     await this.viewer.resize(400, 266);
     await this.viewer.until(() => document.getElementById('picture').clientWidth === 400);
-    // A picture that was begun before may come first.
+    // Draw twice, because the first picture may have begun before the change.
     for (let times = 0; times < 2; ++times) {
       await this.viewer.settled(() => this.page.evaluate(() => void dispatchEvent(new Event('resize'))));
     }
@@ -81,7 +81,7 @@ class Editor {
 
 const test = base.extend({
   viewport: { width: 640, height: 480 },
-  // The editor, which is open.
+  // The editor, already open.
   editor: async ({ viewer, server }, use) => {
     const editor = new Editor(viewer, server);
     await viewer.open(editor.view);
@@ -92,12 +92,12 @@ const test = base.extend({
 });
 
 test.describe('the editor of colors', { tag: '@full' }, () => {
-  test('takes the keyboard and edits nothing by itself', async ({ editor }) => {
+  test('takes the keyboard and edits nothing until the user does', async ({ editor }) => {
     expect(await editor.focused()).toBe('Table');
     expect(await editor.table()).toBeNull();
   });
 
-  test('is used by mouse', async ({ viewer, editor }) => {
+  test('works by mouse', async ({ viewer, editor }) => {
     const color = await editor.center(`${handle('color')}:nth-child(9)`);
     await viewer.settled(() => viewer.drag(color, [40, 0]));
     expect(Number((await editor.points(colorsPart))[8][0]), 'a dragged point of color').toBeGreaterThan(28);
@@ -115,7 +115,7 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     expect(await density(), 'redo leads back').toBeGreaterThan(0.1);
   });
 
-  test('is used by keys', async ({ viewer, editor }) => {
+  test('works by keys', async ({ viewer, editor }) => {
     const color = await editor.center(`${handle('color')}:nth-child(9)`);
     await viewer.settled(() => viewer.drag(color, [40, 0]));
     await editor.focus('color[tabindex="0"]');
@@ -140,7 +140,7 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     await expect.poll(() => viewer.number('least'), 'the threshold is moved by keys').toBeGreaterThan(20);
   });
 
-  test('is used by a finger', async ({ viewer, editor }) => {
+  test('works by a finger', async ({ viewer, editor }) => {
     const color = await editor.center(`${handle('color')}:nth-child(9)`);
     await viewer.settled(() => viewer.drag(color, [40, 0]));
     const last = async () => Number((await editor.points(colorsPart)).at(-2)[0]);
@@ -154,7 +154,7 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     expect(await last(), 'a finger drags a point').toBeGreaterThan(before);
   });
 
-  test('saves what stormcellar frame draws alike, and a link holds it', async ({ page, viewer, editor }) => {
+  test('saves a file with which stormcellar frame draws the same, and a link keeps the colors', async ({ page, viewer, editor }) => {
     const color = await editor.center(`${handle('color')}:nth-child(9)`);
     await viewer.settled(() => viewer.drag(color, [40, 0]));
     await editor.focus('least');
@@ -168,7 +168,7 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     const [, least] = /value = (.*)/.exec(readFileSync(toml, 'utf8'));
     expect(Number(least), 'what is hidden is not in the file').toBeGreaterThan(20);
     const pixels = await editor.expectSame('the edited table, by its TOML', toml);
-    // The comparison can fail: other colors are another picture.
+    // Check that the comparison finds a difference with other colors.
     const usual = await editor.slicer.compare(editor.scene, pixels, { name: 'colors-usual' });
     expect(usual.p99, 'the difference with the usual colors').toBeGreaterThan(mostDifference);
     const link = page.url();
@@ -178,7 +178,7 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     expect(await editor.table(), 'a link holds the edited table').toBe(edited);
   });
 
-  test('reads and writes .pal', async ({ viewer, editor }) => {
+  test('reads and writes .pal files', async ({ viewer, editor }) => {
     const pal = `Product: BR\nUnits: DBZ\nStep: 5\nColor4: 10 0 60 90 128 120 200 255 200\nSolidColor: 30 250 250 80\n` +
       'Color: 40 255 150 0 255 40 0\nColor: 55 255 0 200\nColor: 70 255 255 255\n';
     const own = join(editor.directory, 'own.pal');
@@ -210,9 +210,9 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     expect(await editor.table(), 'a broken table of an address').toBeNull();
   });
 
-  test('has a command that names the file that it saves', async ({ viewer, editor }) => {
+  test('saves the file that its command names', async ({ viewer, editor }) => {
     await viewer.catchCopies();
-    // No command draws echo without the ground.
+    // Show the ground, because no command draws echo without it.
     const strong = `${editor.view}&least=30`;
     await viewer.show(strong.replace('&ground=0', ''));
     let command = '';

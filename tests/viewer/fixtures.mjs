@@ -1,4 +1,4 @@
-// Gives each check of the viewer a data server with the volumes of its project, and a page that nothing fails on.
+// Gives each check of the viewer a data server with the volumes of its project, and a page, in which nothing may fail.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -18,14 +18,14 @@ const build = resolve(root, process.env.STORMCELLAR_BUILD || 'build/release');
 export const program = join(build, 'cli/stormcellar');
 export const daemon = join(build, 'daemon/stormcellard');
 
-// Simulates a volume, and returns its path.
+// Simulates a scene, and returns the paths of the files.
 export function simulate(directory, scene = join(root, 'scenes/small-storm.toml')) {
   execFileSync(program, ['synth', scene, '-o', directory], { stdio: 'ignore' });
   const files = readdirSync(directory, { recursive: true, withFileTypes: true }).filter((one) => one.isFile());
   return files.map((one) => join(one.parentPath ?? one.path, one.name)).sort();
 }
 
-// A server, and what is around it.
+// A server, its volumes, and a slicer to compare with.
 class Server {
   constructor({ address, volumes, directory }) {
     Object.assign(this, { address, volumes, directory, program });
@@ -41,11 +41,11 @@ class Server {
   async json(path) {
     return (await fetch(`${this.address}/api/v1/${path}`)).json();
   }
-  // Grids of all stations. The server takes in later volumes beside its first answers.
+  // Returns the grids of stations. Waits for them, because the server may answer before it has gridded all volumes.
   grids(stations = new Set(this.stations)) {
     return gridsOf(this.address, [...stations]);
   }
-  // The newest grid of a station and a moment.
+  // Returns the newest grid of a station and a moment.
   async grid(station, moment = 'REF') {
     return (await this.grids([station])).findLast((one) => one.domain === station && one.moment === moment);
   }
@@ -67,9 +67,9 @@ export const test = base.extend({
     },
     { scope: 'worker', timeout: 120_000 },
   ],
-  // The address of the page; a check may put something before the server.
+  // The address for the page. A check may put a relay before the server.
   address: ({ server }, use) => use(server.address),
-  // Errors of the page that a check provokes.
+  // Matches the errors of the page that a check provokes.
   provoked: [/(?!)/, { option: true }],
   viewer: async ({ page, address, provoked }, use) => {
     const viewer = new ViewerPage(page, address);
@@ -78,7 +78,7 @@ export const test = base.extend({
     const elsewhere = (url) => ![`${address}/`, 'data:', 'blob:'].some((begin) => url.startsWith(begin));
     expect(viewer.requests.filter(elsewhere), 'every request goes to the server of the page').toEqual([]);
   },
-  // Skips what needs volumes that are not here.
+  // Skips checks whose volumes are not on this machine.
   needVolumes: [
     async ({ volumes }, use, info) => {
       const missing = volumes.filter((file) => !existsSync(file));
@@ -89,10 +89,10 @@ export const test = base.extend({
   ],
 });
 
-// Says what was measured, since passing checks are silent.
+// Prints a figure, because passing checks print nothing.
 export const report = (text) => console.log(`  ${text}`);
 
-// The page draws what the slicer draws.
+// Checks that a picture of the page differs little from the slicer's picture.
 export function expectLikeSlicer(what, { p99, mean, most, count }) {
   report(`${what}: dE ${p99} (mean ${mean}, most ${most}) over ${count} pixels`);
   expect(p99, `${what}: dE`).toBeLessThanOrEqual(mostDifference);

@@ -1,5 +1,6 @@
-// Makes the pairs of pictures in docs/gallery.md: what the page shows, and what the command that it copies draws.
-// usage: node tests/viewer/gallery.mjs PROGRAM ADDRESS DIRECTORY OF VOLUMES, PICTURES
+// Makes the pairs of pictures in docs/gallery.md: the picture of the page, and the picture of the command that the page
+// copies.
+//   node tests/viewer/gallery.mjs PROGRAM ADDRESS DIRECTORY_OF_VOLUMES DIRECTORY_OF_PICTURES
 import { execFileSync } from 'node:child_process';
 import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -9,7 +10,7 @@ import { openPage, withBrowser } from './viewer_page.mjs';
 const [program, address, volumes, pictures] = process.argv.slice(2);
 const [width, height] = [796, 532];
 const scenes = [
-  // picture, station, what follows it in the address
+  // name of the picture, station, other parameters of the address
   ['supercells', 'KTLX', 'azimuth=190&tilt=62&zoom=3.2&field-of-view=40&exaggeration=3&light=gradient&look-at-km=-45,15,4'],
   ['hurricane', 'KCRP', 'azimuth=180&tilt=50&zoom=1.6&field-of-view=40&exaggeration=4&light=gradient'],
   ['tornadoes', 'KDMX', 'azimuth=180&tilt=58&zoom=1.7&field-of-view=40&exaggeration=4&light=gradient'],

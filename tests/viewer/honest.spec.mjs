@@ -1,4 +1,4 @@
-// Checks what the page says if something is missing: the radar, moment or time of a link, the server, its news, the
+// Checks what the page says if something is missing: the radar, moment or time of a link, the server, its news, or the
 // graphics processor.
 import { expect, test as base } from './fixtures.mjs';
 import { Relay } from './relay.mjs';
@@ -21,21 +21,21 @@ const test = base.extend({
     await use({
       notice,
       nothing: () => expect(notice).toHaveText(''),
-      // The newest is followed, or said not to be.
+      // Checks that the page shows that it follows the newest, or that it does not.
       live: (isLive = true) => expect(follow).toHaveAttribute('aria-pressed', String(isLive)),
     });
   },
   newest: ({ server }, use) => use(`domain=${server.station}&moment=REF&time=latest`),
 });
 
-// Opens a view whose picture need not come.
+// Opens a view without waiting for its picture.
 async function openOnly(viewer, view) {
   await viewer.page.goto('about:blank');
   await viewer.goto(view);
 }
-// Waits until the page has asked for something so many times.
+// Waits until the page has sent so many requests whose address has this part.
 const expectAsked = (viewer, part, times) => expect.poll(() => viewer.asked(part), `requests for ${part}`).toBeGreaterThanOrEqual(times);
-// Tells the page of an event, once it listens.
+// Sends an event to the page once the page listens.
 async function tell(relay, kind, data) {
   await expect.poll(() => relay.streams.size, 'streams of events').toBeGreaterThan(0);
   relay.tell(kind, data);
@@ -46,19 +46,19 @@ const waitLess = (page) =>
     const timer = setTimeout;
     window.setTimeout = (act, ms, ...more) => timer(act, ms === 40000 ? 1500 : ms, ...more);
   });
-// Changes answers that are JSON and whose path begins so.
+// Returns a function that changes JSON answers whose path matches the pattern.
 const changing = (pattern, change) => (path, body) => {
   if (body.length === 0 || !pattern.test(path)) return body;
   const all = JSON.parse(body.toString());
   return Buffer.from(JSON.stringify(change(all) ?? all));
 };
 
-test.describe('a link to what is not there', () => {
-  // 2026-11-28: another radar was opened without a word.
+test.describe('a link to missing data', () => {
+  // 2026-11-28: the page opened another radar and did not say so.
   test('names the radar', async ({ viewer, says, server: { station, other } }) => {
     await viewer.goto('domain=KXXX&moment=REF&time=latest');
     await expect(says.notice).toContainText('No data for KXXX');
-    // A lone station is shown, and the map is not.
+    // The page shows the map, or the station if there is only one.
     await expect(viewer.byId('start')).toBeVisible({ visible: station !== other });
     await expect(viewer.byId('start-notice')).toHaveText(await viewer.text('notice'));
   });
@@ -73,8 +73,8 @@ test.describe('a link to what is not there', () => {
     await expect(viewer.byId('layers-told')).toContainText('no XXX for this time');
   });
 
-  // 2026-11-28: in the same window nothing was said.
-  test('is told in the same window', async ({ page, viewer, says, newest, server: { station } }) => {
+  // 2026-11-28: the page said nothing if the link was opened in the same window.
+  test('is reported in the same window', async ({ page, viewer, says, newest, server: { station } }) => {
     await viewer.open(newest);
     expect(await viewer.text('notice'), 'what is there needs no notice').toBe('');
     await viewer.turnTo(`domain=${station}&moment=REF&time=tomorrow`);
@@ -82,7 +82,7 @@ test.describe('a link to what is not there', () => {
     // A name with more than four numbers is not a region.
     await viewer.turnTo(`domain=${encodeURIComponent('region:-100,33,-95,37,/REF;x')}`);
     await expect(says.notice).toContainText('No data for region');
-    // The page writes its own address meanwhile.
+    // Let the page write its own address before it takes the new one.
     await page.evaluate((own) => {
       location.hash = 'domain=KYYY&moment=REF';
       history.replaceState(null, '', `#${own}`);
@@ -91,8 +91,8 @@ test.describe('a link to what is not there', () => {
   });
 });
 
-// 2026-11-28: it looked like clear air.
-test('echo that is on its way is told', async ({ viewer, relay, server: { station, other } }, info) => {
+// 2026-11-28: echo that had not come looked like clear air.
+test('the page says that echo is loading', async ({ viewer, relay, server: { station, other } }, info) => {
   info.skip(station === other, 'a lone station is opened at once');
   relay.isHeld = (path) => path.startsWith('/tiles/');
   await viewer.goto();
@@ -101,7 +101,7 @@ test('echo that is on its way is told', async ({ viewer, relay, server: { statio
   await expect(viewer.byId('start-card')).toHaveText('');
 });
 
-// 2026-11-28: the page said for good that it is not there.
+// 2026-11-28: the page went on saying that the radar was missing.
 test('a radar that comes later is shown', async ({ viewer, relay, says, server }, info) => {
   const { station, other } = server;
   info.skip(station === other, 'there is one station');
@@ -114,7 +114,7 @@ test('a radar that comes later is shown', async ({ viewer, relay, says, server }
   await says.nothing();
 });
 
-test('a moment that comes while nothing is heard is shown', async ({ viewer, relay, says, server: { station } }) => {
+test('a moment that comes while the stream is broken is shown', async ({ viewer, relay, says, server: { station } }) => {
   const reflectivity = (one) => ({ ...one, moments: one.moments.filter(({ moment }) => moment === 'REF') });
   relay.listed = changing(/^\/api\/v1\/domains/, ({ domains }) => ({ domains: domains.map(reflectivity) }));
   await viewer.goto(`domain=${station}&moment=VEL&time=latest`);
@@ -125,9 +125,9 @@ test('a moment that comes while nothing is heard is shown', async ({ viewer, rel
   await says.nothing();
 });
 
-test.describe('a server that is gone', () => {
-  // 2026-11-28: the page looked as if it were live, and stayed with the old picture.
-  test('is told, and what came meanwhile is asked for', async ({ viewer, relay, says, newest }) => {
+test.describe('a server that does not answer', () => {
+  // 2026-11-28: the page looked live, and kept the old picture.
+  test('is reported, and the page catches up later', async ({ viewer, relay, says, newest }) => {
     await viewer.open(newest);
     await says.live();
     const port = relay.port;
@@ -145,8 +145,8 @@ test.describe('a server that is gone', () => {
     await expectAsked(viewer, '/api/v1/grids?', again + 1);
   });
 
-  // 2026-11-28, 29: the page looked as if it were live.
-  test('is told behind a proxy too', async ({ viewer, relay, says, newest }) => {
+  // 2026-11-28, 29: the page looked live.
+  test('is reported also behind a proxy', async ({ viewer, relay, says, newest }) => {
     await viewer.open(newest);
     for (const refusal of [
       [502, 'text/html', '<h1>Bad gateway</h1>'],
@@ -170,8 +170,8 @@ test.describe('a server that is gone', () => {
     }
   });
 
-  // 2026-11-28: it was not asked for again.
-  test('draws a region that was asked for meanwhile', async ({ viewer, relay, says, newest }) => {
+  // 2026-11-28: the page did not ask again for the region.
+  test('draws later a region that was chosen in the meantime', async ({ viewer, relay, says, newest }) => {
     await viewer.open(newest);
     relay.isStopped = true;
     relay.endStreams();
@@ -182,8 +182,8 @@ test.describe('a server that is gone', () => {
     await says.nothing();
   });
 
-  // A server that takes connections and says nothing (2026-11-28: it looked alive).
-  test('is told when it hangs', async ({ page, viewer, relay, says, newest }) => {
+  // The server takes connections and sends nothing (2026-11-28: the page looked live).
+  test('is reported if it hangs', async ({ page, viewer, relay, says, newest }) => {
     await waitLess(page);
     await viewer.open(newest);
     relay.isHanging = true;
@@ -193,8 +193,8 @@ test.describe('a server that is gone', () => {
   });
 });
 
-// 2026-11-28: it was said not to answer. 2026-11-29: where somebody on the way refused the stream alone, the server
-// seemed to be gone.
+// 2026-11-28: the page said that such a server does not answer. 2026-11-29: the page said so if a proxy refused only
+// the stream.
 for (const [who, refusal] of [
   ['a server without a place for another stream', [503, 'text/plain; charset=utf-8', 'As many as there may be']],
   ['a proxy that refuses events', [403, 'text/html', '<h1>Forbidden</h1>']],
@@ -209,7 +209,7 @@ for (const [who, refusal] of [
   });
 }
 
-// 2026-11-28: the page kept the old one.
+// 2026-11-28: the page kept the old grid.
 test('a grid that was made again while another moment was shown is loaded again', async ({ viewer, relay, says, newest, server: { station } }) => {
   await viewer.open(newest);
   const time = (await viewer.data('drawn')).split('/').pop();
@@ -222,7 +222,7 @@ test('a grid that was made again while another moment was shown is loaded again'
   expect(viewer.asked(velocities), 'what was loaded is not loaded again').toBe(loaded);
   await turn('REF');
   await tell(relay, 'sweep_gridded', { domain: station, station, moment: 'VEL', grid: time });
-  // The page hears events in their order.
+  // Wait for a later event, because the page handles events in order.
   await tell(relay, 'station_silent', { station, silent_s: 840 });
   await expect(says.notice).toContainText('silent');
   await turn('VEL');
@@ -230,24 +230,24 @@ test('a grid that was made again while another moment was shown is loaded again'
 });
 
 test.describe('a silent radar', () => {
-  test('is told, until it speaks', async ({ viewer, relay, says, newest, server: { station } }) => {
+  test('is reported until it sends again', async ({ viewer, relay, says, newest, server: { station } }) => {
     await viewer.open(newest);
-    // The list of stations, which the page asks for once it is live, says that none is silent.
+    // Wait until the page is live, because it then asks for the list of stations, in which none is silent.
     await says.live();
     await tell(relay, 'station_silent', { station, silent_s: 840 });
     await expect(says.notice).toContainText(`${station} is silent: nothing came for 14 min`);
     await says.live(false);
     await tell(relay, 'station_spoke', { station });
     await says.nothing();
-    // 2026-11-28: when the news that it speaks were lost, it stayed silent for good.
+    // 2026-11-28: if the news that a radar sends again was lost, the page called it silent forever.
     await tell(relay, 'station_silent', { station, silent_s: 840 });
     await expect(says.notice).toContainText('silent');
     await tell(relay, 'reset', { reason: 'events were lost' });
     await says.nothing();
   });
 
-  // 2026-11-28: nothing was said.
-  test('is told if it fell silent before', async ({ viewer, relay, says, newest, server: { station } }) => {
+  // 2026-11-28: the page did not report such a radar.
+  test('is reported if it fell silent before the page was opened', async ({ viewer, relay, says, newest, server: { station } }) => {
     relay.listed = changing(/^\/api\/v1\/stations/, ({ stations }) => {
       for (const one of stations ?? []) one.silent_s = one.station === station ? 840 : null;
     });
@@ -256,8 +256,8 @@ test.describe('a silent radar', () => {
   });
 });
 
-// 2026-11-28: it looked like clear air.
-test('a graphics processor that is lost is told, and comes back', async ({ page, viewer, says, newest }) => {
+// 2026-11-28: the empty picture looked like clear air.
+test('a lost WebGL context is reported until it comes back', async ({ page, viewer, says, newest }) => {
   await viewer.open(newest);
   await page.evaluate(() => {
     window.loser = document.getElementById('picture').getContext('webgl2').getExtension('WEBGL_lose_context');
@@ -271,7 +271,7 @@ test('a graphics processor that is lost is told, and comes back', async ({ page,
   await expect(viewer.byId('labels')).toHaveCSS('visibility', 'visible');
 });
 
-// A clock of a browser that is two hours behind (2026-11-28: ages were told by it).
+// In the second case, the browser's clock is two hours behind (2026-11-28: ages were computed by this clock).
 for (const [whose, behind] of [['the data', 0], ['the data by the clock of the server', 7200e3]]) {
   test(`the title tells the age of ${whose}`, async ({ page, viewer, relay, newest }) => {
     const timeAt = 136; // of a packed grid
@@ -289,16 +289,16 @@ for (const [whose, behind] of [['the data', 0], ['the data by the clock of the s
   });
 }
 
-// A volume of a wrong time (2026-11-28: the page followed it for good).
-test('what is followed is not of the future', async ({ viewer, relay, newest, server }) => {
+// 2026-11-28: the page followed a volume with a wrong time forever.
+test('the page does not follow a volume of the future', async ({ viewer, relay, newest, server }) => {
   relay.listed = changing(/^\/api\/v1\/grids\?/, ({ grids }) => void grids.push({ ...grids.at(-1), time: '2099-01-01T00:00:00Z' }));
   await viewer.open(newest);
   expect((await server.grid(server.station)).time).toBe((await viewer.data('drawn')).split('/').pop());
   await expect(viewer.byId('follow')).toHaveText('Newest');
 });
 
-// 2026-11-28: it said that it tries again, and did not.
-test('a list that does not come before anything is shown is asked for again', async ({ viewer, relay, newest }) => {
+// 2026-11-28: the page said that it would try again, and did not.
+test('a list that fails before the first picture is asked for again', async ({ viewer, relay, newest }) => {
   relay.isBreaking = (path) => path.startsWith('/api/v1/grids?');
   await viewer.goto(newest);
   await expect(viewer.byId('state')).toContainText('Trying again');
@@ -306,7 +306,7 @@ test('a list that does not come before anything is shown is asked for again', as
   await viewer.drawn();
 });
 
-test.describe('volumes that are listed and gone', () => {
+test.describe('volumes that are listed but no longer exist', () => {
   const old = ['2001-01-01T00:00:00Z', '2001-01-01T00:05:00Z'];
   test.beforeEach(async ({ viewer, relay, newest, server: { station } }) => {
     relay.listed = changing(/^\/api\/v1\/(domains|grids\?)/, (all) => {
@@ -316,8 +316,8 @@ test.describe('volumes that are listed and gone', () => {
     await viewer.open(newest);
   });
 
-  // 2026-11-28: it was.
-  test('are not said to fail once another one is shown', async ({ page, viewer, relay }) => {
+  // 2026-11-28: the page reported the failure.
+  test('are not reported as failed once another volume is shown', async ({ page, viewer, relay }) => {
     relay.isHeld = (path) => path.includes('2001-01-01');
     await viewer.settled(async () => {
       await viewer.press('earlier');
@@ -327,14 +327,14 @@ test.describe('volumes that are listed and gone', () => {
     const answered = page.waitForEvent('requestfinished', (request) => request.url().includes('2001-01-01'));
     relay.release();
     await answered;
-    // An answer to a later question comes after it.
+    // Wait for the answer to a later request, which comes after the failed answer.
     await page.evaluate(() => fetch('../api/v1/stations').then((answer) => answer.text()));
     await viewer.frames();
     expect(await viewer.text('state')).not.toContain('no picture');
   });
 
-  // 2026-11-28: the timeline kept them, and a loop waited for them; a moment that came after the first one of its radar
-  // got no button.
+  // 2026-11-28: the timeline kept such volumes, and a loop waited for them. A moment that came later than the first
+  // moment of its radar got no button.
   test('leave the timeline, and a moment that comes later gets its button', async ({ viewer, relay, server }) => {
     const { station } = server;
     const time = (await viewer.data('drawn')).split('/').pop();
@@ -343,7 +343,7 @@ test.describe('volumes that are listed and gone', () => {
     await hasTimes(stored + 2);
     const button = viewer.byId('moment-VEL');
     await expect(button).toHaveCount(0);
-    let hasMore = true; // than those of a list
+    let hasMore = true; // the server says that it has more grids than it lists
     relay.listed = changing(/^\/api\/v1\/grids\?/, (all) => ({ ...all, more: hasMore }));
     await tell(relay, 'volume_complete', { domain: station, station, moment: 'VEL', grid: time });
     await expect(button).toHaveCount(1);

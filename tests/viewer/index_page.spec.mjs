@@ -1,5 +1,5 @@
-// Checks the data server's own page: its layout at several widths, events in an EventSource, and what pages of other
-// servers may read (scripts/check-browser).
+// Checks the index page of the data server: its layout at several widths, events in an EventSource, and which data
+// pages of other servers may read (scripts/check-browser).
 import { mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
@@ -11,7 +11,7 @@ import { startBeside, startServer } from './server.mjs';
 const scene = new URL('../../scenes/small-storm.toml', import.meta.url);
 
 const test = base.extend({
-  // A daemon that has one volume, a server of what it keeps, and a volume that may come.
+  // A daemon with one volume, a server of its data, and another volume that a test may add.
   live: [
     async ({}, use) => {
       const directory = mkdtempSync(join(tmpdir(), 'stormcellar-index-'));
@@ -35,7 +35,7 @@ const test = base.extend({
     },
     { scope: 'worker', timeout: 120_000 },
   ],
-  // A server of somebody else.
+  // Another web server, whose page asks for our data.
   another: async ({}, use) => {
     const other = createServer((request, response) => {
       response.setHeader('Content-Type', 'text/html');
@@ -47,7 +47,7 @@ const test = base.extend({
   },
 });
 
-// Returns what sticks out of the box that it is in. A function of the page.
+// Returns texts about elements that stick out of their box. Runs in the page.
 function misplaced() {
   const out = [];
   if (document.documentElement.scrollWidth > innerWidth) out.push('the page scrolls sideways');
@@ -96,7 +96,7 @@ test.describe('without scripts', () => {
   });
 });
 
-// Shows the page as if the API gave these answers.
+// Opens the page with these answers of the API.
 async function open(page, live, { stations, domains = { domains: [] } }) {
   for (const [name, json] of Object.entries({ stations, domains })) await page.route(`**/api/v1/${name}`, (route) => route.fulfill({ json }));
   await page.goto(`${live.address}/`);
@@ -105,7 +105,7 @@ const ago = (age_s) => ({ time: '2026-05-01T11:58:00Z', age_s });
 const station = (name, facts) => ({ station: name, newest_volume: null, newest_grid: null, moments: [], silent_s: null, ...facts });
 const listOf = (...stations) => ({ time: '2026-05-01T12:00:00.5Z', stations });
 
-test('a row says how old and how silent its station is', async ({ page, live }) => {
+test('a row has the ages of a station\'s data, and how long it is silent', async ({ page, live }) => {
   const domain = (name, part_of = null) => ({ domain: name, part_of, moments: [{ moment: 'REF', newest: '2026-05-01T11:56:00Z', age_s: 240 }] });
   await open(page, live, {
     stations: listOf(
@@ -123,7 +123,7 @@ test('a row says how old and how silent its station is', async ({ page, live }) 
   await expect(page.locator('code', { hasText: 'siphon' })).toContainText("stations('KTLX').time(datetime(2026, 5, 1, 11, 58))");
 });
 
-test('ages are read', async ({ page, live }) => {
+test('ages are written in fitting units', async ({ page, live }) => {
   const day = 86400;
   const ages = { 0: '0 s', 89: '89 s', 90: '1 min', 5399: '89 min', 19259: '5 h 20 min', [2 * day]: '2 days', [1096 * day]: '3 years' };
   const stations = Object.keys(ages).map((age, i) => station(`KAA${i}`, { newest_volume: ago(Number(age)) }));
@@ -131,7 +131,7 @@ test('ages are read', async ({ page, live }) => {
   await expect(page.locator('td.volume b')).toHaveText(Object.values(ages));
 });
 
-test('a time in the future is not ago, and its station is not live', async ({ page, live }) => {
+test('data with a time in the future are named so, and do not make a station live', async ({ page, live }) => {
   await open(page, live, {
     stations: listOf(station('KAAA', { newest_grid: ago(-180 * 86400) }), station('KBBB', { newest_volume: ago(-120) }), station('KCCC', { newest_volume: undefined })),
   });
@@ -148,7 +148,7 @@ test('names cannot break the page', async ({ page, live }) => {
   expect(await page.title()).toMatch(/^Weather radar: 127/);
 });
 
-test('the page says that there is nothing yet, and that the server fails', async ({ page, live }) => {
+test('the page says that there are no data yet, or that the server fails', async ({ page, live }) => {
   await open(page, live, { stations: listOf() });
   await expect(page.locator('.lead')).toHaveText('Nothing has come yet.');
   await expect(page.locator('section:visible')).toHaveText([/There are none yet/, /Connect a program/]);
@@ -157,7 +157,7 @@ test('the page says that there is nothing yet, and that the server fails', async
   await expect(page.locator('.lead')).toHaveText('The lists could not be read (stations: 503).');
 });
 
-test('an EventSource hears of a volume', async ({ page, live }) => {
+test('an EventSource receives the events of a volume', async ({ page, live }) => {
   await page.goto(`${live.address}/`);
   await page.evaluate(() => {
     window.heard = [];
@@ -180,7 +180,7 @@ test.describe('another server', () => {
     expect(await read(`${live.address}/api/v1/stations`)).toBe('refused');
   });
 
-  test('is what another name is taken for', async ({ page, live }) => {
+  test('cannot use another host name for ours', async ({ page, live }) => {
     const answer = await page.goto(`http://radar.example:${new URL(live.address).port}/`);
     expect(answer.status()).toBe(421);
   });

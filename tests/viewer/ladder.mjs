@@ -1,13 +1,13 @@
-// Measures the viewer's ladder in Chromium (scripts/viewer-ladder): time of a frame, texels that a pixel asks for, and
-// the difference from the slicer with many slices, for each rung and scene. It prints a table, and with --write puts
-// the figures into the viewer's own table.
+// Measures the viewer's ladder in Chromium (scripts/viewer-ladder). For each rung and scene, measures the time of a
+// frame, the texels that a pixel reads, and the difference from the slicer with many slices. Prints a table, and with
+// --write puts the figures into viewer/src/renderer/ladder.ts.
 import { readFileSync, writeFileSync } from 'node:fs';
 
 import { Slicer, viewOf } from './slicer.mjs';
 import { gridsOf, openPage, withBrowser } from './viewer_page.mjs';
 
 const [address, stationsText, difference, directory, framesText, size, tablePath, write] = process.argv.slice(2);
-// Each rung is a line of the table.
+// Matches the line of a rung in the table.
 const lineOfRung = /^( *\{ name: '([^']+)', .*)cost: [\d.]+, dE: [\d.]+( \},)$/gm;
 const rungs = [...readFileSync(tablePath, 'utf8').matchAll(lineOfRung)].map(([, , name]) => name);
 const frames = Number(framesText);
@@ -21,7 +21,7 @@ const scenes = [
   { name: 'supercell', station: 'KTLX', moment: 'REF', azimuth: 120, tilt: 78, zoom: 4, field: 40, exaggeration: 2, opacity: 1, at: [-30, 10, 5] },
 ];
 
-// Bricks are halved of a grid that is fetched in parts, as one of these is with so little memory (MiB).
+// Returns the memory of the page in MiB. Halved bricks need a grid in parts, and so little memory.
 const memoryOf = (rung) => (rung === 'halved bricks' ? 24 : 256);
 
 const stations = stationsText.split(',');
@@ -32,7 +32,7 @@ async function openPages(browser) {
   const viewers = new Map();
   for (const memory of new Set(rungs.map(memoryOf))) {
     const viewer = await openPage(browser, address, width, height);
-    // The address names a domain, because the page may open the map of the stations without one.
+    // Name a domain in the address, because otherwise the page may open the map of the stations.
     await viewer.open(`domain=${stations[0]}&memory=${memory}`);
     viewers.set(memory, viewer);
   }
@@ -41,7 +41,7 @@ async function openPages(browser) {
 
 const median = (list) => list.sort((a, b) => a - b)[Math.floor(list.length / 2)];
 
-// The median time of frames of nearly the same view. The first one, for which tables are made, does not count.
+// Returns the median time of frames of nearly the same view. Leaves out the first frame, which makes the tables.
 async function frameMs(viewer, scene, quality) {
   const times = [];
   for (let i = 0; i <= frames; ++i) {
@@ -52,7 +52,7 @@ async function frameMs(viewer, scene, quality) {
 }
 
 async function measure(viewer, rung, scene) {
-  // A page that is behind another one is not drawn.
+  // Bring the page to the front, because browsers do not draw pages in the background.
   await viewer.page.bringToFront();
   const quality = `memory=${memoryOf(rung)}&quality=${encodeURIComponent(rung)}`;
   const ms = await frameMs(viewer, scene, quality);
@@ -78,7 +78,7 @@ await withBrowser(async (browser) => {
   }
 });
 
-// The figures that the page gives for a rung: its cost over all scenes, and the largest difference of any.
+// Figures of a rung: its cost over all scenes, and the largest difference of any scene.
 const total = (results) => results.reduce((sum, { ms }) => sum + ms, 0);
 const costOf = ({ results }) => total(results) / total(rows[0].results);
 const dEOf = ({ results }) => Math.max(...results.map(({ dE }) => dE));

@@ -1,19 +1,19 @@
-// Checks layers: flat ones against the pictures of `stormcellar frame`, which cut the same grid by themselves, and what
-// mouse and keys do to them.
+// Checks layers. Compares flat layers with pictures of `stormcellar frame`, which cuts the same grid with other code.
+// Checks what mouse and keys do to layers.
 import { expect, expectLikeSlicer, report, test as base } from './fixtures.mjs';
 import { decoded, image } from './pixels.mjs';
 import { mostDifference, pictureOf, viewOf } from './slicer.mjs';
 
 const [width, height] = [400, 266];
 
-// The quiet colors of the picture: seen, not seen, hatch with its soft edge, border, and black where nothing is drawn.
+// Quiet colors of the picture: seen, not seen, hatch and its soft edge, border, and black where nothing is drawn.
 const quiet = [[40, 44, 50], [29, 32, 37], [23, 25, 29], [78, 82, 92], [120, 130, 146], [11, 14, 19], [0, 0, 0], [39, 42, 47]];
 const isNear = (a, b, most) => a.every((one, c) => Math.abs(one - b[c]) <= most);
 const isQuiet = (color) => quiet.some((one) => isNear(color, one, 1));
 const isDrawn = (color) => color.some((c) => c > 0);
 
-// Counts the pixels that show a value in either picture, and those of them that have another color in the other one. It
-// leaves out the outermost pixels, where the pictures have a border.
+// Returns the number of pixels that show a value in either picture, and how many of these differ between the pictures.
+// Leaves out the outermost pixels, where pictures have a border.
 function compared(ours, theirs) {
   let [shown, off] = [0, 0];
   for (let y = 2; y < ours.height - 2; ++y) {
@@ -32,7 +32,7 @@ function expectSame(what, { shown, off }, mostShare) {
   expect(off, `other pixels of ${what}`).toBeLessThanOrEqual(mostShare * shown);
 }
 
-// The last station from above: a pixel is a cell of the grid, so that nothing lies between cells.
+// The last station from above. A pixel is exactly a cell of the grid, so that no pixel is between cells.
 const test = base.extend({
   viewport: { width, height },
   above: async ({ page, viewer, server }, use) => {
@@ -44,7 +44,7 @@ const test = base.extend({
     const from = 'azimuth=180&tilt=0&field-of-view=0';
     await use({
       station, cell, zoom,
-      center: at, // of a column
+      center: at, // center of a column
       view: `domain=${station}&ground=0&volume=0&${from}&zoom=${zoom}`,
       volume: `domain=${station}&moment=REF&ground=0&${from}&zoom=${zoom}&least=40`,
       pixels: async () => image(await viewer.pixels()),
@@ -52,7 +52,7 @@ const test = base.extend({
         pictureOf(page, server.program, [server.volumes.at(-1), ...words, '--no-labels'], w, h, server.directory),
     });
   },
-  // A picture of the column maximum where it reaches 45 dBZ, and the middle of that in km.
+  // A picture of the column maximum from 45 dBZ on, and the middle of this echo in km.
   strong: async ({ viewer, above }, use) => {
     await viewer.open(`${above.view}&moment=REF&maximum=1&least=45`);
     const picture = await above.pixels();
@@ -76,7 +76,7 @@ test.describe('layers', { tag: '@full' }, () => {
     for (const name of variants) expect(name).toMatch(/^(volume, perspective|ground, perspective|lines)$/);
   });
 
-  test('from above are those of stormcellar frame', async ({ viewer, above }) => {
+  test('from above look as in stormcellar frame', async ({ viewer, above }) => {
     const top = ['--zoom', above.zoom, '--smooth', 'none'];
     await viewer.open(`${above.view}&moment=REF`);
     for (const [what, moment, layer, words] of [
@@ -89,8 +89,8 @@ test.describe('layers', { tag: '@full' }, () => {
     }
   });
 
-  // A border between two gates may lie in either of two pixels.
-  test('a sweep is that of stormcellar frame', async ({ viewer, server, above }) => {
+  // A border between two gates may fall into either of two pixels.
+  test('a sweep looks as in stormcellar frame', async ({ viewer, server, above }) => {
     const { station, cell, center } = above;
     const { volumes } = await server.json(`stations/${station}/volumes`);
     const { sweeps } = await server.json(`stations/${station}/volumes/${volumes[0].time}/sweeps`);
@@ -109,7 +109,7 @@ test.describe('layers', { tag: '@full' }, () => {
     const { inside, picture } = strong;
     await viewer.show(`${above.view}&moment=REF&surface=45`);
     const surface = await above.pixels();
-    // If two moments are chosen, one gives the shape, and the other one the colors.
+    // A surface of REF over VEL has the shape of REF and the colors of VEL.
     await viewer.show(`${above.view}&moment=VEL&surface=45&surface-moment=REF`);
     const colored = await above.pixels();
     let [missing, more, shape, others] = [0, 0, 0, 0];
@@ -125,17 +125,17 @@ test.describe('layers', { tag: '@full' }, () => {
       }
     }
     expect(inside, 'pixels where the column maximum reaches 45 dBZ').toBeGreaterThan(30);
-    // A ray may step over a cell that just reaches the value.
-    // 2026-11-29: without perspective a surface lost what is between the eye and depth 0.
-    expect(missing, 'those that are missing').toBeLessThanOrEqual(0.04 * inside);
-    expect(more, 'others').toBeLessThanOrEqual(0.005 * inside);
+    // Allow some missing pixels, because a ray may step over a cell that just reaches the value.
+    // 2026-11-29: without perspective, the part of a surface at depths below 0 was missing.
+    expect(missing, 'missing pixels').toBeLessThanOrEqual(0.04 * inside);
+    expect(more, 'pixels too many').toBeLessThanOrEqual(0.005 * inside);
     expect(shape, 'pixels in the colors of VEL').toBeGreaterThan(30);
     expect(others, 'those that are not of the surface').toBe(0);
     expect(velocities.size, 'shades of VEL').toBeGreaterThan(10);
     expect(isDrawn(colored.at(0, 0)), 'a corner is drawn').toBe(false);
   });
 
-  test('the plot of a section is that of stormcellar frame', async ({ page, viewer, above, strong }) => {
+  test('the plot of a section looks as in stormcellar frame', async ({ page, viewer, above, strong }) => {
     await viewer.settled(() => viewer.resize(796, 532));
     const [latitude, longitude] = above.center;
     const at = (x, y) => [latitude + y / 111, longitude + x / (111 * Math.cos((latitude * Math.PI) / 180))];
@@ -153,7 +153,7 @@ test.describe('layers', { tag: '@full' }, () => {
     await expect(reading, 'an arrow reads the plot').not.toHaveText(/^Greatest/);
   });
 
-  test('light is that of the slicer, with the sun beside the camera', async ({ viewer, server, above, strong }) => {
+  test('light agrees with the slicer, with the sun beside the camera', async ({ viewer, server, above, strong }) => {
     const at = [Math.round(strong.eastKm), Math.round(strong.northKm), 4];
     const scene = { station: above.station, moment: 'REF', azimuth: 180, tilt: 65, zoom: 5, field: 40, exaggeration: 3, opacity: 1, at };
     await viewer.show(`${viewOf(scene)}&light=gradient`);
@@ -164,8 +164,8 @@ test.describe('layers', { tag: '@full' }, () => {
     expect(other.p99, 'the difference with the sun elsewhere').toBeGreaterThan(mostDifference);
   });
 
-  test('a box cuts the volume, what is solid ends it, haze lies behind it', async ({ viewer, above, strong }) => {
-    const side = Math.round(width / 2 + (1000 * strong.eastKm) / above.cell); // where the box ends in the east
+  test('a box cuts the volume, solid layers end it, and haze is behind it', async ({ viewer, above, strong }) => {
+    const side = Math.round(width / 2 + (1000 * strong.eastKm) / above.cell); // eastern side of the box
     const shown = async () => {
       const one = await above.pixels();
       let [west, east] = [0, 0];
@@ -190,7 +190,7 @@ test.describe('layers', { tag: '@full' }, () => {
     expect(hazy.all - whole.all, 'pixels that haze veils').toBeGreaterThan(1000);
   });
 
-  test('keys switch them', async ({ viewer, above: { station } }) => {
+  test('keys turn layers on and off', async ({ viewer, above: { station } }) => {
     await viewer.resize(560, 420);
     await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=70`);
     await viewer.byId('picture').focus();
@@ -203,7 +203,7 @@ test.describe('layers', { tag: '@full' }, () => {
     }
   });
 
-  test('X cuts a section, and a drag cuts elsewhere', async ({ viewer, above: { station } }) => {
+  test('X cuts a section, and a drag moves it', async ({ viewer, above: { station } }) => {
     await viewer.resize(560, 420);
     await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=70`);
     await viewer.settled(() => viewer.key('x'));
@@ -224,7 +224,7 @@ test.describe('layers', { tag: '@full' }, () => {
     await viewer.changes('A looks at the section', 'tilt', () => viewer.key('a'), (_, after) => after === 80);
   });
 
-  test('the panel sets them, and fits a page 360 pixels wide', async ({ page, viewer, above: { station } }) => {
+  test('the panel sets layers, and fits into a page 360 pixels wide', async ({ page, viewer, above: { station } }) => {
     await viewer.resize(560, 420);
     await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=70`);
     await viewer.press('layers-open');

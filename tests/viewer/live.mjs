@@ -1,6 +1,6 @@
-// Measures how long after a sweep has closed the viewer shows it (scripts/bench-viewer). It appends a real volume
-// record by record to a file of the drop directory, as LDM does, and holds the next record until the page has drawn
-// what the last one brought. Prints rows.
+// Measures the time from the end of a sweep to its picture in the viewer (scripts/bench-viewer). Appends a real volume
+// record by record to a file in the drop directory, as LDM does. Before each record, waits until the page has drawn the
+// data of the last record. Prints rows.
 //   node live.mjs ADDRESS STATION VOLUME FILE_IN_DROP_DIRECTORY
 import { appendFileSync, mkdirSync, readFileSync } from 'node:fs';
 import { dirname } from 'node:path';
@@ -10,10 +10,10 @@ import { openPage, withBrowser } from './viewer_page.mjs';
 const [address, station, volume, target] = process.argv.slice(2);
 const [width, height] = [796, 532];
 const headerBytes = 24;
-// A record that closes no sweep of the moment changes no picture; there is time enough to be sure.
+// A record that closes no sweep of the moment changes no picture. After so long, no picture will come.
 const longestMs = 2500;
 
-// Each piece is a record of the archive, the first one with the header of the volume.
+// Splits an archive file into its records. The first piece also has the header of the volume.
 function piecesOf(bytes) {
   const pieces = [];
   for (let begin = 0, at = headerBytes; at < bytes.length; begin = at) {
@@ -32,7 +32,7 @@ async function hasGrid() {
   return grids.length > 0;
 }
 
-// Notes when the page is done with a picture, in ms since 1970, and how long its frame took.
+// Records when the page completes a picture, in ms since 1970, and how long the frame took. Runs in the page.
 function watch() {
   window.drawn_ = [];
   const note = () => {
@@ -45,7 +45,7 @@ function watch() {
 const pieces = piecesOf(readFileSync(volume));
 mkdirSync(dirname(target), { recursive: true });
 let sent = 0;
-// Returns when the file was closed.
+// Appends the next record. Returns the time when the file was closed.
 function send() {
   appendFileSync(target, pieces[sent++]);
   return performance.timeOrigin + performance.now();
@@ -65,7 +65,7 @@ await withBrowser(async (browser) => {
     const closed = send();
     const first = await viewer.until(() => window.drawn_[0], null, longestMs).catch(() => null);
     if (!first) continue;
-    // A picture that follows at once belongs to the same sweep.
+    // Wait for another picture, which would belong to the same sweep.
     await wait(longestMs / 5);
     found.push({ all: first[0] - closed, frame: first[1] });
   }

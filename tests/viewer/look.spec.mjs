@@ -1,4 +1,5 @@
-// Checks what the page draws and does.
+// Checks pictures of the page against the slicer, what mouse, keys and fingers do, and readings against the server's
+// probe.
 import { expect, expectLikeSlicer, report, test } from './fixtures.mjs';
 import { placeOf, shadesOf } from './pixels.mjs';
 import { mostDifference, viewOf } from './slicer.mjs';
@@ -46,7 +47,7 @@ async function compareScenes(some, viewer, { station: usual, stations, slicer })
     const what = `scene ${number}, ${scene.station} ${scene.moment}`;
     expectLikeSlicer(what, await slicer.compare(scene, pixels, { name: `scene-${number}` }));
     if (compared++ > 0) continue;
-    // The comparison can fail: other heights are another picture.
+    // Check that the comparison finds a difference with other heights.
     const other = await slicer.compare({ ...scene, exaggeration: scene.exaggeration * 1.5 }, pixels, { name: 'other' });
     report(`with other heights the difference is ${other.p99}`);
     expect(other.p99, 'the difference with other heights').toBeGreaterThan(mostDifference);
@@ -54,17 +55,17 @@ async function compareScenes(some, viewer, { station: usual, stations, slicer })
   expect(compared, 'scenes that were compared').toBeGreaterThanOrEqual(4);
 }
 
-// Every third scene shows both projections, two moments and both volumes.
-test('the volume is that of the slicer', async ({ viewer, server }) => {
+// Every third scene is enough for both projections, two moments and both volumes.
+test('the volume agrees with the slicer', async ({ viewer, server }) => {
   await compareScenes(scenes.filter(({ number }) => number % 3 === 0), viewer, server);
 });
 
-test('so it is in other scenes', { tag: '@full' }, async ({ viewer, server }) => {
+test('the volume agrees with the slicer in other scenes', { tag: '@full' }, async ({ viewer, server }) => {
   await compareScenes(scenes.filter(({ number }) => number % 3 !== 0), viewer, server);
 });
 
 test('weak echo can be hidden', async ({ viewer, server: { station } }) => {
-  // Green stands for 20 to 35 dBZ; stronger echo is yellow and red.
+  // Echo of 20 to 35 dBZ is green, and stronger echo is yellow and red.
   const echoes = `domain=${station}&moment=REF&ground=0&azimuth=180&tilt=0&zoom=1.5&field-of-view=0`;
   const isGreen = (rgb) => ((rgb >> 8) & 255) > (rgb >> 16) + 25;
   const greens = (ppm) => [...shadesOf(ppm)].filter(isGreen).length;
@@ -78,9 +79,9 @@ test('weak echo can be hidden', async ({ viewer, server: { station } }) => {
 
 test('mouse, keys and fingers move the view', async ({ viewer, server: { station } }) => {
   const at = [250, 300];
-  // The page has room beside its controls.
+  // Use a window with room beside the controls.
   await viewer.resize(796, 532);
-  // With little to draw, no touch waits until the browser cancels it.
+  // Draw little echo, so that no touch waits until the browser cancels it.
   await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=50&zoom=1.5&field-of-view=0&least=70`);
   const differs = (before, after) => after !== before;
   await viewer.changes('dragging turns', 'azimuth', () => viewer.drag(at, [40, 0]), differs);
@@ -133,6 +134,6 @@ test("a click reads the column as the server's own probe does", async ({ page, v
     if (isRight) ++read;
     else report(`at ${at} the page says ${JSON.stringify(text)}, the server ${greatest}`);
   }
-  // The page writes places to three decimals, which may lie in the next cell.
-  expect(read, 'readings of 7 that are those of the server').toBeGreaterThanOrEqual(5);
+  // Allow some differences, because the page rounds places to three decimals, which may be in the next cell.
+  expect(read, 'readings of 7 that agree with the server').toBeGreaterThanOrEqual(5);
 });

@@ -1,17 +1,17 @@
-// Goes from the address alone to a shared section through the hook of KTLX, 3 May 1999, as a newcomer would. Counts
-// what is pressed, dragged and turned.
+// Acts as a newcomer who opens the page and shares a section through the hook echo of KTLX on 3 May 1999. Counts
+// presses, drags and turns of the wheel.
 import { expect, report, test } from './fixtures.mjs';
 import { image } from './pixels.mjs';
 import { ViewerPage } from './viewer_page.mjs';
 
 const mostActions = 12;
 const [width, height] = [796, 532];
-// The tornado that went from Bridge Creek to Moore was here at 23:56 UTC, within some kilometers.
+// Place of the tornado from Bridge Creek to Moore at 23:56 UTC, within some kilometers.
 const hook = [35.27, -97.62];
 
 test.use({ viewport: { width, height }, permissions: ['clipboard-read', 'clipboard-write'] });
 
-// Presses what is written on it, where it is on the screen, and does not wait until the picture rests.
+// Presses the visible control with this text. Does not wait for a picture.
 async function press(viewer, text) {
   const named = viewer.page.locator('button, label, summary').filter({ hasText: new RegExp(`^\\s*${text}\\s*$`), visible: true });
   const at = await named.first().evaluate((one) => {
@@ -21,7 +21,7 @@ async function press(viewer, text) {
   });
   await viewer.click(at);
 }
-// The strongest echo near a place of the picture, as the eye finds it: the middle of what is red.
+// Returns the middle of the red echo near a place of the picture, which a user would take for the strongest.
 async function redNear(viewer, [nearX, nearY], within) {
   const picture = image(await viewer.pixels());
   let [count, sumX, sumY] = [0, 0, 0];
@@ -41,7 +41,7 @@ test('a newcomer shares a section through the hook', async ({ page, context, vie
     actions.push(what);
     await viewer.settled(how);
   };
-  // Opens something, of which the picture need not change; where it does, that is waited for.
+  // Presses a control. If this changes the picture, waits for the new picture.
   const open = async (text) => {
     actions.push(text);
     await press(viewer, text);
@@ -71,7 +71,7 @@ test('a newcomer shares a section through the hook', async ({ page, context, vie
   expect(ends[1], 'the section begins west of the hook').toBeLessThan(hook[1]);
   expect(ends[3], 'and ends east of it').toBeGreaterThan(hook[1]);
   expect(Math.abs(ends[0] - hook[0]), 'degrees of latitude between them').toBeLessThan(0.1);
-  // The greatest value that was read is, but for what is between cells, the server's own along that way.
+  // The greatest value of the plot is near the greatest value of the server's profile; the two differ between cells.
   const { points } = await server.json(`grids/KTLX/REF/latest/profile?from=${ends.slice(0, 2)}&to=${ends.slice(2)}&count=400`);
   const greatest = Math.max(...points.flatMap(({ values }) => values ?? []).filter((value) => value !== null));
   const read = Number(said.match(/-?\d+\.\d+/)[0]);
@@ -79,13 +79,13 @@ test('a newcomer shares a section through the hook', async ({ page, context, vie
   expect(read).toBeLessThanOrEqual(greatest + 0.5);
   expect(read).toBeGreaterThan(greatest - 3);
 
-  // Another page that opens the link shows the same.
+  // Open the link in another page, which shows the same.
   const link = await page.evaluate(() => navigator.clipboard.readText());
   const other = new ViewerPage(await context.newPage(), server.address);
   await other.page.goto(link);
   await other.drawn();
   expect(await other.text('section-reading'), 'the section').toBe(said);
-  // The address rounds the camera, so edges may be a little aside.
+  // Allow small differences at edges, because the address rounds the camera.
   const [mine, theirs] = [await viewer.pixels(), await other.pixels()];
   expect(theirs.length).toBe(mine.length);
   const apart = mine.reduce((count, byte, i) => count + (Math.abs(byte - theirs[i]) > 24 ? 1 : 0), 0);

@@ -1,15 +1,15 @@
-// Checks a grid that is fetched in parts, as one is that is too large for the page's memory: what the page says until
-// all is there, its picture against the slicer's, and what it does if the graphics processor or the server forgets.
+// Checks a grid in parts, which is too large for the page's memory: what the page says until all bricks have come, its
+// picture against the slicer's, and what it does if the WebGL context is lost or the server evicts the grid.
 import { expect, expectLikeSlicer, report, test } from './fixtures.mjs';
 import { viewOf } from './slicer.mjs';
 
 test.use({ viewport: { width: 400, height: 266 } });
 
 const small = [400, 266];
-const large = [560, 420]; // has room beside the controls
+const large = [560, 420]; // a window with room beside the controls
 const resting = [[280, 200], [200, 220], [330, 260], [380, 190], [120, 280]];
 
-// A scene of a station, another one of it, and a memory of which a tenth is a little less than its grid.
+// Two scenes of a station, and an amount of memory with which its grid is just too large to be loaded as a whole.
 const partly = test.extend({
   parts: async ({ server: { address, station } }, use, info) => {
     const packed = await (await fetch(`${address}/api/v1/grids/${station}/REF/latest/packed`)).arrayBuffer();
@@ -23,7 +23,7 @@ const partly = test.extend({
 
 const complete = (viewer) => viewer.until(() => document.documentElement.dataset.missing === '0');
 
-// A line of 80 km through a place on the plane of the grid.
+// Returns a section of 80 km through a place on the plane of the grid.
 async function sectionAbout([eastKm, northKm], server) {
   const { path } = await server.grid(server.station);
   const [latitude, longitude] = (await (await fetch(`${server.address}${path}`)).json()).center;
@@ -31,7 +31,8 @@ async function sectionAbout([eastKm, northKm], server) {
   return [...at(eastKm - 35, northKm - 20), ...at(eastKm + 35, northKm + 20)].map((degrees) => degrees.toFixed(4)).join(',');
 }
 
-// Counts the pixels that differ between two pictures: edges of colors may be a pixel aside.
+// Returns the number of pixels that are not black, and the number of pixels that differ between two pictures. Some
+// pixels differ at edges of colors, which may be a pixel aside.
 function differing(one, other) {
   let [shown, off] = [0, 0];
   for (let i = one.length % 3; i < one.length; i += 3) {
@@ -41,7 +42,7 @@ function differing(one, other) {
   return { shown, off };
 }
 
-// Returns what the page says of places where the pointer rests, which are not below its controls.
+// Returns what the page tells at each place when the pointer rests there.
 async function readAt(viewer, places) {
   await viewer.settled(() => viewer.resize(...large));
   const hover = viewer.byId('hover');
@@ -50,7 +51,7 @@ async function readAt(viewer, places) {
     await hover.evaluate((one) => void (one.hidden = true));
     await viewer.hover(place);
     await expect(hover).toBeVisible();
-    // Beam and error come with the facts of the grid, where there are any.
+    // Wait for beam and error, which come with the facts of the grid. Not every place has them.
     await viewer.until(() => document.getElementById('hover').textContent.includes('RMS'), null, 2000).catch(() => '');
     found.push((await hover.locator('p').allTextContents()).join('\n'));
   }
@@ -58,7 +59,7 @@ async function readAt(viewer, places) {
   return found;
 }
 
-// Returns what a tap at a place reads, once it has all of it.
+// Returns the reading of a tap at a place, once it has these words.
 async function readByTap(viewer, place, words) {
   await viewer.settled(() => viewer.resize(...large));
   await viewer.tap(place);
@@ -71,7 +72,7 @@ async function readByTap(viewer, place, words) {
 }
 
 test.describe('a grid in parts', { tag: '@full' }, () => {
-  partly('is coarse first, says so, and becomes that of the slicer', async ({ viewer, server, parts }) => {
+  partly('is coarse at first, says so, and then agrees with the slicer', async ({ viewer, server, parts }) => {
     const { memory, scene, view } = parts;
     await viewer.open(view(scene));
     expect(Number(await viewer.data('missing'))).toBeGreaterThan(0);
@@ -94,7 +95,8 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
 
   partly('has the layers and readings of the same grid as a whole', async ({ viewer, server, parts }) => {
     const { memory, scene, view } = parts;
-    // A surface is looked for in as many steps between other depths, except from straight above.
+    // Look at the surface from straight above. In other views, rays take other steps in a grid in parts, which changes
+    // the surface a little.
     const layers = {
       plane: 'height-km=3',
       'column maximum': 'maximum=1',
@@ -137,7 +139,7 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
     expect(await readAt(viewer, resting), 'readings').toEqual(readOfParts);
   });
 
-  // 2026-11-29: it did not, and gave the height of another value.
+  // 2026-11-29: the page did not say so, and told the height of another value.
   partly('says that layers of halved cells are read as they are drawn', async ({ viewer, server: { station }, parts }) => {
     await viewer.open(parts.view(parts.scene));
     for (const [layer, pattern] of [
@@ -152,8 +154,8 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
     }
   });
 
-  // A finger never rests over the picture (2026-11-28: it read the ground's column behind; 2026-11-29: of a maximum it
-  // told the height of the ground, and of a plane what the volume hides).
+  // A finger never rests over the picture, so a tap must read at once. 2026-11-28: a tap read the column of the ground
+  // behind the echo. 2026-11-29: it told the height of the ground for a maximum, and read a plane behind the volume.
   partly('reads the same for a finger as for a pointer', async ({ viewer, parts: { scene, view } }) => {
     await viewer.open(view(scene));
     await complete(viewer);
@@ -169,8 +171,8 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
     }
   });
 
-  // 2026-11-29: with the volume, the page waited forever.
-  partly('is read beyond itself with and without the volume', async ({ viewer, server: { station }, parts }) => {
+  // 2026-11-29: with the volume on, a reading beyond the grid never came.
+  partly('is read beyond its border, with and without the volume', async ({ viewer, server: { station }, parts }) => {
     const beyond = [];
     await viewer.open(parts.view(parts.scene));
     for (const volume of [0, 1]) {
@@ -201,7 +203,7 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
     test.use({ provoked: /410|500/ });
 
     // 2026-11-28: the page said that it was loading, and never asked again.
-    partly('gets bricks that failed later, and says when it was evicted', async ({ page, viewer, parts: { scene, other, view } }) => {
+    partly('asks again for bricks that failed, and tells if the grid was evicted', async ({ page, viewer, parts: { scene, other, view } }) => {
       await viewer.open(view(scene));
       await complete(viewer);
       const fails = (status, error) => (route) =>
@@ -211,7 +213,7 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
       await viewer.turnTo(view({ ...scene, at: [20, -30, 4] }));
       await viewer.until(() => Number(document.documentElement.dataset.missing) > 0);
       await complete(viewer);
-      // The view moves on, and the grid is evicted meanwhile.
+      // Move the view after the grid was evicted.
       await page.route(/bricks=/, fails(410, 'the grid was evicted from the cache'));
       await viewer.turnTo(view(other));
       await viewer.until(() => document.documentElement.dataset.state.includes('no picture'));

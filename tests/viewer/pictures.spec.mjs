@@ -1,4 +1,4 @@
-// Checks pictures that the page saves against what it shows.
+// Compares the pictures that the page saves with the page.
 import { expect, test } from './fixtures.mjs';
 import { decoded } from './pixels.mjs';
 
@@ -6,7 +6,8 @@ test.use({ viewport: { width: 796, height: 532 } });
 
 const view = (station, slices) => `domain=${station}&moment=REF&zoom=2&exaggeration=3&quality=${encodeURIComponent(slices)}`;
 
-// Returns how many pixels of letters the page shows over its picture, and how many of them a saved picture has there.
+// Returns the number of pixels of letters over the page's picture, and how many of these a saved picture has at the
+// same places.
 async function lettersIn(page, href) {
   const saved = await decoded(page, href);
   const letters = await page.locator('#labels').evaluate((labels) => {
@@ -40,8 +41,8 @@ async function differing(page, ...both) {
 }
 
 test.describe('a saved picture', () => {
-  // 2026-11-28: with half resolution they were at twice their distances.
-  test('has names where the page has them', async ({ page, viewer, server: { station } }) => {
+  // 2026-11-28: at half resolution, names were at twice their distances.
+  test('has names at the same places as the page', async ({ page, viewer, server: { station } }) => {
     await viewer.open(view(station, '64 slices, half resolution'));
     await viewer.catchLinks();
     const { href } = await viewer.takenBy('save');
@@ -50,8 +51,8 @@ test.describe('a saved picture', () => {
     expect(same, 'those that are where the page shows them').toBeGreaterThan(0.99 * letters);
   });
 
-  // 2026-11-28: 7 of 8 had the time of the next one.
-  test('is of the time that it names, while it plays', { tag: '@sequence' }, async ({ page, viewer, server }) => {
+  // 2026-11-28: 7 of 8 pictures had the time of the next picture.
+  test('shows the time that it names, also during playback', { tag: '@sequence' }, async ({ page, viewer, server }) => {
     await viewer.open(view(server.station, '64 slices'));
     await viewer.catchLinks();
     await viewer.until(() => Number(document.getElementById('times').max) >= 4);
@@ -71,8 +72,8 @@ test.describe('a saved picture', () => {
     }
   });
 
-  // 2026-11-28: velocities were named SW.
-  test('is of the drawn moment, while another one comes', async ({ page, viewer, server: { station } }) => {
+  // 2026-11-28: a picture of velocities had SW in its name.
+  test('names the drawn moment while another moment is loading', async ({ page, viewer, server: { station } }) => {
     await viewer.open(view(station, '64 slices'));
     await viewer.catchLinks();
     await page.evaluate(() => {
@@ -85,8 +86,8 @@ test.describe('a saved picture', () => {
   });
 });
 
-// 2026-11-28: it was that of the next one, over the picture before.
-test('the lit button is that of the drawn moment', async ({ page, viewer, server: { station } }) => {
+// 2026-11-28: the button of the next moment was highlighted while the old picture was still shown.
+test('the button of the drawn moment is highlighted', async ({ page, viewer, server: { station } }) => {
   await viewer.open(view(station, '64 slices'));
   await viewer.settled(() => viewer.press('moment-VEL'));
   const lit = () => page.evaluate(() => ['aria-pressed', 'aria-busy'].map((name) => document.querySelector(`#moments [${name}=true]`)?.textContent ?? ''));

@@ -1,6 +1,6 @@
-// Reads pixels of pictures, and places from texts.
+// Reads pixels of pictures, and reads places from texts.
 
-// The different colors of a portable pixmap, each as one number.
+// Returns the set of colors of a portable pixmap, each as one number.
 export function shadesOf(ppm) {
   const count = Math.floor((ppm.length - 15) / 3);
   return new Set(Array.from({ length: count }, (_, i) => ppm.readUIntBE(15 + 3 * i, 3)));
@@ -13,7 +13,7 @@ export function image(ppm) {
   return { width: w, height: h, at: (x, y) => [...ppm.subarray(from + 3 * (y * w + x), from + 3 * (y * w + x) + 3)] };
 }
 
-// Returns the pixels of a picture at an address, such as that of its data, which the browser decodes.
+// Returns the pixels of a picture at an address, which may be a data URL. The browser decodes the picture.
 export async function decoded(page, href) {
   const [width, height, text] = await page.evaluate(async (href) => {
     const picture = new Image();
@@ -31,7 +31,7 @@ export async function decoded(page, href) {
   return image(Buffer.concat([Buffer.from(`P6\n${width} ${height}\n255\n`), Buffer.from(text, 'base64')]));
 }
 
-// Returns latitude and longitude of a text that says them as the page does: "35.292 N, 97.561 W".
+// Returns latitude and longitude of a text such as "35.292 N, 97.561 W".
 export function placeOf(text) {
   const [, latitude, north, longitude, east] = text.match(/(\d+\.\d+) ([NS]), (\d+\.\d+) ([EW])/);
   return [Number(latitude) * (north === 'S' ? -1 : 1), Number(longitude) * (east === 'W' ? -1 : 1)];

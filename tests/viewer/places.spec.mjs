@@ -1,8 +1,9 @@
-// Checks how a user gets in and around: the map of all stations by mouse, keys, fingers and words, tools, a flight.
+// Checks how a user gets around: on the map of all stations by mouse, keys, fingers and search, with tools, and in a
+// flight.
 import { expect, report, test as base } from './fixtures.mjs';
 import { placeOf } from './pixels.mjs';
 
-// Returns the places of the stations on the map, once it is drawn.
+// Returns the pixels of the stations on the map, once the map is drawn.
 async function places(viewer) {
   await expect(viewer.byId('start')).toBeVisible();
   return viewer.stationsOnMap();
@@ -10,7 +11,7 @@ async function places(viewer) {
 
 const test = base.extend({
   viewport: { width: 700, height: 440 },
-  // The map of two stations or more.
+  // The map with two stations or more.
   map: async ({ viewer, server }, use, info) => {
     info.skip(server.stations.length < 2, 'there is one station');
     await viewer.goto();
@@ -22,7 +23,7 @@ const test = base.extend({
 const card = (viewer) => viewer.byId('start-card');
 
 test.describe('the map of stations', { tag: '@full' }, () => {
-  test('is a button away from a lone station, which is opened at once', async ({ viewer, server: { stations } }, info) => {
+  test('opens by a button if a lone station was opened at once', async ({ viewer, server: { stations } }, info) => {
     info.skip(stations.length > 1, 'there are more stations');
     await viewer.open();
     await expect(viewer.byId('start')).toBeHidden();
@@ -30,7 +31,7 @@ test.describe('the map of stations', { tag: '@full' }, () => {
     expect(await places(viewer)).toHaveProperty('size', 1);
   });
 
-  test('opens a station by mouse, and comes back', async ({ page, viewer, server: { station, other, stations }, map }) => {
+  test('opens a station by mouse, and opens again by going back', async ({ page, viewer, server: { station, other, stations }, map }) => {
     const [x, y] = (await places(viewer)).get(station);
     const [ox, oy] = (await places(viewer)).get(other);
     expect(Math.hypot(x - ox, y - oy), 'pixels between stations').toBeGreaterThan(20);
@@ -64,7 +65,7 @@ test.describe('the map of stations', { tag: '@full' }, () => {
     expect(await viewer.told('domain')).toBe(other);
   });
 
-  test('is walked by arrows', async ({ viewer, server: { stations }, map }) => {
+  test('chooses stations by arrows', async ({ viewer, server: { stations }, map }) => {
     await viewer.press('start-all');
     await viewer.byId('map').focus();
     const chosen = async () => (await card(viewer).innerText()).slice(0, 4);
@@ -85,14 +86,14 @@ test.describe('the map of stations', { tag: '@full' }, () => {
     expect(await viewer.told('domain')).toBe(station);
   });
 
-  // 2026-11-28: beyond the first view there was no land.
+  // 2026-11-28: there was no land outside of the first view.
   test('asks for the land of the whole earth once', async ({ viewer, map }) => {
     const isWide = (url) => Number(new URL(url).searchParams.get('east')) - Number(new URL(url).searchParams.get('west')) > 359;
     const ofEarth = () => viewer.requests.filter((url) => url.includes('/api/v1/map?') && isWide(url)).length;
     const came = viewer.page.waitForEvent('requestfinished', (request) => request.url().includes('/api/v1/map?') && isWide(request.url()));
     for (let times = 0; times < 10; ++times) await viewer.key('-');
     await came;
-    // The picture with that land would ask again, if land were not kept.
+    // Draw again, which would ask again if the page did not keep the land.
     await viewer.frames();
     expect(ofEarth()).toBe(1);
     await viewer.keep('earth');
@@ -100,12 +101,12 @@ test.describe('the map of stations', { tag: '@full' }, () => {
 });
 
 test.describe('around a station', { tag: '@full' }, () => {
-  // Straight from above a pixel is a column.
+  // Look straight down, so that a pixel shows one column.
   test.beforeEach(async ({ viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=40`);
   });
 
-  test('the pointer tells the cell that is seen most', async ({ viewer, server }) => {
+  test('the pointer reads the most visible cell', async ({ viewer, server }) => {
     const { path } = await server.grid(server.station);
     const exaggeration = 5;
     const { tables, usual } = await server.json('tables');
@@ -116,7 +117,7 @@ test.describe('around a station', { tag: '@full' }, () => {
       const [a, b] = [extinction[high - 1], extinction[high]];
       return a.per_km + ((value - a.value) / (b.value - a.value)) * (b.per_km - a.per_km);
     };
-    // The cell of the column that is seen most from above: it hides what is below it, and little hides it.
+    // Returns the cell of a column that is most visible from above.
     const seenMost = (levels) => {
       let [seen, most, through] = [null, 0, 1];
       for (let z = levels.length - 1; z >= 0; --z) {
@@ -146,7 +147,7 @@ test.describe('around a station', { tag: '@full' }, () => {
       if (hovered.startsWith(seen ? `${seen.value} dBZ at` : 'Lowest level')) ++told;
       else report(`at ${at} the page says ${JSON.stringify(hovered)}, the server ${JSON.stringify(seen)}`);
     }
-    // The reading writes places to three decimals, which may lie in the next cell.
+    // Allow some differences, because the reading rounds places to three decimals, which may be in the next cell.
     expect(told, 'pixels of 6 that tell the cell').toBeGreaterThanOrEqual(4);
   });
 
@@ -166,7 +167,7 @@ test.describe('around a station', { tag: '@full' }, () => {
     await expect(says, 'Escape ends a tool').toHaveText('');
   });
 
-  test('the raw volume is a link', async ({ page, viewer, server: { station } }) => {
+  test('the raw volume has a link', async ({ page, viewer, server: { station } }) => {
     await viewer.press('raw');
     const raw = await page.locator('#tool-says a').evaluate((link) => link.href);
     expect(raw).toContain(`/volumes/${station}/`);
@@ -174,7 +175,7 @@ test.describe('around a station', { tag: '@full' }, () => {
     expect(Number(headers.get('content-length')), 'bytes').toBeGreaterThan(1e5);
   });
 
-  test('a flight goes, looks around and lands', async ({ page, viewer, server: { station } }) => {
+  test('a flight moves, turns and ends', async ({ page, viewer, server: { station } }) => {
     await viewer.show(`domain=${station}&moment=REF&azimuth=180&tilt=60&zoom=4&field-of-view=0&least=70`);
     await viewer.settled(() => viewer.key('f'));
     expect([await viewer.number('field-of-view'), await viewer.number('zoom')], 'perspective').toEqual([60, 1]);

@@ -10,7 +10,8 @@ import { chromiumOptions } from './viewer_page.mjs';
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const data = resolve(root, process.env.STORMCELLAR_DATA || '../shared/data');
 const volume = (name) => join(data, 'volumes', name);
-// The volumes of a station in a folder; where there are none, one that is not here.
+// Returns the volumes of a station in a folder. Without any, returns a path that does not exist, so that checks are
+// skipped.
 function inFolder(folder, station) {
   const names = existsSync(join(data, folder)) ? readdirSync(join(data, folder)).sort() : [];
   const found = names.filter((name) => name.startsWith(station));
@@ -20,13 +21,13 @@ function inFolder(folder, station) {
 const squallLine = volume('KLBB20160601_150025_V06');
 const supercells = volume('KTLX19990503_235621.gz');
 const clearAir = volume('KLOT20220317_000842_V06');
-// The checks use a simulated volume if no real one is here.
+// Volumes of storms. If none is on this machine, the checks use a simulated volume.
 const storms = existsSync(squallLine) ? [squallLine, supercells] : existsSync(clearAir) ? [clearAir] : [];
 const sequence = inFolder('sequence-kbgm', 'KBGM');
-// Three sites that reach each other, one of them at the sea.
+// Three sites whose grids overlap, one of them at the sea.
 const neighbors = ['KCCX', 'KDIX', 'KENX'].flatMap((site) => inFolder('mosaic-northeast', site));
 
-// Firefox draws WebGL only where there is a screen; it asks nothing of its makers.
+// Firefox needs a screen to draw WebGL. Requests to its maker are turned off.
 const firefox = {
   browserName: 'firefox',
   channel: 'moz-firefox',
@@ -57,10 +58,10 @@ const firefox = {
 export default defineConfig({
   testDir: '.',
   outputDir: join(resolve(root, process.env.STORMCELLAR_BUILD || 'build/release'), 'tests/viewer/results'),
-  workers: 1, // pictures are drawn by all processors
+  workers: 1, // a picture already uses all processors
   forbidOnly: true,
-  retries: 1, // shown as flaky
-  timeout: 600_000, // a machine may compile beside
+  retries: 1, // a check that passes then is reported as flaky
+  timeout: 600_000, // long enough while the machine also compiles
   expect: { timeout: 30_000 },
   reporter: 'list',
   use: { launchOptions: chromiumOptions, hasTouch: true },

@@ -1,11 +1,11 @@
-// The pointer reads what is under it: the color of the pixel is that of the value that is told.
+// Checks the readings of the pointer: the pixel has the color of the value that the page tells.
 import { expect, report, test as base } from './fixtures.mjs';
 import { image } from './pixels.mjs';
 
 const [width, height] = [700, 440];
-const seen = [40, 44, 50]; // clear air, below what is not opaque (renderer/shades.ts)
+const seen = [40, 44, 50]; // clear air, over which colors are blended (renderer/shades.ts)
 
-// The text under the pointer, as a function of the page.
+// Returns the text beside the pointer. Runs in the page.
 const readingOf = () => {
   const hover = document.getElementById('hover');
   return !hover.hidden && [...hover.querySelectorAll('p')].map((one) => one.textContent).join('; ');
@@ -17,7 +17,7 @@ const test = base.extend({
   flat: async ({ server }, use) => {
     await use(`domain=${server.other}&moment=REF&volume=0&ground=0&azimuth=180&tilt=0&field-of-view=0&exaggeration=1&zoom=3`);
   },
-  // The color of a value, and how opaque it is on a map.
+  // Returns the color of a value, blended over clear air.
   colors: async ({ server }, use) => {
     const { tables, usual } = await server.json('tables');
     const { stops, range_folded: folded } = tables.find(({ name }) => name === usual.REF);
@@ -32,21 +32,21 @@ const test = base.extend({
   },
 });
 
-// Returns what the pointer reads at a place where it was not before.
+// Moves the pointer away and then to a place, and returns its reading there.
 async function under(viewer, place) {
   await viewer.hover([2, height - 2]);
   await viewer.byId('hover').evaluate((one) => void (one.hidden = true));
   await viewer.hover(place);
   return viewer.until(readingOf);
 }
-// Places of a picture that are not below the page's controls.
+// Yields places of the picture that are not below the page's controls.
 function* places() {
   for (let x = 130; x < width - 110; x += 37) for (let y = 170; y < height - 110; y += 31) yield [x, y];
 }
 const isBright = (picture, place) => Math.max(...picture.at(...place)) >= 100; // neither clear nor not seen
 
 test.describe('the pointer', { tag: '@full' }, () => {
-  // 2026-11-28: "echo that is not shown" over 58 dBZ.
+  // 2026-11-28: the page said "echo that is not shown" over 58 dBZ.
   for (const [layer, words, pattern] of [
     ['elevation=0.5', 'a sweep', /^(-?[\d.]+) dBZ at [\d.]+ km; tilt 0\.\d°, beam [\d.]+ km wide, [\d.]+ km at \d+° from [A-Z]{4}; seen at \d\d:\d\d:\d\d UTC$/],
     ['height-km=3', 'a plane', /^(-?[\d.]+) dBZ at 3\.0 km; on the plane/],
@@ -63,7 +63,7 @@ test.describe('the pointer', { tag: '@full' }, () => {
         const color = told.startsWith('range folded') ? colors.folded : colors.of(Number(told.match(pattern)?.[1]));
         const pixel = picture.at(...place);
         const apart = Math.max(...pixel.map((c, k) => Math.abs(seen[k] + (color[3] / 255) * (color[k] - seen[k]) - c)));
-        // A place at the edge of a gate or cell may be read from the next one.
+        // Count differences, because a place at the edge of a gate or cell may be read from the next gate or cell.
         if (apart <= 12) ++right;
         else report(`at ${place} is ${pixel}, and it says ${told}`);
       }
@@ -74,7 +74,7 @@ test.describe('the pointer', { tag: '@full' }, () => {
     });
   }
 
-  // 2026-11-28: another layer left the old reading.
+  // 2026-11-28: the old reading stayed when another layer was turned on.
   test('reads another layer where it rests', async ({ viewer, flat }) => {
     await viewer.open(`${flat}&height-km=3`);
     const picture = image(await viewer.pixels());
@@ -86,8 +86,8 @@ test.describe('the pointer', { tag: '@full' }, () => {
     await expect(viewer.byId('hover')).toBeVisible();
   });
 
-  // 2026-11-28: over the core of a storm it read 6.5 dBZ of the anvil that nobody sees.
-  test('reads what is seen of the volume', async ({ viewer, server: { other: station } }) => {
+  // 2026-11-28: over the core of a storm, the pointer read 6.5 dBZ of the anvil, which is invisible.
+  test('reads the most visible cell of the volume', async ({ viewer, server: { other: station } }) => {
     await viewer.open(`domain=${station}&moment=REF&ground=0&tilt=60&zoom=3`);
     const picture = image(await viewer.pixels());
     let core = { score: -Infinity };

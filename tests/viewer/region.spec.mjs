@@ -1,4 +1,4 @@
-// A box over two sites opens a grid of both, and of a third one that reaches it.
+// Checks regions: a box over two sites opens a grid of both, and of a third site that reaches the box.
 import { expect, test as base } from './fixtures.mjs';
 import { shadesOf } from './pixels.mjs';
 
@@ -22,7 +22,8 @@ const test = base.extend({
   },
 });
 
-// 2026-11-28: the reason was made up, and dots of sites that are not in the picture stayed, or were missing.
+// Checks that the page names the site that is left out, and marks only the sites in the picture. 2026-11-28: the page
+// made up the reason, and marked wrong sites.
 async function expectSites(viewer, left, inPicture) {
   await expect(viewer.byId('sites-told')).toContainText(`${left} (it has no volume within 15 minutes)`);
   await viewer.page.evaluate(() => {
@@ -46,7 +47,7 @@ test('a box over two sites opens a region of them', async ({ page, viewer, sites
   await expect(sites).toBeVisible();
   for (const site of [one, other]) await expect(sites, 'how far volumes are from the instant').toContainText(new RegExp(`${site} (as it was|from volumes)`));
   await viewer.drawn();
-  // 2026-11-29: a saved picture cut the ends of long lines off, where the time and the moment are.
+  // 2026-11-29: a saved picture cut off the ends of long lines, which have the time and the moment.
   const beyond = await page.evaluate(
     () =>
       new Promise((done) => {
@@ -65,7 +66,7 @@ test('a box over two sites opens a region of them', async ({ page, viewer, sites
   await expectSites(viewer, third, [one, other]);
   expect(shadesOf(await viewer.pixels()).size, 'colors').toBeGreaterThan(100);
   await viewer.keep('region');
-  // Its address alone shows the same.
+  // Open the address in a new page, which shows the same.
   const drawn = await viewer.data('drawn');
   const link = page.url();
   await page.goto('about:blank');
@@ -74,11 +75,11 @@ test('a box over two sites opens a region of them', async ({ page, viewer, sites
   expect(await viewer.data('drawn')).toBe(drawn);
 });
 
-test('what can be taken along of a region', async ({ page, viewer, sites: [one, other], region }) => {
+test('a region has links to raw volumes, but no file and no command', async ({ page, viewer, sites: [one, other], region }) => {
   await viewer.press('raw');
   const links = page.locator('#tool-says a');
   for (const site of [one, other]) await expect(links.filter({ hasText: site }), 'raw volumes').not.toHaveCount(0);
-  // A grid that was made on request has no file and no command.
+  // A grid that the server made on request has no file and no command.
   await viewer.press('netcdf');
   expect(await viewer.data('state')).toContain('cannot be downloaded');
   await viewer.press('command');
@@ -86,7 +87,7 @@ test('what can be taken along of a region', async ({ page, viewer, sites: [one, 
   await expect(viewer.byId('command')).toHaveAttribute('aria-disabled', 'true');
 });
 
-test('other sites are in the picture of another time', async ({ viewer, sites: [one, other, third], region }) => {
+test('at another time, other sites are in the picture', async ({ viewer, sites: [one, other, third], region }) => {
   await viewer.press('earlier');
   await viewer.settled(() => viewer.press('earlier'));
   await expectSites(viewer, one, [other, third]);
@@ -103,7 +104,7 @@ test.describe('a region that is too large', () => {
 });
 
 test.describe('a sweep of a region', () => {
-  // A view of a place, and places about the middle, each in km.
+  // Returns views of several places about the middle of the region.
   const viewsOf = (domain) => {
     const [west, south, east, north] = domain.slice('region:'.length).split(',').map(Number);
     const along = 111.2 * (north - south) * 0.4;
@@ -118,8 +119,8 @@ test.describe('a sweep of a region', () => {
   };
   const stationOf = (line) => line.match(/sweep of (\w+)/)?.[1];
 
-  // 2026-11-28: the next radar was named.
-  test('is named after its own radar while that of another one comes', async ({ page, viewer, region }) => {
+  // 2026-11-28: the page named the next radar.
+  test('is named after its own radar while the sweep of another radar is loading', async ({ page, viewer, region }) => {
     const views = viewsOf(region);
     const named = [];
     for (const view of views) {
@@ -136,7 +137,7 @@ test.describe('a sweep of a region', () => {
     await viewer.frames();
     expect(await viewer.text('layers-told')).toBe(ofFirst);
     await page.unrouteAll({ behavior: 'ignoreErrors' });
-    // Back to a radar whose sweep is there (2026-11-28: the line went on naming the other one).
+    // Return to a radar whose sweep has come (2026-11-28: the page went on naming the other radar).
     await viewer.open(views[0]);
     await expect(told(viewer)).toContainText(`sweep of ${named[0]}`);
     const ofNear = await lineOf(viewer);

@@ -1,4 +1,5 @@
-// Passes requests of a page on to the data server, and can go away, break off, answer otherwise and tell of events.
+// Passes requests of a page on to the data server. Checks can make it refuse, hang or break off, change answers, and
+// send events.
 import { createServer, request } from 'node:http';
 
 export class Relay {
@@ -7,14 +8,14 @@ export class Relay {
   #held = [];
   #heartbeat;
   streams = new Set();
-  events = []; // that a stream begins with
-  listed = (path, body) => body; // changes an answer
+  events = []; // texts with which a stream begins
+  listed = (path, body) => body; // changes the body of an answer
   refusal = [502, 'text/html', '<h1>Bad gateway</h1>'];
-  isStopped = false; // somebody in front of it says so, with the refusal
-  isRefusing = false; // it has no place for another stream
-  isHanging = false; // it takes connections, and sends nothing
-  isBreaking = () => false; // it breaks off before it answers
-  isHeld = () => false; // it answers once it is released
+  isStopped = false; // answers every request with `refusal`, as a proxy before a stopped server does
+  isRefusing = false; // answers requests for a stream with `refusal`
+  isHanging = false; // takes connections, and sends nothing
+  isBreaking = () => false; // returns true for requests that are broken off without an answer
+  isHeld = () => false; // returns true for requests that wait until release()
 
   constructor(address) {
     this.#upstream = new URL(address);
@@ -47,7 +48,7 @@ export class Relay {
   get held() {
     return this.#held.length;
   }
-  // Answers what it has held.
+  // Answers the requests that wait, and holds no more.
   release() {
     this.isHeld = () => false;
     for (const act of this.#held.splice(0)) act();
@@ -71,7 +72,7 @@ export class Relay {
   }
   #ask(asked, answer) {
     const { host, hostname, port } = this.#upstream;
-    // Whole answers alone can be changed: a browser that has one is not told that it is the same.
+    // Ask for whole answers, which can be changed, even if the browser has a cached answer.
     const { 'if-none-match': known, ...headers } = asked.headers;
     const to = request({ hostname, port, path: asked.url, headers: { ...headers, host, 'accept-encoding': 'identity' } }, (from) => {
       const parts = [];

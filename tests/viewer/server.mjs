@@ -1,8 +1,8 @@
-// Starts `stormcellar serve` for checks. Errors: an Error with what the server said.
+// Starts `stormcellar serve` for checks. Errors: an Error with the output of the server.
 import { spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 
-// Ends with this process.
+// Starts a program, which ends with this process.
 export function startBeside(program, words) {
   const child = spawn(program, words, { stdio: ['ignore', 'pipe', 'pipe'] });
   const kill = () => child.kill();
@@ -16,7 +16,7 @@ export function startBeside(program, words) {
   return { child, stop };
 }
 
-// Returns the address, without a slash at its end, and a function that stops the server.
+// Starts a server. Returns its address, without a slash at the end, and a function that stops the server.
 export async function startServer(program, words) {
   const { child, stop } = startBeside(program, ['serve', ...words, '--listen', '127.0.0.1:0']);
   let said = '';

@@ -1,4 +1,4 @@
-// Checks what the page gives away: link, command, picture, grid.
+// Checks what the page copies and saves: link, command, picture, grid.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
@@ -11,11 +11,11 @@ test.use({ viewport: { width, height } });
 
 const state = (viewer) => viewer.byId('state');
 const copied = (page) => page.evaluate(() => window.copied ?? null);
-// The time of the drawn grid.
+// Returns the time of the drawn grid.
 const drawnTime = async (viewer) => (await viewer.data('drawn')).split('/').pop();
 
-// Answers what the page asks about raw volumes, or lets the server answer, and sets window.told once the page has read
-// it.
+// Answers the page's requests for raw volumes with `volumes`, or if that is null lets the server answer. Sets
+// window.told once the page has read the answer.
 function tellVolumes(page, volumes = null) {
   return page.evaluate((volumes) => {
     const own = window.fetch;
@@ -23,12 +23,12 @@ function tellVolumes(page, volumes = null) {
     window.fetch = async (url, ...more) => {
       if (!String(url).includes('/volumes?to=')) return own(url, ...more);
       const read = volumes ? { volumes } : await (await own(url, ...more)).json();
-      // Readers have read it before the timer fires.
+      // Set it by a timer, which fires after the page has handled the answer.
       return Object.assign(new Response(), { json: async () => (setTimeout(() => (window.told = true)), read) });
     };
   }, volumes);
 }
-// Opens a station's reflectivity whose raw volumes are these, and returns the command.
+// Opens a station's reflectivity, answers requests for raw volumes with `volumes`, and returns the command.
 async function commandFor(viewer, station, volumes) {
   await viewer.open(`domain=${station}&moment=REF&folded=0`);
   await viewer.catchCopies();
@@ -39,8 +39,8 @@ async function commandFor(viewer, station, volumes) {
   return viewer.copiedBy('command');
 }
 
-test.describe('what is taken along', { tag: '@full' }, () => {
-  test('a link shows the same, with the time that is shown', async ({ page, viewer, server: { station } }) => {
+test.describe('sharing', { tag: '@full' }, () => {
+  test('a link shows the same view at the same time', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2&least=30&height-km=3`);
     await viewer.catchCopies();
     await viewer.settled(() => viewer.key('ArrowRight'));
@@ -49,19 +49,19 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     expect(link).toBe(pinned);
     expect(link).toContain('height-km=3');
     const picture = await viewer.pixels();
-    // If no command draws the same, none is offered (2026-11-28: of several layers it drew one without a word).
+    // The page offers no command if none draws the same (2026-11-28: the command drew one of several layers).
     await page.evaluate(() => void (window.copied = undefined));
     await viewer.press('command');
     await expect(state(viewer)).toContainText('one layer');
     expect(await copied(page)).toBeNull();
-    // Somebody else opens it.
+    // Open the link in a new page.
     await page.goto('about:blank');
     await page.goto(link);
     await viewer.drawn();
     expect((await viewer.pixels()).equals(picture), 'the picture is the same').toBe(true);
   });
 
-  test('a command runs where the raw volume is', async ({ viewer, server }) => {
+  test('a command runs in the folder of the raw volume', async ({ viewer, server }) => {
     const { station, program, directory } = server;
     const volume = server.volumes[0];
     await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2`);
@@ -71,7 +71,7 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     await viewer.press('open');
     await viewer.until(() => window.told);
     const command = await viewer.copiedBy('command');
-    // A shell splits the command.
+    // Let a shell split the command.
     const words = execFileSync('sh', ['-c', `printf '%s\\n' ${command}`], { encoding: 'utf8' }).trimEnd().split('\n').slice(1);
     expect(words.slice(0, 2), command).toEqual(['frame', basename(volume)]);
     const drawn = join(directory, 'command.png');
@@ -79,19 +79,19 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     expect(readFileSync(drawn).length, 'bytes of its picture').toBeGreaterThan(10000);
     expect(command, 'it names the colors').toContain('--colors ');
     expect(command, 'it names the size of the page').toContain(`--width ${width} --height ${height}`);
-    // 2026-11-28: Raw volume gave that file another name.
+    // 2026-11-28: the button "Raw volume" gave the file another name than the command.
     const taken = await viewer.takenBy('raw');
     const file = await fetch(taken.href, { method: 'HEAD' });
     expect(file.status).toBe(200);
-    // A browser takes the name of the answer before that of the link.
+    // A browser prefers the name in the answer to the name in the link.
     const saved = file.headers.get('content-disposition')?.match(/filename="(.*)"/)?.[1] ?? taken.name;
     expect(saved, 'the name of the raw volume').toBe(words[1]);
   });
 
-  test('a command is of the moment that is shown', async ({ page, viewer, server: { station } }) => {
+  test('a command draws the shown moment', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2`);
     await viewer.catchCopies();
-    // 2026-11-28: it had the colors of the moment that was chosen, and not of the one that was shown.
+    // 2026-11-28: the command had the colors of the chosen moment, which was not yet shown.
     const said = await page.evaluate(() => {
       document.getElementById('moment-VEL').click();
       document.getElementById('command').click();
@@ -104,7 +104,7 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     await viewer.press('command');
     await expect(state(viewer), 'a veil has no command').toContainText('veil');
     expect(await copied(page)).toBeNull();
-    // 2026-11-29: the button was marked by the picture before.
+    // 2026-11-29: the button was still marked for the previous picture.
     const button = viewer.byId('command');
     await expect(button, 'it is not offered').not.toHaveAttribute('aria-disabled', 'false');
     await viewer.show(`domain=${station}&moment=VEL&azimuth=200&tilt=60&zoom=2&folded=0`);
@@ -113,7 +113,7 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     expect(command).toContain('--moment VEL');
   });
 
-  test('a picture has what it needs to be understood', async ({ page, viewer, server: { station } }) => {
+  test('a saved picture has title, colors and legend', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2&least=30&height-km=3`);
     await viewer.catchLinks();
     const { name, href } = await viewer.takenBy('save');
@@ -134,7 +134,7 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     writeFileSync(join(pictures, 'saved.png'), Buffer.from(href.split(',')[1], 'base64'));
   });
 
-  test('a grid is a file that the browser saves', async ({ page, viewer, server: { station, address } }) => {
+  test('the browser saves a grid as a file', async ({ page, viewer, server: { station, address } }) => {
     await viewer.open(`domain=${station}&moment=REF`);
     const { headers, status } = await fetch(`${address}/api/v1/grids/${await viewer.data('drawn')}/netcdf`);
     expect(status).toBe(200);
@@ -144,14 +144,14 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     expect(headers.get('content-disposition')).toContain(download.suggestedFilename());
   });
 
-  // 2026-11-28: the command drew an older raw file that is there.
+  // 2026-11-28: the command named an older raw file.
   test('without its raw file, a command reads the cache and says so', async ({ viewer, server: { station } }) => {
     const command = await commandFor(viewer, station, [{ raw: 'OLDER', time: '2016-06-01T14:50:00Z' }]);
     expect(command).toMatch(new RegExp(`^stormcellar frame ${station} `));
     await expect(state(viewer)).toContainText('cache');
   });
 
-  // 2026-11-28: the command read it, and it was offered.
+  // 2026-11-28: the command and the link named the deleted file.
   test('a raw file that was deleted is not offered', async ({ page, viewer, server: { station } }) => {
     expect(await commandFor(viewer, station, [{ raw: null }])).toMatch(new RegExp(`^stormcellar frame ${station} `));
     await page.evaluate(() => {
@@ -163,8 +163,8 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     await expect(viewer.byId('tool-says')).toContainText('does not have the raw files');
   });
 
-  // 2026-11-29: its raw file was said not to be here.
-  test('of the raw file of a grid that is gone, nothing is said', async ({ page, viewer, server: { station } }) => {
+  // 2026-11-29: the page said that there is no raw file.
+  test('the page says nothing of the raw file of an evicted grid', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&folded=0`);
     await page.evaluate((time) => {
       const own = window.fetch;
@@ -176,14 +176,14 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     await expect(viewer.byId('tool-says')).toHaveText('');
   });
 
-  // A copy of that file was deleted (2026-11-28: the command drew the first volume of it).
+  // The volume has two files, one of which was deleted (2026-11-28: the command drew the first volume of the file).
   test('a command draws the second volume of a file', async ({ viewer, server: { station } }) => {
     const command = await commandFor(viewer, station, [{ raw: 'TWO', number_in_file: 2 }, { raw: null, number_in_file: 2 }]);
     expect(command).toMatch(/^stormcellar frame TWO /);
     expect(command).toContain('--volume 2');
   });
 
-  // 2026-11-28: it was saved under the name of the first chunk.
+  // 2026-11-28: the volume was saved under the name of its first chunk.
   test('a volume that came in chunks has a name of its own', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&folded=0`);
     const began = await drawnTime(viewer);
@@ -195,8 +195,8 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     expect((await fetch(href, { method: 'HEAD' })).status).toBe(200);
   });
 
-  // 2026-11-28: the command drew that grid.
-  test('the command of a grid that the program would not make reads the cache', async ({ page, viewer, server: { station } }) => {
+  // 2026-11-28: the command named the raw file, from which the program makes another grid.
+  test('the command for an unusual grid reads the cache', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&folded=0`);
     await viewer.catchCopies();
     await viewer.press('open');
@@ -217,7 +217,7 @@ test.describe('what is taken along', { tag: '@full' }, () => {
     expect(await viewer.copiedBy('command')).toMatch(new RegExp(`^stormcellar frame ${station} `));
   });
 
-  // A browser gives none over plain HTTP (2026-11-28: the page said that the link is there).
+  // A browser gives no clipboard over plain HTTP (2026-11-28: the page said that it had copied the link).
   test('without a clipboard the page says so', async ({ page, viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF`);
     await page.evaluate(() => {

@@ -1,25 +1,25 @@
-// Draws with the slicer what the page shows, and compares the two.
+// Draws the page's view with the slicer, and compares the pictures.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { decoded } from './pixels.mjs';
 
-// The largest difference allowed between page and slicer: CIEDE2000, 99th percentile of the pixels that show echo.
+// Largest allowed difference between page and slicer: 99th percentile of CIEDE2000 over the pixels that show echo.
 export const mostDifference = 2;
 
-// The view of a scene: the volume alone.
+// Returns the view of a scene, which has only the volume.
 export const viewOf = ({ station, moment, azimuth, tilt, zoom, field, exaggeration, opacity, at }) =>
   `domain=${station}&moment=${moment}&ground=0&azimuth=${azimuth}&tilt=${tilt}&zoom=${zoom}&field-of-view=${field}` +
   `&exaggeration=${exaggeration}&opacity=${opacity}&folded=0&look-at-km=${at.join(',')}`;
 
 // Draws the page's volumes with the slicer.
 export class Slicer {
-  // `difference` is the program viewer_difference; files go to `directory`, and pictures to `pictures` if it is there.
+  // `difference` is the program viewer_difference. Files go to `directory`, and pictures to `pictures` if it is set.
   constructor({ address, difference, directory, pictures = process.env.STORMCELLAR_PICTURES }) {
     Object.assign(this, { address, difference, directory, pictures, files: new Map() });
   }
-  // Returns a file with the newest grid, or null.
+  // Returns the path of a file with the newest grid, or null.
   async fileOf(station, moment) {
     const name = `${station}-${moment}.scg`;
     if (!this.files.has(name)) {
@@ -29,8 +29,8 @@ export class Slicer {
     }
     return this.files.get(name);
   }
-  // Returns the CIEDE2000 of a picture: 99th percentile, mean, greatest, and the number of pixels. `before` and
-  // `behind` have words for the program.
+  // Returns the difference of a picture from the slicer's in CIEDE2000: 99th percentile, mean, greatest, and number of
+  // pixels. `before` and `behind` are more arguments for viewer_difference.
   async compare(scene, ppm, { name = 'picture', before = [], behind = [] } = {}) {
     const { azimuth, tilt, zoom, field, exaggeration, opacity, at } = scene;
     if (this.pictures) mkdirSync(this.pictures, { recursive: true });

@@ -1,5 +1,4 @@
-// Checks sweeps of raw volumes on the page: which cut is shown, all of them to choose from, what is said of layers, and
-// loops.
+// Checks sweeps of raw volumes: which cut the page shows, the list of cuts, what the page says of layers, and loops.
 import { expect, report, test as base } from './fixtures.mjs';
 import { image } from './pixels.mjs';
 
@@ -8,7 +7,8 @@ const told = (viewer) => viewer.byId('layers-told');
 
 const test = base.extend({
   viewport: { width: 500, height: 400 },
-  // The newest volume's cuts with reflectivity, the one of the lowest elevation that pictures take, and another one.
+  // Cuts of the newest volume with reflectivity: all of them, the cut of the lowest elevation that pictures take, and
+  // another cut of this elevation, if there is one.
   cuts: async ({ server }, use) => {
     const { volumes } = await server.json(`stations/${server.station}/volumes`);
     const { sweeps } = await server.json(`stations/${server.station}/volumes/${volumes.at(-1).time}/sweeps`);
@@ -22,8 +22,8 @@ const test = base.extend({
     use(`domain=${server.station}&moment=REF&volume=0&azimuth=180&tilt=0&field-of-view=0&quality=${encodeURIComponent('64 slices')}`),
 });
 
-// 2026-11-28: the Doppler half, and no other, was shown.
-test('the page shows the cut that pictures take, and any other one', async ({ page, viewer, cuts: { having, chosen, other }, above }) => {
+// 2026-11-28: the page showed the Doppler half, and offered no other cut.
+test('the page shows the cut that pictures take, and any other cut on request', async ({ page, viewer, cuts: { having, chosen, other }, above }) => {
   await viewer.open(`${above}&elevation=0.5`);
   await expect(told(viewer)).toContainText(chosen.start.slice(11, 19));
   await expect(page.locator('#sweep-elevation option'), 'each cut is in the list').toHaveCount(having.length);
@@ -39,7 +39,7 @@ test('the page shows the cut that pictures take, and any other one', async ({ pa
 test.describe('the page says what it does not draw', () => {
   test.use({ provoked: /404|500|ERR_CONNECTION_RESET/ });
 
-  // Ten seconds, after which the page asks again, pass in half of one.
+  // Speeds up time, so that the ten seconds until the page asks again take half a second.
   const hurry = ({ page }) =>
     page.evaluate(() => {
       const [clock, timer] = [performance.now.bind(performance), setTimeout];
@@ -47,14 +47,14 @@ test.describe('the page says what it does not draw', () => {
       window.setTimeout = (act, ms, ...more) => timer(act, ms > 10_000 && ms < 11_000 ? ms / 20 : ms, ...more);
     });
 
-  // 2026-11-28: it told of a surface that it did not draw.
-  test('a surface of a moment that is not there', async ({ viewer, above }) => {
+  // 2026-11-28: the page named a surface that it did not draw.
+  test('a surface of a missing moment', async ({ viewer, above }) => {
     await viewer.open(`${above}&surface=20&surface-moment=ZZZ`);
     await expect(told(viewer)).toContainText('not shown: no ZZZ');
   });
 
-  // 2026-11-28: it said that there is no sweep.
-  test('a sweep that does not come', async ({ page, viewer, server: { station }, above }) => {
+  // 2026-11-28: the page said that there is no sweep.
+  test('a sweep that fails to load', async ({ page, viewer, server: { station }, above }) => {
     await viewer.open(above);
     await hurry(viewer);
     await page.route(/\/sweeps\//, (route) => route.abort('connectionreset'));
@@ -65,8 +65,8 @@ test.describe('the page says what it does not draw', () => {
     await expect(told(viewer), 'it is asked for again').toContainText(`sweep of ${station}: `);
   });
 
-  // 2026-11-28: one failed answer said for good that there is no such moment.
-  test('a surface that does not come', async ({ page, viewer, above }) => {
+  // 2026-11-28: after one failed answer, the page said forever that there is no such moment.
+  test('a surface that fails to load', async ({ page, viewer, above }) => {
     await viewer.open(above);
     await hurry(viewer);
     await page.route(/\/VEL\/.*\/packed/, (route) => route.fulfill({ status: 500, json: { error: 'trouble' } }));
@@ -77,8 +77,8 @@ test.describe('the page says what it does not draw', () => {
   });
 });
 
-// 2026-11-28: a box, layers that are off, and a veil that is off looked like clear air.
-test('what is hidden is said', async ({ viewer, server: { station } }) => {
+// 2026-11-28: echo hidden by a box, by layers that are off or by a veil that is off looked like clear air.
+test('the page says which echo is hidden', async ({ viewer, server: { station } }) => {
   await viewer.open(`domain=${station}&moment=REF`);
   const wordsOfViews = {
     'moment=REF&crop-km=-50,50,-50,50,14,16': 'echo outside the box from 14.0 km to 16.0 km is hidden',
@@ -94,11 +94,11 @@ test('what is hidden is said', async ({ viewer, server: { station } }) => {
   }
 });
 
-// 2026-11-28: it was cut off at the grid's box.
+// 2026-11-28: the sweep was cut off at the grid's box.
 test('the whole sweep is drawn, also beyond the grid', async ({ viewer, cuts: { chosen }, above }, info) => {
   const reaches = Math.max(...chosen.moments.filter(({ moment }) => moment === 'REF').map(({ gates, gate_spacing_m }) => gates * gate_spacing_m));
   info.skip(reaches <= 3e5, `the sweep ends at ${reaches / 1000} km`);
-  // At this zoom the grid is a third as high as the picture, and as wide as high.
+  // At this zoom the grid is a square a third as high as the picture.
   await viewer.open(`${above}&elevation=0.5&zoom=0.333&ground=0`);
   const picture = image(await viewer.pixels());
   let [within, beyond] = [0, 0];
@@ -117,7 +117,7 @@ test('the whole sweep is drawn, also beyond the grid', async ({ viewer, cuts: { 
 });
 
 test.describe('a loop', { tag: '@sequence' }, () => {
-  // Counts the pixels of a small copy of the picture that are not black.
+  // Counts the pixels that are not black in a small copy of the picture.
   const look = ({ page }) =>
     page.evaluate(() => {
       const pen = Object.assign(document.createElement('canvas'), { width: 100, height: 80 }).getContext('2d', { willReadFrequently: true });
@@ -129,8 +129,8 @@ test.describe('a loop', { tag: '@sequence' }, () => {
         return count;
       };
     });
-  // Records what the page shows while it plays all times twice. Checks that it never shows an empty map, and returns
-  // what it says of its layers at each time.
+  // Plays all times twice. Checks that the page never shows an empty map, and returns what it says of its layers at
+  // each time.
   async function play(viewer, view) {
     const { page } = viewer;
     await viewer.open(view);
@@ -163,8 +163,8 @@ test.describe('a loop', { tag: '@sequence' }, () => {
     return new Map(seen.map(([time, line]) => [time, line]));
   }
 
-  // 2026-11-28: all of 24 pictures were empty at 4 frames a second.
-  test('of sweeps is never empty, and names a sweep of the volume that is shown', async ({ viewer, above }) => {
+  // 2026-11-28: at 4 frames a second, all 24 pictures were empty.
+  test('of sweeps is never empty, and names a sweep of the shown volume', async ({ viewer, above }) => {
     const lines = await play(viewer, `${above}&ground=0&elevation=0.5`);
     const secondsOf = (time) => Date.parse(`2000-01-01T${time}Z`) / 1000;
     expect(lines.size, 'times').toBeGreaterThanOrEqual(5);
@@ -175,8 +175,8 @@ test.describe('a loop', { tag: '@sequence' }, () => {
     }
   });
 
-  // The last ones are of a grid in parts, whose layers are made of windows of it (2026-11-28: half of what was shown
-  // was empty). There is room for one sweep, beside the one that is shown.
+  // The last loops have little memory, so that the grid is in parts and its layers are made of windows (2026-11-28:
+  // half of the pictures were empty). There is room for one sweep besides the shown sweep.
   for (const [memory, layer] of [
     ['', 'surface=8&surface-moment=VEL'],
     ['', 'height-km=3'],
@@ -189,8 +189,8 @@ test.describe('a loop', { tag: '@sequence' }, () => {
     });
   }
 
-  // 2026-11-28: it was of the sweep before.
-  test('is read by a resting pointer: a gate of the sweep that is drawn', async ({ viewer, above }) => {
+  // 2026-11-28: the pointer read a gate of the previous sweep.
+  test('lets a resting pointer read gates of the drawn sweep', async ({ viewer, above }) => {
     await viewer.open(`${above}&ground=0&elevation=0.5&zoom=4`);
     await viewer.until(() => Number(document.getElementById('times').max) >= 4);
     await viewer.hover([260, 240]);

@@ -1,4 +1,4 @@
-// Checks what the timeline of the page does with several volumes of one station.
+// Checks the timeline of the page with several volumes of one station.
 import { expect, test as base } from './fixtures.mjs';
 
 const count = (viewer) => viewer.page.evaluate(() => Number(document.getElementById('times').max) + 1);
@@ -7,7 +7,7 @@ const shown = (viewer) => viewer.data('drawn');
 const test = base.extend({
   viewport: { width: 796, height: 532 },
   view: ({ server }, use) => use(`domain=${server.station}&moment=REF&tilt=0&field-of-view=0`),
-  // Times of the volumes. The server takes in the later ones beside its first answers.
+  // Times of the volumes. Waits for all of them, because the server may answer before it has gridded the later volumes.
   times: async ({ server }, use) => {
     const times = async () => (await server.grids()).filter(({ moment }) => moment === 'REF').map(({ time }) => time);
     await expect.poll(async () => (await times()).length, 'volumes').toBe(server.volumes.length);
@@ -44,7 +44,7 @@ test('keys follow the newest, set a loop and step in it', async ({ viewer, newes
   expect(await shown(viewer)).toBe(third);
 });
 
-// Never one of another time than the page says.
+// The page must also never show another time than it says.
 test('playback stays in its loop', async ({ page, viewer, newest }) => {
   await viewer.settled(() => viewer.key(','));
   await viewer.press('loop-to');
@@ -67,7 +67,7 @@ test('playback stays in its loop', async ({ page, viewer, newest }) => {
   expect(seen).toContain(first);
 });
 
-test('frames between volumes are made, and said to be', async ({ viewer, newest }) => {
+test('frames between volumes are made, and the title says so', async ({ viewer, newest }) => {
   await viewer.settled(() => viewer.press('earlier'));
   const before = await count(viewer);
   const kept = await shown(viewer);
@@ -77,23 +77,23 @@ test('frames between volumes are made, and said to be', async ({ viewer, newest 
   expect(await shown(viewer), 'the volume that is shown stays').toBe(kept);
   await viewer.press('later');
   const title = viewer.byId('title');
-  // The server makes it first.
+  // Wait longer, because the server makes the frame first.
   await expect(title).toContainText('made between volumes', { timeout: 60_000 });
   await expect(title).toContainText(':00 UTC');
   expect(await viewer.told('between')).toBe('60');
-  // 2026-11-28: it said that there was no volume of the time of one.
+  // 2026-11-28: the page said that there was no volume of a time that has one.
   await expect(viewer.byId('notice')).toHaveText('');
 });
 
-// 2026-11-28: "no volume of" a time of which there is one.
+// 2026-11-28: the page said "no volume of" a time that has a volume.
 test('a link to a volume among frames in between shows it', async ({ viewer, view, times }) => {
   await viewer.open(`${view}&time=${times[1]}&between=60`);
   expect((await shown(viewer)).endsWith(times[1]), await shown(viewer)).toBe(true);
   expect(await viewer.text('notice')).toBe('');
 });
 
-// 2026-11-28: before anything else was shown, the oldest volume took the place of the newest.
-test('who pauses stays at the newest', async ({ viewer, times, newest }) => {
+// 2026-11-28: the page went to the oldest volume if the user paused before another time was shown.
+test('pausing keeps the newest volume', async ({ viewer, times, newest }) => {
   await viewer.press('play');
   await viewer.press('play');
   await viewer.press('moment-VEL');
@@ -102,7 +102,7 @@ test('who pauses stays at the newest', async ({ viewer, times, newest }) => {
   expect(await viewer.text('notice')).toBe('');
 });
 
-// 2026-11-28: the later one was called the nearest.
+// 2026-11-28: the page called the later volume the nearest.
 test('a link to a time between two volumes shows the nearest', async ({ viewer, view, times }) => {
   const wanted = new Date(Date.parse(times[1]) + 60_000).toISOString();
   await viewer.open(`${view}&time=${wanted}`);
@@ -113,8 +113,8 @@ test('a link to a time between two volumes shows the nearest', async ({ viewer, 
 test.describe('an instant for which there is no frame', () => {
   test.use({ provoked: /404/ });
 
-  // 2026-11-28: the next one was called the nearest.
-  test('shows the nearest volume, and a step goes on', async ({ viewer, view, times }) => {
+  // 2026-11-28: the page called the next volume the nearest.
+  test('shows the nearest volume, and a step skips the instant', async ({ viewer, view, times }) => {
     const soon = new Date(Date.parse(times[0]) + 46_000).toISOString().slice(0, 19);
     await viewer.open(`${view}&time=${soon}Z&between=60`);
     expect((await shown(viewer)).endsWith(times[0]), await shown(viewer)).toBe(true);

@@ -1,13 +1,13 @@
-// Compares the volume that the page of the viewer drew with what the slicer draws of the same grid
-// with the same camera.
+// Compares the viewer's picture of a volume with the slicer's picture of the same grid, with the
+// same camera.
 //   viewer_difference [--sun AZIMUTH,ELEVATION] GRID.scg PICTURE.ppm AZIMUTH TILT ZOOM
 //     FIELD_OF_VIEW EXAGGERATION OPACITY LOOK_AT_X LOOK_AT_Y LOOK_AT_Z [--colors TABLE]
 //     [--slices N] [SLICER.png]
-// The picture has the volume over black, lit by its gradient if there is a sun. Distances are in
-// meters. It prints the differences by CIEDE2000, and how many pixels show anything in either
-// picture; those that are black in both do not count. TABLE is a name or a file, as `stormcellar
-// frame --colors` takes it; without it the moment has its usual colors. N slices are drawn, without
-// it the usual number. With another name it leaves the slicer's picture there.
+// The picture shows the volume over black, and lit by its gradient if a sun is given. Distances are
+// in meters. Prints the differences in CIEDE2000, and the number of pixels that are not black in
+// both pictures; other pixels do not count. TABLE is a name or a file, as for `stormcellar frame
+// --colors`; by default it is the moment's usual table. N is the number of slices. If SLICER.png is
+// given, writes the slicer's picture there.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -38,7 +38,7 @@ bool is_black(const std::uint8_t* pixel) {
     return pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0;
 }
 
-// Both pictures without the pixels that are black in both, as one row.
+// Both pictures without the pixels that are black in both. Each is one row.
 struct Shown {
     Image one, other;
 };
@@ -73,7 +73,7 @@ Image drawn(const grid::BrickView& view, const ColorTable& colors,
     return image;
 }
 
-// A picture as the script writes it: "P6", width, height, 255, and three bytes a pixel.
+// Reads a picture as viewer_page.mjs writes it: "P6", width, height, 255, and three bytes a pixel.
 std::optional<Image> read_ppm(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string magic;
@@ -106,7 +106,7 @@ int complain(std::string_view text) {
     return 2;
 }
 
-// Takes "--sun AZIMUTH,ELEVATION" from the front of the arguments.
+// Takes "--sun AZIMUTH,ELEVATION" from the front of the arguments, if it is there.
 Light light_of(int& argc, char**& argv) {
     Light light;
     if (argc < 3 || std::string_view(argv[1]) != "--sun") return light;

@@ -1,30 +1,30 @@
-// Reads and works the viewer's page for checks and measurements: its address, its data attributes, mouse, keys and
-// fingers. Units: pixels of the page.
+// Drives the viewer's page for checks and measurements: address, data attributes, mouse, keys and fingers. Units are
+// pixels of the page.
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { chromium, expect } from '@playwright/test';
 
-// Debian's Chromium. Its processor draws WebGL.
+// Options for Debian's Chromium, which draws WebGL with the processor.
 export const chromiumOptions = {
   executablePath: '/usr/bin/chromium',
   args: ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic'],
 };
 
-// A picture may take so long on a machine that compiles beside.
+// A picture may take so long while the machine also compiles.
 const patience = 120_000;
 
 export class ViewerPage {
   // `page` is Playwright's, and `address` is the server's, without a slash at its end.
   constructor(page, address) {
     Object.assign(this, { page, address });
-    this.trouble = []; // errors of the page, and what the policy refused
+    this.trouble = []; // errors of the page, and requests that its security policy refused
     this.requests = [];
     page.on('pageerror', (error) => this.trouble.push(error.stack ?? error.message));
     page.on('console', (message) => message.type() === 'error' && this.trouble.push(message.text()));
     page.on('request', (request) => this.requests.push(request.url()));
   }
-  // Adds to `bytes` what comes over the wire from now on.
+  // Counts in `bytes` what comes over the network from now on.
   async countBytes() {
     this.bytes = 0;
     const session = await this.protocol();
@@ -38,14 +38,14 @@ export class ViewerPage {
   goto(view = '') {
     return this.page.goto(`${this.address}/view/#${view}`, { waitUntil: 'commit' });
   }
-  // Opens the page anew, and waits for its picture.
+  // Opens the page again with a view, and waits for its picture.
   async open(view = '') {
     await this.page.goto('about:blank');
     await this.goto(view);
     await this.drawn();
   }
-  // Changes the view, and waits for its fine picture. A picture that is drawn before the page has taken the address
-  // does not count.
+  // Changes the view, and waits for its fine picture. Ignores a picture that the page draws before it has taken the
+  // address.
   async show(view) {
     await this.page.evaluate(
       (hash) =>
@@ -61,11 +61,11 @@ export class ViewerPage {
     );
     await this.drawn();
   }
-  // Changes the address, and does not wait.
+  // Changes the address without waiting.
   turnTo(view) {
     return this.page.evaluate((hash) => void (location.hash = hash), view);
   }
-  // Waits for the fine picture after an act.
+  // Carries out an act, and waits for the fine picture after it.
   async settled(act) {
     await this.page.evaluate(() => void delete document.documentElement.dataset.drawn);
     await act();
@@ -74,7 +74,7 @@ export class ViewerPage {
   drawn() {
     return this.until(() => document.documentElement.dataset.drawn, null, patience);
   }
-  // Waits until a function of the page returns something, and returns it.
+  // Waits until a function that runs in the page returns a truthy value, and returns this value.
   async until(condition, argument = null, timeout = 30_000) {
     const found = await this.page.waitForFunction(condition, argument, { timeout, polling: 20 });
     return found.jsonValue();
@@ -84,7 +84,7 @@ export class ViewerPage {
     return this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
 
-  // Returns what the address says.
+  // Returns a parameter of the address.
   told(name) {
     return this.page.evaluate((name) => new URLSearchParams(location.hash.slice(1)).get(name), name);
   }
@@ -101,7 +101,7 @@ export class ViewerPage {
   byId(id) {
     return this.page.locator(`#${id}`);
   }
-  // Checks what an act does to a number of the address.
+  // Carries out an act, and checks its effect on a number of the address.
   async changes(what, name, act, holds) {
     const before = await this.number(name);
     await this.settled(act);
@@ -109,18 +109,18 @@ export class ViewerPage {
     expect(holds(before, after), `${what}: ${name} ${before} to ${after}`).toBe(true);
   }
 
-  // Returns the pixels of the stations on the start map, once it shows this one.
+  // Returns the pixels of the stations on the start map, once the map shows `station`.
   async stationsOnMap(station = '') {
     const isThere = (station) => document.documentElement.dataset.map?.includes(station) && document.documentElement.dataset.map;
     const places = (await this.until(isThere, station)).split(',').map((place) => place.split(' '));
     return new Map(places.map(([icao, x, y]) => [icao, [Number(x), Number(y)]]));
   }
 
-  // Presses what need not be in sight.
+  // Presses a control, which may be hidden.
   press(id) {
     return this.byId(id).evaluate((one) => one.click());
   }
-  // Gives a control another value.
+  // Sets the value of a control, and sends its event.
   give(id, value, event = 'change') {
     const set = (one, [value, event]) => {
       one.value = value;
@@ -153,7 +153,7 @@ export class ViewerPage {
     await this.page.mouse.move(x, y);
     await this.page.mouse.wheel(0, deltaY);
   }
-  // Playwright has one finger, DevTools has more.
+  // Returns a session of the DevTools protocol, which can touch with several fingers.
   async protocol() {
     return (this.session ??= await this.page.context().newCDPSession(this.page));
   }
@@ -169,7 +169,7 @@ export class ViewerPage {
     return this.page.setViewportSize({ width, height });
   }
 
-  // Keeps in window.copied what the page copies.
+  // Stores in window.copied the text that the page copies.
   catchCopies() {
     return this.page.evaluate(() => {
       const writeText = (text) => {
@@ -179,13 +179,13 @@ export class ViewerPage {
       Object.defineProperty(navigator, 'clipboard', { value: { writeText } });
     });
   }
-  // Presses a button that copies, and returns what it copied.
+  // Presses a button that copies, and returns the copied text.
   async copiedBy(id) {
     await this.page.evaluate(() => void (window.copied = undefined));
     await this.press(id);
     return this.until(() => window.copied);
   }
-  // Keeps in window.taken the links that the page clicks to save something, with the title at this moment.
+  // Stores in window.taken the link that the page clicks to save something, and the title at this moment.
   catchLinks() {
     return this.page.evaluate(() => {
       HTMLAnchorElement.prototype.click = function () {
@@ -193,14 +193,14 @@ export class ViewerPage {
       };
     });
   }
-  // Presses a button that saves, and returns what it saved.
+  // Presses a button that saves, and returns the link and the title.
   async takenBy(id) {
     await this.page.evaluate(() => void (window.taken = undefined));
     await this.press(id);
     return this.until(() => window.taken, null, 60_000);
   }
 
-  // The pixels of the picture as bytes of a portable pixmap, in its own size or as large as the page shows it.
+  // Returns the picture as bytes of a portable pixmap, scaled to width and height if they are not 0.
   async pixels(width = 0, height = 0) {
     const text = await this.page.evaluate(
       ([width, height]) => {
@@ -219,7 +219,7 @@ export class ViewerPage {
     const [w, h, bytes] = text.split(' ');
     return Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(bytes, 'base64')]);
   }
-  // Saves what the page shows, if somebody wants pictures.
+  // Saves a screenshot if STORMCELLAR_PICTURES names a directory.
   async keep(name) {
     const directory = process.env.STORMCELLAR_PICTURES;
     if (!directory) return;
@@ -228,7 +228,7 @@ export class ViewerPage {
   }
 }
 
-// The grids of some stations, once there are some; the server may still be making them.
+// Returns the grids of stations. Waits until each station has a grid of REF, which the server may still be making.
 export async function gridsOf(address, stations) {
   const all = [];
   for (const domain of stations) {
@@ -241,7 +241,7 @@ export async function gridsOf(address, stations) {
   return all;
 }
 
-// Runs a measurement in a browser.
+// Runs a measurement in a new browser.
 export async function withBrowser(run) {
   const browser = await chromium.launch(chromiumOptions);
   try {

@@ -3,17 +3,17 @@ import { expect, report, test } from './fixtures.mjs';
 import { image } from './pixels.mjs';
 import { pictureOf } from './slicer.mjs';
 
-// The map of a picture with labels, of 480 x 320 pixels, has so many, from this row on.
+// A picture of 480 x 320 pixels with labels has a map of this size, which begins at this row.
 const [width, height, firstRow] = [380, 250, 39];
 test.use({ viewport: { width, height } });
 
-// Seen from low down, from high up only, not seen, beyond the grid, as render/image/shades.h has them.
+// Shades as in render/image/shades.h: seen from low down, seen from high up only, not seen, beyond the grid.
 const land = [[40, 44, 50], [29, 32, 37], [23, 25, 29], [25, 28, 33]];
 const water = [[22, 31, 46], [17, 24, 36], [15, 20, 28], [14, 19, 29]];
 const isOneOf = (shades, color) => shades.some((shade) => shade.every((one, c) => Math.abs(one - color[c]) <= 1));
 const kindOf = (color) => (isOneOf(land, color) ? 'land' : isOneOf(water, color) ? 'water' : '');
 
-test('land and water are those of stormcellar frame', async ({ page, viewer, server }) => {
+test('land and water are the same as in stormcellar frame', async ({ page, viewer, server }) => {
   const [station, volume] = [server.stations[1], server.volumes[1]]; // at the sea
   const { path } = await server.grid(station);
   const { ny } = await (await fetch(`${server.address}${path}`)).json();
@@ -25,7 +25,7 @@ test('land and water are those of stormcellar frame', async ({ page, viewer, ser
   for (let y = 0; y < height; ++y) {
     for (let x = 0; x < width; ++x) {
       const [one, other] = [kindOf(ours.at(x, y)), kindOf(theirs.at(x, y + firstRow))];
-      if (one === '' || other === '') continue; // lines, hatch, echo
+      if (one === '' || other === '') continue; // a line, hatch or echo
       ++count[other];
       if (one !== other) ++count.off;
     }
