@@ -1,10 +1,12 @@
-// Fills the lists of the index page with what the API knows, and its examples with a station of this server.
+// Fills the lists of the index page with stations and mosaics of the API, and its examples with a station of this
+// server.
 
 const minute = 60;
 const hour = 60 * minute;
 const day = 24 * hour;
 
-// Newer data have a wrong clock, and do not make a station live; base/utc_time.h has the same limit.
+// Data farther in the future come from a wrong clock, and do not make a station live. base/utc_time.h has the same
+// limit.
 const toleratedFuture = 10 * minute;
 
 async function asked(name) {
@@ -24,7 +26,7 @@ function ageText(seconds) {
     return `${Math.floor(whole / (365.2425 * day))} years`;
 }
 
-// Returns "2026-05-01 12:00:31" of "2026-05-01T12:00:31.250Z".
+// Returns "2026-05-01 12:00:31" for "2026-05-01T12:00:31.250Z".
 const readable = (time) => time.slice(0, 19).replace('T', ' ');
 // Returns the arguments of Python's datetime: "2026, 5, 1, 12, 0".
 const datetimeArguments = (time) => time.split(/\D/).slice(0, 5).map(Number).join(', ');
@@ -33,7 +35,7 @@ function element(name, text, properties = {}) {
     return Object.assign(document.createElement(name), { textContent: text }, properties);
 }
 
-// Puts an age into a cell, and below it the time.
+// Puts the age and the time of the newest data into a cell, or the text `none` if `newest` is missing.
 function showAge(cell, newest, none = 'none') {
     if (newest) {
         const time = element('time', readable(newest.time), { dateTime: newest.time });
@@ -43,7 +45,7 @@ function showAge(cell, newest, none = 'none') {
     }
 }
 
-// Returns a row from its template, with its name, newest grid, moments and links.
+// Returns a row made from a template, with name, newest grid, moments and links.
 function rowOf(template, { name, newestGrid, moments }) {
     const row = document.getElementById(template).content.cloneNode(true).querySelector('tr');
     row.querySelector('th b').textContent = name;
@@ -74,14 +76,15 @@ function stationRow(station) {
     row.querySelector('th span').textContent = [station.name, station.state].filter(Boolean).join(', ');
     row.querySelector('.state i').textContent = state;
     if (isSilent(station)) row.querySelector('.state span').textContent = ` for ${ageText(station.silent_s)}`;
-    // The server cannot tell the newest volume if its database cannot be read, or if all come from the future.
+    // The server does not know the newest volume if it cannot read its database, or if all volumes come from the
+    // future.
     const isUnknown =
         station.newest_volume === undefined || (station.newest_grid !== null && !isBelieved(station.newest_grid));
     showAge(row.querySelector('.volume'), station.newest_volume, isUnknown ? 'not known' : 'none');
     return row;
 }
 
-// Returns the newest of all moments of a domain.
+// Returns time and age of the newest grid of a domain.
 const newestOf = (domain) =>
     domain.moments
         .map((one) => ({ time: one.newest, age_s: one.age_s }))
@@ -104,7 +107,8 @@ function summary(stations) {
     return `${parts.join('')}.`;
 }
 
-// Puts a station into the examples, preferably a live one with volumes, which has more to show.
+// Puts a station into the examples. Prefers stations with volumes, and among these stations that are not silent. If the
+// station has no grids, examples of grids get the first mosaic.
 function fillExamples(stations, domains) {
     const worth = (station) => (station.newest_volume ? 2 : 0) + (isSilent(station) ? 0 : 1);
     if (stations.length === 0) return;
@@ -122,7 +126,7 @@ function fillExamples(stations, domains) {
         for (const place of document.querySelectorAll(`var.${name}`)) place.textContent = value;
 }
 
-// Shows a list, or what the section says without one.
+// Shows a list. If it is empty, shows the section's text for this case, or hides a section that has no such text.
 function showList(id, rows) {
     const section = document.getElementById(id);
     section.querySelector('tbody').replaceChildren(...rows);
