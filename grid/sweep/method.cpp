@@ -19,10 +19,6 @@ std::string_view interpolation_name(Interpolation interpolation) {
     return facts_of(interpolation).name;
 }
 
-std::optional<Interpolation> interpolation_from_name(std::string_view name) {
-    return key_named(interpolation_facts, &InterpolationFacts::interpolation, name);
-}
-
 std::string Method::name() const {
     std::string text{cell == CellExtent::area ? area_prefix : ""};
     if (facts_of(interpolation).takes_one_gate) text += "column-";

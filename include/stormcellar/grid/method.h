@@ -60,7 +60,6 @@ inline constexpr auto interpolation_facts = std::to_array<InterpolationFacts>({
 }
 // Returns "nearest", "linear", "eight-point" or "beam-weighted".
 [[nodiscard]] std::string_view interpolation_name(Interpolation interpolation);
-[[nodiscard]] std::optional<Interpolation> interpolation_from_name(std::string_view name);
 
 struct Method {
     ChosenBeam beam = {};                    // the 4/3 earth

@@ -146,10 +146,6 @@ void CacheTree::scan() {
     }
 }
 
-void CacheTree::scan(const std::string& domain) {
-    if (cache::is_domain_name(domain)) scan_domain(domain);
-}
-
 void CacheTree::scan_domain(const std::string& domain) {
     OfDomain& known = domains_[domain];
     const auto must_read = look({domain, {}, {}}, known.seen);

@@ -28,7 +28,6 @@ class CacheTree {
 
     // Reads every directory that is new or whose time changed since it was read.
     void scan();
-    void scan(const std::string& domain);
     // Handles bytes read from the inotify descriptor. Returns false if events were lost or the
     // cache itself was moved or removed; the caller must then call scan().
     [[nodiscard]] bool take(const char* events, std::size_t size);

@@ -126,16 +126,6 @@ void CacheWatch::rescan() {
     impl_->scan();
 }
 
-void CacheWatch::rescan(const std::string& domain) {
-    const MutexLock lock(impl_->mutex);
-    if (impl_->notify.is_open()) impl_->read_events();
-    if (impl_->tree.is_there()) {
-        impl_->tree.scan(domain);
-    } else {
-        impl_->scan();
-    }
-}
-
 std::optional<std::string> CacheWatch::problem() const {
     const MutexLock lock(impl_->mutex);
     if (!impl_->tree.is_there()) return "the cache is not there";

@@ -54,7 +54,6 @@ class CacheWatch {
     void catch_up();
     // Reads the directories whose times changed, even without events.
     void rescan();
-    void rescan(const std::string& domain);
     // Returns a sentence that says why some changes are reported late; none if none are.
     [[nodiscard]] std::optional<std::string> problem() const;
 

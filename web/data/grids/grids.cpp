@@ -305,10 +305,6 @@ void Grids::refresh() {
     impl_->watch->rescan();
 }
 
-void Grids::refresh(std::string_view domain) {
-    impl_->watch->rescan(std::string(domain));
-}
-
 void Grids::listen(std::function<void(const CacheChange&)> listener) {
     const MutexLock lock(impl_->listeners_mutex);
     impl_->listeners.push_back(std::move(listener));

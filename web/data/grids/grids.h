@@ -86,9 +86,8 @@ class Grids {
     // Returns the number of changes in a group: a domain and its parts
     // (stormcellar/cache/grid_name.h).
     [[nodiscard]] std::uint64_t changes_of(std::string_view group) const;
-    // Reads the cache, or one domain of it, again.
+    // Reads the cache again.
     void refresh();
-    void refresh(std::string_view domain);
     // Calls the function for each change from now on, after the lists are updated. One thread at a
     // time calls it; it must be quick and must not ask for grids.
     void listen(std::function<void(const CacheChange&)> listener);

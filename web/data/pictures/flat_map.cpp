@@ -167,9 +167,4 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
     return map;
 }
 
-std::uint64_t FlatMaps::bytes() const {
-    const MutexLock lock(mutex_);
-    return maps_.weight();
-}
-
 }  // namespace stormcellar::web

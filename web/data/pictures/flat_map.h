@@ -52,7 +52,6 @@ class FlatMaps {
     [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const OpenGrid& grid,
                                                                       const render::Scene& scene,
                                                                       int threads);
-    [[nodiscard]] std::uint64_t bytes() const;
 
   private:
     mutable Mutex mutex_;
