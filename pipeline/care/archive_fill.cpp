@@ -17,15 +17,15 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Uncompressed bricks of known volumes take 0.1 to 0.33. Volumes with much echo take more, and a
-// small grid may be full of echo.
+// Known volumes take 0.1 to 0.33 bytes for each cell of the grid. Volumes with much echo take more,
+// and a small grid may be full of echo.
 constexpr double bytes_a_cell = 0.5;
 constexpr double cells_of_small_grid = 2e6;
 // A frame uses no volumes farther from it than this.
 constexpr std::chrono::minutes farthest_frame{30};
 constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
 
-// The result of each file, recorded by many workers.
+// Records the result of each file for many workers.
 class Ledger {
   public:
     Ledger(FillReport& report, const FillProgress& progress)
@@ -205,8 +205,9 @@ std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
     return options_.domain ? options_.domain->name + "." + volume.station : volume.station;
 }
 
-// Returns true if the cache has the grid of the volume. A grid remains valid after its file has
-// been deleted. As with make(1), a file that was written after the grid counts as another one.
+// Returns true if the cache has the grid of the volume. A grid remains valid after its raw file was
+// deleted. A raw file that was written after the grid, by their modification times, counts as
+// another file.
 Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
     if (!path) return pass_on(path);
@@ -251,7 +252,7 @@ Result<ArchiveFill::DueFrames> ArchiveFill::due(const std::vector<UtcTime>& inst
     return found;
 }
 
-// Returns the drop directory if all files are below it.
+// Returns the drop directory if all files are below it, or else "/".
 Result<std::filesystem::path> ArchiveFill::root_of(
     const std::vector<ArchiveVolume>& volumes) const {
     std::filesystem::path root = "/";

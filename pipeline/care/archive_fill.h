@@ -3,12 +3,12 @@
 //
 // The daemon's own chain (pipeline/ingest/ingest.h) reads, grids and commits the volumes, several
 // at a time. For a domain, the sites' partials are made first and then each frame once
-// (pipeline/mosaic/mosaic_maker.h). Grids that the cache already has are kept, if they were made
-// from the present file on this grid, or, for a frame, from these partials by these rules. So a
-// second call continues where the first one ended, however it ended, because grids appear whole. A
-// file that is gone, or has nothing to grid, is named and left out. So is a file that is no longer
-// the cataloged one (stormcellar/catalog/read_cataloged.h): another file in its place, or a path
-// with a link. Open the store so that no one else writes to it.
+// (pipeline/mosaic/mosaic_maker.h). A grid of a volume that the cache already has is kept if it was
+// made from the present file on this grid. A frame is kept if it was made from the present partials
+// by the present rules. So a second call continues where the first one ended, even after a crash,
+// because grids appear whole. The report names files that are left out: files that are gone, have
+// nothing to grid, or are no longer the cataloged ones (stormcellar/catalog/read_cataloged.h). Open
+// the store so that no one else writes to it.
 //
 // Memory    As many decoded volumes as there are workers (at most most_workers), and their grids.
 // Threads   An ArchiveFill is for one thread at a time. `progress` is called from its workers, one
@@ -53,8 +53,7 @@ struct FillReport {
     std::size_t grids_found = 0;                    // already in the cache
     std::size_t frames_made = 0, frames_found = 0;  // of a domain
     std::vector<LeftOut> left_out;                  // by path
-    std::vector<LeftOut> notes;   // gridded, with a remark, for example that only a part was
-                                  // available
+    std::vector<LeftOut> notes;   // remarks on gridded files and on frames (without a path)
     std::vector<UtcTime> frames;  // of a domain: frames in the range that exist, ascending
 };
 
@@ -67,38 +66,41 @@ using FillProgress = std::function<void(std::size_t done)>;
                               const cache::GridDescription& description);
 // Returns why the chain made no grid from a file.
 [[nodiscard]] std::string reason_left_out(const IngestOutcome& outcome, level2::Moment moment);
-// Returns an estimate of the bytes on disk of these grids and, with a domain, frames. It errs on
-// the high side: two to four times the size of grids with little echo.
+// Estimates the bytes on disk of this many grids of volumes and, with a domain, frames. The
+// estimate is high: two to four times the size of grids with little echo.
 [[nodiscard]] std::uint64_t bytes_of_grids(const ArchiveOptions& options, std::size_t volumes,
                                            std::size_t frames);
 
 class ArchiveFill {
   public:
-    // `catalog` has the volumes. The chain makes its own catalog in the directory `scratch`. All
-    // must outlive the object.
+    // `catalog` has the volumes. The chain makes its own catalog in the directory `scratch`. The
+    // catalog, the store and the directory must outlive the object.
     ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 std::filesystem::path scratch, ArchiveOptions options);
 
-    // Returns the volumes without a grid, which fill() makes.
+    // Returns the volumes whose grids fill() must make.
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(
         const std::vector<ArchiveVolume>& volumes) const;
-    // The instants that a volume is close enough to, and how many of these have no frame.
+    // Instants within 30 minutes of a volume, and how many of them have no frame.
     struct DueFrames {
         std::vector<UtcTime> instants;
         std::size_t missing = 0;
     };
+    // Finds the due frames. The options must have a domain.
     [[nodiscard]] Result<DueFrames> due(const std::vector<UtcTime>& instants,
                                         const std::vector<ArchiveVolume>& volumes) const;
     [[nodiscard]] std::uint64_t bytes_of(std::size_t volumes, std::size_t frames) const {
         return bytes_of_grids(options_, volumes, frames);
     }
 
-    // Grids the volumes. When `stop` is set, no further volume begins. Errors: those that do not
-    // concern the data (the cache or the scratch directory cannot be written, the disk is full).
+    // Grids the volumes and reports the files that were left out. When `stop` is set, no further
+    // volume begins. Errors are not about the data: the cache or the scratch directory cannot be
+    // written, or the disk is full.
     [[nodiscard]] Status fill(const std::vector<ArchiveVolume>& missing,
                               const FillProgress& progress, const std::atomic<bool>& stop,
                               FillReport& report);
-    // Makes the frames of the domain at those of these instants that have volumes around them.
+    // Makes the domain's frames at the instants that have volumes around them. Does nothing without
+    // a domain.
     [[nodiscard]] Status make_frames(const std::vector<UtcTime>& instants,
                                      const FillProgress& progress, const std::atomic<bool>& stop,
                                      FillReport& report);

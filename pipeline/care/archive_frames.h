@@ -1,8 +1,8 @@
 // pipeline/care/archive_frames.h -- makes the frames of a domain from the partials in a cache.
 //
-// Each frame is made once, from the partials around it (pipeline/mosaic/mosaic_maker.h). Several
-// are made at a time, each by one worker, which takes less waiting than several threads for one
-// frame. The bytes of a frame do not depend on who makes it or when.
+// Each frame is made once, from the partials around it (pipeline/mosaic/mosaic_maker.h). Workers
+// make several frames at a time, one frame each, because several threads for one frame would wait
+// for each other more. The bytes of a frame do not depend on who makes it or when.
 //
 // Memory    Each worker keeps geometries and instants of its own: some 400 MiB for a large domain.
 // Threads   One thread at a time for each domain and moment of a store. `progress` is called from
@@ -20,9 +20,9 @@
 
 namespace stormcellar::pipeline {
 
-// Makes the frames at these instants that are due and missing or outdated. Adds to the report how
-// many were made and found, which frames exist, and what they leave out. When `stop` is set, no
-// further frame begins.
+// Makes the frames at `instants` that are due and are missing or outdated. Adds to the report how
+// many frames were made and found, the instants of both, and what the new frames leave out. When
+// `stop` is set, no further frame begins.
 [[nodiscard]] Status make_frames(cache::StoreWriter& store, const Domain& domain,
                                  level2::Moment moment, const std::vector<UtcTime>& instants,
                                  int threads, const FillProgress& progress,

@@ -1,5 +1,5 @@
-// pipeline/care/archive_plan.h -- decides which grids to make from the raw files of an archive, and
-// where to keep them (pipeline/care/archive_fill.h makes them).
+// pipeline/care/archive_plan.h -- describes which grids to make from the raw files of an archive,
+// and where to keep them (pipeline/care/archive_fill.h makes them).
 //
 // Thread contract: each call works alone.
 #pragma once
@@ -26,26 +26,28 @@ struct ArchivePlan {
     std::vector<LeftOut> left_out;  // stations without a known position
 };
 
-// Returns the positions of the stations, from their files or the station table. Adds each station
-// without a position to `left_out`, with the reason.
+// Returns the positions of the stations (place_of_station()). Adds each station without a position
+// to `left_out`, with the reason. Skips empty names.
 [[nodiscard]] std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                                        const std::vector<std::string>& stations,
                                                        std::vector<LeftOut>& left_out);
 
-// Returns the directory of all private caches: $XDG_CACHE_HOME/stormcellar/loops, or else the same
-// below ~/.cache. Errors: bad_argument if the environment names neither.
+// Returns the directory of all private caches: $XDG_CACHE_HOME/stormcellar/loops, or
+// ~/.cache/stormcellar/loops if XDG_CACHE_HOME is not an absolute path. Errors: bad_argument if
+// HOME is not absolute, either.
 [[nodiscard]] Result<std::filesystem::path> loops_directory();
 
-// Returns a directory below $XDG_CACHE_HOME, or else below ~/.cache. Its name contains a hash of
-// everything that determines the plan's grids: catalog, stations, grid, moment, rules and the
-// version of this software. Errors: bad_argument if the environment names no such place.
+// Returns a directory in loops_directory() for the plan's grids. Its name contains a hash of
+// everything that determines them: catalog, stations, grid, moment, rules and the version of this
+// software. A plan without a mosaic must have a station. Errors: those of loops_directory().
 [[nodiscard]] Result<std::filesystem::path> private_cache(const std::filesystem::path& catalog,
                                                           level2::Moment moment,
                                                           const ArchivePlan& plan);
 
-// Checks that grids in this directory would not be mixed with other files, least of all with a drop
-// directory. A cache holds directories of domains, and these hold directories of moments. Errors:
-// bad_argument for a directory that holds anything else. A directory that does not exist is fine.
+// Checks that grids in this directory would not be mixed with other files, for example those of a
+// drop directory. A cache holds only directories of domains, which hold only directories of
+// moments; names that begin with '.' are ignored. Errors: bad_argument for a directory that holds
+// anything else. A directory that does not exist or cannot be read passes.
 [[nodiscard]] Status check_cache_directory(const std::filesystem::path& directory);
 
 // Returns the grids of the cache at these times. Errors: those of StoreReader::list().

@@ -36,9 +36,9 @@ std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
     return std::nullopt;
 }
 
-// Returns true if the grid is damaged. A failed read of an open file is damage as well, but the
-// grid is then removed only if it can be made again. A failed open may mean that the system has no
-// descriptors left.
+// Returns true if the grid is damaged. A failed read of an open file counts only if the grid has a
+// source from which it can be made again. A failed open may mean that the system has no descriptors
+// left.
 bool is_damage(const Finding& found, bool has_source) {
     const ErrorCode code = found.error.code;
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||

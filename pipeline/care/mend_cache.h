@@ -1,14 +1,16 @@
 // pipeline/care/mend_cache.h -- makes grids again that are damaged or missing.
 //
-// If another program truncated or altered a grid, or the disk cannot return it, the grid is removed
-// and made again: a site's own grid and a partial of a mosaic (NAME.ICAO) from the raw file, if it
-// still exists as cataloged; a frame of a mosaic from its existing partials.
+// A grid is damaged if another program truncated or altered it, or if the disk cannot return it. A
+// site's own grid, or a partial of a mosaic (NAME.ICAO), is removed and made again from the raw
+// file, if that still exists as cataloged. A frame of a mosaic is made again from its partials. A
+// damaged grid that cannot be made again is removed, unless a failing disk is the only sign of
+// damage.
 //
-// A missing grid is made again only if it belongs to the newest volumes (within `newest` of the
-// station's latest; times more than 10 minutes in the future do not count) and is newer than the
-// oldest grid in its domain; if the domain has no grid, any of these volumes counts. So evicted
-// grids, which are the oldest, are never made again, but a wiped cache is filled. A grid that could
-// not be made is not tried again while the object exists.
+// A missing grid is made again only if its volume is within `newest` of the station's latest volume
+// and newer than the oldest grid in the domain. If the domain has no grid, only the first condition
+// applies. Volumes more than 10 minutes in the future do not count. So evicted grids, which are the
+// oldest, are never made again, but an emptied cache is filled. A grid that could not be made is
+// not tried again while the object exists.
 //
 // Threads   One thread at a time, within the rules of the catalog, the store and the ingestor.
 #pragma once
@@ -45,7 +47,7 @@ enum class GridCondition {
 };
 struct MendedGrid {
     GridCondition condition = GridCondition::sound;
-    std::string reason;   // what is wrong, with the path first
+    std::string reason;   // the damage, with the path first; empty: sound
     std::string from;     // made_again: the raw file, or "the partials of KBGM, KOKX"
     std::string why_not;  // dropped: why it was not made again
 };
@@ -57,28 +59,29 @@ enum class MendDepth {
 
 class CacheMender {
   public:
-    // All arguments must outlive the object. `moments` are those that the ingestor grids.
+    // The catalog, the store and the ingestor must outlive the object. `moments` are the moments of
+    // the sites' own grids that the ingestor makes.
     CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 Ingestor& ingestor, std::vector<level2::Moment> moments);
 
-    // Checks a grid and repairs it. Errors: the damaged grid cannot be removed, or the catalog or
-    // cache cannot be written.
+    // Checks a grid, and repairs or removes it if it is damaged. Errors: the damaged grid cannot be
+    // removed, or the catalog or the cache cannot be read or written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
 
     // Returns missing grids, newest first. A station whose database or grids cannot be read is left
-    // out, and the catalog lists its trouble. `step` is called after each station, so that the
-    // caller can see progress. Errors: the catalog or the cache cannot be read.
+    // out. `step` is called after each station, so that the caller can see progress. Errors: the
+    // catalog's stations cannot be listed, or is_shortage() while a station's grids are listed.
     Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
                                              const std::function<void()>& step = {});
-    // Makes the grids. Errors: corrupt if the raw file is not the cataloged one; those of
-    // Ingestor::ingest_again().
+    // Makes the missing grids of a volume. Errors: corrupt if the raw file is not the cataloged
+    // one; those of Ingestor::ingest_again().
     Result<IngestOutcome> make(const MissingGrid& grid);
 
     // Returns missing frames of mosaics, newest first. Call it after the partials were made.
     // Errors: the cache cannot be read.
     Result<std::vector<cache::GridName>> missing_frames(std::chrono::milliseconds newest);
-    // Makes a frame and returns its source, as in MendedGrid. Returns none if no partials are near
-    // it, or if the cache's limits do not keep it.
+    // Makes a frame and returns its source, as in MendedGrid::from. Returns none if no domain has
+    // the frame, if no partials are near it, or if the cache's limits do not keep it.
     Result<std::optional<std::string>> make(const cache::GridName& frame);
 
   private:

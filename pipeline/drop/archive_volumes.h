@@ -1,9 +1,9 @@
 // pipeline/drop/archive_volumes.h -- finds the raw files of a catalog that belong to a time range.
 //
-// For each station these are the volumes that overlap the range. If frames are made between
-// volumes, they also include the last volume before it and the first one after it, if these are
-// close enough to count. A volume that was sent more than once is used once: a complete file is
-// preferred to an incomplete one, then the latest.
+// For each station these are the volumes that overlap the range and, on request, its neighbors: the
+// last volume before the range and the first volume after it, if they are close enough for a frame
+// between volumes. Of a volume that was sent more than once, one file is used: an existing one
+// first, then a complete one, then the latest.
 //
 // Threads   Functions without state; the catalog is only read.
 #pragma once
@@ -31,19 +31,19 @@ struct ArchiveVolume {
 
 struct ArchiveRange {
     UtcTime from, to;              // inclusive
-    bool with_neighbours = false;  // also the volumes next to the range
-    // Only volumes of these files, archives and directories of chunks are taken; empty: all.
+    bool with_neighbours = false;  // also the volume before the range and the volume after it
+    // Files, archives and directories of chunks whose volumes are taken; empty: all.
     std::set<std::filesystem::path> only{};
 };
 
-// Volumes are at most this long. The search begins this far before the range.
+// The longest volume. Without neighbors, the search begins this long before the range.
 inline constexpr std::chrono::minutes longest_volume{20};
-// The largest distance of a neighbor from the range.
+// The longest time from the range to the start of a neighbor.
 inline constexpr std::chrono::minutes farthest_neighbour{25};
 
-// Returns volumes by station, then start. Stations unknown to the catalog have none. If several
-// stations are requested, a station whose database cannot be read has none, either, and the
-// catalog's troubles() names it. Errors: those of the catalog.
+// Returns the volumes in the order of `stations`, then by start. A station that the catalog does
+// not have gives no volumes. If several stations are requested, neither does a station whose
+// database cannot be read; the catalog's troubles() names it. Errors: those of the catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,
     const ArchiveRange& range);

@@ -1,10 +1,9 @@
 // pipeline/drop/cataloged_volume.h -- finds a cataloged volume, and reads its raw bytes in one
 // piece.
 //
-// The bytes come from one file, or from the chunks of a volume that came as one file for each
-// chunk. In the latter case the row found is the first chunk's, and the joined bytes form a
-// volume's file. Each file must be the one that was cataloged, by its own row
-// (stormcellar/catalog/read_cataloged.h).
+// The bytes come from one file, or from many files of one chunk each. A volume of chunks is found
+// by the row of its first chunk, and its chunks are joined to the bytes of a volume's file. Each
+// file must still be the cataloged one (stormcellar/catalog/read_cataloged.h).
 //
 // Threads   A function without state; the catalog is only read.
 #pragma once
@@ -23,34 +22,36 @@ namespace stormcellar::pipeline {
 
 struct CatalogedVolume {
     std::vector<std::byte> bytes;
-    std::vector<std::string> notes;  // remarks: chunks that are missing or left out, and files that
-                                     // were growing and so were not compared
+    // Name chunks that are missing or left out, and files that were not compared because they were
+    // still growing when they were cataloged.
+    std::vector<std::string> notes;
 };
 
-// Returns true if a volume came as one file for each chunk.
+// Returns true if the entry's volume came as one file for each chunk.
 [[nodiscard]] bool is_of_chunks(const catalog::CatalogEntry& entry);
 
-// Returns the row of a station's volume that starts at this time; none if there is none. If several
-// files have the volume, existing files are preferred, and then a row for which `is_meant` is true.
-// Errors: those of the catalog.
+// Returns the row of a station's volume that starts at `start`, or none. If several files have the
+// volume, existing files are preferred, and among them a row for which `is_meant` is true. Errors:
+// those of the catalog.
 [[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_cataloged_volume(
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     const std::function<bool(const catalog::CatalogEntry&)>& is_meant);
 
-// Returns the volume from which a grid was made: a complete one, if the grid is of a complete
-// volume.
+// Returns the row of the volume from which a grid was probably made. Existing files are preferred,
+// and among them an incomplete volume if `is_partial`, else a complete one.
 [[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     bool is_partial);
 
-// Returns a number that changes when chunks of a volume come to the catalog. It is 0 for a volume
-// in one file, and for one that has ended, whose own row says all. Errors: those of the catalog.
+// Returns a number that changes when further chunks of a volume come to the catalog. The number is
+// 0 for a volume in one file, and for a volume whose first chunk's row is final (has_final_hash()).
+// Errors: those of the catalog.
 [[nodiscard]] Result<std::uint64_t> hash_of_growing_rows(const catalog::CatalogReader& catalog,
                                                          const catalog::CatalogEntry& entry);
 
-// Reads a volume. Chunks are joined in the order of their numbers, one for each number, as far as
-// they exist. A chunk that its file holds twice is taken once. Chunks without a row are left out.
-// Errors: those of read_cataloged().
+// Reads a volume. Joins the chunks that are in the entry's directory in the order of their numbers,
+// one for each number. Takes a chunk that its file holds twice only once. Leaves out chunks without
+// a row. Errors: those of the catalog, of read_cataloged() and of chunks_beside().
 [[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(const catalog::CatalogReader& catalog,
                                                             const catalog::CatalogEntry& entry);
 

@@ -19,15 +19,17 @@ namespace stormcellar::pipeline {
 // A path with the name of a chunk.
 struct ChunkPath {
     std::filesystem::path path;
-    std::string prefix;  // common to the names of all chunks of its volume
-    std::string key;     // common to all chunks of its volume, and to no others
+    std::string prefix;  // with which the names of all chunks of its volume begin
+    std::string key;     // the same for all chunks of its volume, and for no other chunks
     level2::ChunkName name;
 
+    // Returns none if the file's name is not a chunk's.
     [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);
 };
 
-// Returns all other chunks of its volume in its directory, at most 2,000, in the order of their
-// numbers. `beneath` is the root in base/beneath.h. Errors: those of names_beneath().
+// Returns the other chunks of the chunk's volume that are in its directory, at most 2,000, in the
+// order of their numbers. `beneath` is the root in base/beneath.h. Errors: those of
+// names_beneath().
 [[nodiscard]] Result<std::vector<ChunkPath>> chunks_beside(
     const ChunkPath& chunk, const std::filesystem::path& beneath = {});
 

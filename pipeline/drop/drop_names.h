@@ -1,8 +1,9 @@
-// pipeline/drop/drop_names.h -- decides by their names which files in the drop directory to ingest.
+// pipeline/drop/drop_names.h -- tells by its name whether a file in the drop directory is
+// unfinished, and its station.
 //
-// A writer hides an unfinished file by a leading dot (pqact's dot-file, rsync, our own temporary
-// files) or by an ending. Such files are ignored until they are renamed. Everything else in a name
-// is only a first guess: the content decides.
+// A writer marks an unfinished file with a leading dot (pqact's dot-file, rsync, our own temporary
+// files) or with an ending. Such files are ignored until they are renamed. The station in a name is
+// only a first guess, because the contents decide.
 //
 // Threads   Pure functions.
 #pragma once
@@ -13,16 +14,16 @@
 
 namespace stormcellar::pipeline {
 
-// Returns true for the last part of a path that begins with '.', ends with '~', or ends in .tmp,
-// .temp, .part, .partial or .filepart (in lower case, as programs write them).
+// Returns true if the last part of a path, `name`, is empty, begins with '.', or ends in ~, .tmp,
+// .temp, .part, .partial or .filepart (only in lower case).
 [[nodiscard]] bool is_temporary_name(std::string_view name);
 
-// Returns the station with which the file's name begins, if the station table has it; else empty.
+// Returns the station in the file's name (station_in_name()), or an empty text.
 [[nodiscard]] std::string station_of_file_name(const std::filesystem::path& path);
-// Returns the same station; else the station of its directory's name, else that of the directory
-// above.
+// Returns the station in the file's name, or else in the name of its directory, or else in the name
+// of the directory above; or an empty text.
 [[nodiscard]] std::string station_of_path(const std::filesystem::path& path);
-// Returns true if the name is that of one chunk of a volume.
+// Returns true if the file's name is the name of a chunk.
 [[nodiscard]] bool is_chunk_name(const std::filesystem::path& path);
 
 }  // namespace stormcellar::pipeline

@@ -1,9 +1,9 @@
 // pipeline/drop/read_whole.h -- reads and decodes a raw file that does not grow. Used only inside
 // the pipeline room.
 //
-// An ordinary file is read as a whole and decoded by several threads. A large one is decoded
-// stretch by stretch as it is read, so that its size costs no memory. Both give the same volume,
-// bit for bit, except for files that stormcellar/level2/growing_volume.h refuses.
+// An ordinary file is read into memory and then decoded by several threads. A large file is decoded
+// stretch by stretch while it is read, so that its size costs no memory. Both ways give the same
+// volume, bit for bit, except for files that stormcellar/level2/growing_volume.h refuses.
 //
 // Threads   A function without state.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace stormcellar::pipeline {
 
-// The largest known volume has 12 MB; uncompressed it has 75.
+// A larger file counts as large. The largest known volume has 12 MB, or 75 MB uncompressed.
 inline constexpr std::uint64_t large_file_bytes = std::uint64_t{32} << 20;
 
 struct WholeFile {

@@ -1,4 +1,4 @@
-// pipeline/drop/station_place.h -- the position of a station of a catalog.
+// pipeline/drop/station_place.h -- finds the position of a cataloged station.
 //
 // Threads   A function without state; the catalog is only read.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace stormcellar::pipeline {
 
-// Returns the position from the station table, else from the newest raw files that can still be
-// read. None if neither has it.
+// Returns the position in the station table, or else in the newest four files that are not gone;
+// none if neither has it.
 [[nodiscard]] std::optional<grid::SitePosition> place_of_station(
     const catalog::CatalogReader& catalog, const std::string& icao);
 

@@ -13,16 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A chunk has less than a hundredth of this. Larger data are read whole elsewhere.
+// Real chunks have less than a hundredth of this. A larger file is not a chunk.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
-// A job that reads chunks beside its own stops at this many bytes, or at this many chunks that do
-// not belong to the volume. The other chunks come with jobs of their own.
+// A job that reads further chunks stops after this many bytes, or after this many files that do not
+// belong to the volume. The remaining chunks come with their own jobs.
 constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
 constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};
 constexpr std::chrono::seconds between_catching_up{1};
 
-// Keeps the parts of chunks beside the sweeps that they make.
+// Keeps the partial sweeps of chunks on the volume's shelf.
 class ShelfDepot final : public level2::SweepDepot {
   public:
     explicit ShelfDepot(SweepShelf& shelf) : shelf_(shelf) {}
@@ -121,8 +121,7 @@ bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
            volume.refused_.size() - refused >= most_refused_at_once;
 }
 
-// Adds the other chunks of the volume. `of` becomes the representative, whichever chunks are added
-// with it.
+// Adds the other chunks of the volume; the chunk `of` becomes the representative.
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
     const InOneJob before{read_bytes_, refused_.size()};
     representative_ = of.path;
@@ -149,7 +148,7 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
     return {};
 }
 
-// Adds chunks that came later. A chunk that fails here comes again with its own job.
+// Ignores errors, because a chunk that fails here comes again with its own job.
 void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
     const auto now = level2::LiveVolume::Clock::now();
     const bool is_early = now < next_catching_up_ && of.name.kind != level2::ChunkKind::end;

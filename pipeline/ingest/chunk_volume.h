@@ -1,6 +1,6 @@
-// pipeline/ingest/chunk_volume.h -- one volume that comes as one file for each chunk.
+// pipeline/ingest/chunk_volume.h -- a volume that comes as one file for each chunk.
 //
-// Decoded sweeps are shelved (pipeline/keep/sweep_shelf.h) until they are wanted. Inside the
+// Decoded sweeps are kept on disk (pipeline/keep/sweep_shelf.h) until they are needed. Inside the
 // pipeline room only. Thread contract: one thread at a time, which holds the lock of its Guarded
 // (pipeline/ingest/chunk_volumes.h).
 #pragma once
@@ -27,37 +27,40 @@ class ChunkVolume {
     ChunkVolume(const FollowedFile::Options& options, const level2::LiveOptions& live);
 
     enum class Added : std::uint8_t {
-        added,       // or was already there
-        unfinished,  // none of it is complete yet
-        not_ours,  // not a chunk of this volume, whatever its name says: ingest the file by itself
+        added,       // the volume has the chunk, now or already before
+        unfinished,  // the file holds no complete chunk yet
+        not_ours,    // not a chunk of this volume despite its name: ingest it as another file
     };
-    // Reads the file, unless this stamp of it is known. Errors: io or no_space if the file cannot
-    // be read now, for example because descriptors or memory ran out; then poll again.
+    // Reads the file, unless it was read with this stamp before. Errors: io or no_space if the file
+    // cannot be read now, for example because descriptors or memory ran out; then poll again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
-    // Calls add(). Until this has succeeded once, it also adds the other chunks in the same
-    // directory, up to the limits of one job. Errors: those of add(), also for the other chunks.
-    // After two minutes of errors the volume goes on without the chunks that cannot be read.
+    // Adds the chunk. Until a call has succeeded, it also adds the other chunks in the same
+    // directory, up to the limits of one job. Errors: those of add() for any of the chunks. After
+    // two minutes of errors in the other chunks, the volume continues without those that cannot be
+    // read.
     [[nodiscard]] Result<Added> add_with_siblings(const ChunkPath& chunk, const FileStamp& stamp);
 
-    // If numbers are missing, adds chunks of this volume that came later, because their own jobs
-    // may wait behind others for a long time. Does so at most once a second.
+    // If numbers are missing, adds chunks of the volume that have come in the meantime, because
+    // their own jobs may have to wait. Does so at most once a second, or at once if `of` is the
+    // volume's end.
     void add_what_is_missing(const ChunkPath& of);
 
-    // The representative is the one file that is polled for the volume when nothing has come for a
-    // while. It is the chunk that was added last, unless set_representative() names another.
-    // Returns false if its file no longer holds a complete chunk; then another must replace it.
+    // Returns true if the volume has a representative that held a complete chunk when it was last
+    // read. The representative is the only file that is polled for the volume while nothing comes:
+    // the chunk that was added last, unless set_representative() names another.
     [[nodiscard]] bool has_representative() const;
-    // Returns true if this file is the representative and held a complete chunk when it was read.
+    // Returns true if this file is the representative and held a complete chunk when it was last
+    // read.
     [[nodiscard]] bool is_representative(const std::filesystem::path& path) const;
     void set_representative(const std::filesystem::path& path) { representative_ = path; }
-    // Returns the representative from before the last chunk was added. Returns an empty path if
-    // there was none, and at the second call.
+    // Returns the representative before the last chunk was added, only once. Returns an empty path
+    // if there was none.
     [[nodiscard]] std::filesystem::path take_former_representative() {
         return std::exchange(former_representative_, {});
     }
 
-    // A closed volume accepts nothing more. A caller that finds it closed asks for a new volume in
-    // its place.
+    // Closes the volume to further chunks. A caller that finds the volume closed must ask for a new
+    // one.
     void close() { is_closed_ = true; }
     [[nodiscard]] bool is_closed() const { return is_closed_; }
 
@@ -68,10 +71,10 @@ class ChunkVolume {
     void set_shown() { news_ = {}; }
     // Null if the shelf has no room.
     [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
-    // Returns true if some of its sweeps are closed.
+    // Returns true if some sweeps have closed and are on the shelf.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
-    // Returns the facts for the catalog before the volume ends: its start, and its closed sweeps.
-    // None while its first chunk is missing or no sweep has closed.
+    // Describes the growing volume for the catalog: its start and its closed sweeps. Returns none
+    // while chunk 1 is missing or no sweep has closed.
     [[nodiscard]] std::optional<catalog::VolumeFacts> living_facts() const;
     // Returns its approximate size in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
@@ -85,7 +88,7 @@ class ChunkVolume {
         bool is_whole = true;
     };
     [[nodiscard]] const std::map<std::filesystem::path, File>& files() const { return files_; }
-    // The complete chunk with the lowest number; there must be one.
+    // Returns the complete chunk with the lowest number. The volume must have a file.
     [[nodiscard]] std::filesystem::path first_file() const;
     [[nodiscard]] std::string station() const { return live_.facts().station; }
 
@@ -93,7 +96,7 @@ class ChunkVolume {
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
-    // Counters at the beginning of the job, which show when it has read enough.
+    // The counters when a job began, which tell when it has read enough.
     struct InOneJob {
         std::uint64_t read_bytes = 0;
         std::size_t refused = 0;
@@ -105,7 +108,7 @@ class ChunkVolume {
     void shelve(const level2::Sweep& sweep);
     void shelve_new_sweeps();
 
-    bool is_loaded_ = false;  // the chunks in the directory of the first chunk were added
+    bool is_loaded_ = false;  // add_with_siblings() has added the chunks in the directory
     bool is_closed_ = false;
     std::vector<level2::Moment> moments_;
     std::filesystem::path beneath_;
@@ -125,8 +128,8 @@ class ChunkVolume {
     level2::LiveVolume::Clock::time_point next_catching_up_{};
 };
 
-// Returns when the file came, by the clock of LiveVolume. If a volume is joined again, after a
-// restart or because it was given up, its waiting time counts from the arrival of its files.
+// Returns when the file came, by the clock of LiveVolume. So if a volume is joined again, after a
+// restart or after it was given up, its waiting time still counts from the arrival of its files.
 [[nodiscard]] level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp);
 
 }  // namespace stormcellar::pipeline

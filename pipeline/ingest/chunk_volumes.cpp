@@ -71,8 +71,7 @@ ChunkVolumes::Shared ChunkVolumes::find_known(const ChunkPath& chunk) const {
 bool ChunkVolumes::grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                         const std::string& station) {
     const MutexLock lock(mutex_);
-    // The volume was forgotten meanwhile, for example because it is read anew: that is nobody's
-    // fault.
+    // The volume was forgotten meanwhile, for example because it is read anew.
     if (volumes_.find(chunk.key) != volume) return !volumes_.was_given_up(chunk.key);
     return volumes_.grew(chunk.key, volume.get(), station, growth);
 }

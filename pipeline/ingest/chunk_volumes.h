@@ -1,12 +1,12 @@
 // pipeline/ingest/chunk_volumes.h -- volumes that come as one file for each chunk.
 //
 // The chunks of one volume are the files of a directory whose names differ only in the chunk's
-// number and kind (stormcellar/level2/chunk_name.h). Whichever chunk comes first, all chunks in its
-// directory are read, so nothing depends on earlier events: after a restart, and when a late chunk
-// comes, the volume is joined again from its files. The set is limited for each station and in
-// total (pipeline/ingest/followed.h). A volume that was given up, or found no place, is read from
-// its files when no more chunks come. Inside the pipeline room only. Thread contract: many threads
-// may call all functions.
+// number and kind (stormcellar/level2/chunk_name.h). When a volume's first chunk comes, whatever
+// its number, all chunks in the directory are read. So the volume can be joined again from its
+// files after a restart, and when a late chunk comes. The number and size of volumes are limited
+// for each station and in total (pipeline/ingest/followed.h). A volume that was given up, or found
+// no place, is read from its files when no more chunks come. Inside the pipeline room only. Thread
+// contract: many threads may call all functions.
 #pragma once
 
 #include <cstddef>
@@ -32,28 +32,29 @@ class ChunkVolumes {
         : options_(std::move(options)), volumes_(limits) {}
 
     using Shared = std::shared_ptr<Guarded<ChunkVolume>>;
-    // Chunks that the caller still expects of a volume.
+    // The chunks that the caller expects of a volume besides the one at hand.
     enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
-    // Finds the volume, or makes it. `station` is the station in its path. Returns null if there is
-    // no place for the volume and more of it is expected, or if it was given up and has not ended;
-    // then poll again when no more chunks come. A volume that was given up is read once more when
-    // its end comes; if that does not complete it, it waits like the others.
+    // Finds the volume, or makes it. `station` is the station in its path. Returns null if more
+    // chunks are expected and there is no place for the volume or it was given up; then poll again
+    // when no more chunks come. A volume that was given up gets one more try when its end comes;
+    // after that, null is returned until nothing is expected.
     [[nodiscard]] Shared find(const ChunkPath& chunk, const std::string& station,
                               Expected expected = Expected::more);
     // Returns true if, by the names and times of its files, the volume may be finished: its end has
     // come, or nothing has come for the timeout. Reads no contents.
     [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
-    // Makes this chunk the representative of a volume that found no place. Returns the chunk that
-    // represented it before (empty: none).
+    // Makes this chunk the representative of a volume that found no place. Returns the former
+    // representative, or an empty path if it was this chunk or there was none.
     [[nodiscard]] std::filesystem::path poll_for_place(const ChunkPath& chunk);
     // Returns null if the volume is unknown.
     [[nodiscard]] Shared find_known(const ChunkPath& chunk) const;
-    // Notes what the volume holds now. Returns false if that exceeds its share; the volume has then
-    // been given up.
+    // Notes the memory and disk space that the volume holds. Returns false if the volume was given
+    // up, now or before.
     [[nodiscard]] bool grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                             const std::string& station);
     void forget(const ChunkPath& chunk);
-    void forget(const ChunkPath& chunk, const Shared& volume);  // if it is still this volume
+    // Does the same only if the known volume of this chunk is `volume`.
+    void forget(const ChunkPath& chunk, const Shared& volume);
     [[nodiscard]] std::size_t count() const;
     // Returns the number of volumes that were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up();

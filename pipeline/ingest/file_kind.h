@@ -1,10 +1,10 @@
 // pipeline/ingest/file_kind.h -- classifies the files that are ingested.
 //
-// A path is classified once, from its name, its stamp, the catalog and the memory of growing files.
-// Of the contents, only the lengths of records are read. Classification changes nothing. By
-// reading, a handler may find that a file is of another kind. A file that has the name of a chunk
-// but is none is classified again without its name (kind_by_itself()), and a file that cannot be
-// followed is read as a whole.
+// A path is classified by its name, its stamp, its row in the catalog and the files that are
+// followed at the moment. Of the contents, only the lengths of records are read. Classification
+// changes nothing. A handler that reads a file may find that it is of another kind: a file that has
+// the name of a chunk but is not one is classified again without its name (kind_by_itself()), and a
+// file that cannot be followed is read as a whole.
 //   Gone, Forbidden, Settled   there is nothing to read
 //   Chunk                      one file of many that make a volume
 //   Growing                    a volume to which data are appended, decoded as they come
@@ -28,8 +28,7 @@
 
 namespace stormcellar::pipeline {
 
-// Time to grid a volume that may be incomplete: when it has ended; also when no more is expected;
-// or now.
+// The time to grid a volume: only when it has ended, also when nothing more is expected, or now.
 enum class Finish { when_it_ends, when_quiet, as_it_is };
 
 // A file that is offered to the ingestor, and how to treat it.
@@ -39,14 +38,14 @@ struct OfferedFile {
     bool is_again = false;       // settled before, and must be gridded again
     ReadCheck is_the_same = {};  // the check of Ingestor::ingest_again(); empty: no check
 
-    // Returns true if the file may be ingested although its volume has not ended.
+    // Returns true if the file's volume may be gridded although it has not ended.
     [[nodiscard]] bool may_be_partial() const { return finish != Finish::when_it_ends; }
 };
 
 struct Gone {
     std::optional<ChunkPath> chunk;  // set if its name is a chunk's
 };
-struct Forbidden {  // its directory does not even permit examining it
+struct Forbidden {  // the permissions of a directory prevent examining the file
     Error why;
 };
 struct Settled {};
@@ -68,7 +67,7 @@ using FileKind = std::variant<Gone, Forbidden, Settled, Chunk, Growing, Whole>;
 // lack of permission.
 [[nodiscard]] Result<FileKind> kind_of(const IngestContext& context, const OfferedFile& file);
 
-// Classifies an existing file by its contents, not as a chunk: Growing or Whole.
+// Classifies an existing file as Growing or Whole, without regard to its name.
 [[nodiscard]] FileKind kind_by_itself(const IngestContext& context, const OfferedFile& file,
                                       const FileStamp& stamp);
 

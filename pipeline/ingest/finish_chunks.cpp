@@ -31,8 +31,8 @@ std::vector<FileFacts> rows_of_others(const ChunkVolume& volume, const std::stri
     return others;
 }
 
-// Returns the same rows for the time in which the volume is gridded, so that readers of the catalog
-// find all of its chunks.
+// Returns the rows with the state `seen`, for the time in which the volume is gridded, so that
+// readers of the catalog find all of its chunks.
 std::vector<FileFacts> as_seen(std::vector<FileFacts> rows) {
     for (FileFacts& row : rows)
         row.state = FileState::seen;

@@ -1,4 +1,4 @@
-// pipeline/ingest/finish_chunks.h -- finishes a volume of chunks of which no more is expected.
+// pipeline/ingest/finish_chunks.h -- finishes a volume of chunks when no more chunks are expected.
 //
 // Inside the pipeline room only. Thread contract: the caller holds the volume's lock.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace stormcellar::pipeline {
 
-// Returns the station in the volume's data, or else in the chunk's path.
+// Returns the station in the volume's data, or else in the chunk's path; or an empty text.
 [[nodiscard]] std::string station_of(const ChunkVolume& volume, const ChunkPath& chunk);
 
 // Decodes the volume from its present chunks, grids it, and settles the rows of all its files: the

@@ -1,10 +1,10 @@
-// pipeline/ingest/followed.h -- the files or volumes that are followed as they grow, and which of
-// them were given up.
+// pipeline/ingest/followed.h -- the files or volumes that are followed as they grow, and those that
+// were given up.
 //
-// A GrowingSet gives up files or volumes to stay within its bounds. This class remembers them, so
-// that they are not followed again only to be given up again. It remembers at most
-// `most_remembered`; beyond that it forgets all, and they may be followed once more. Inside the
-// pipeline room only. Thread contract: one thread at a time; the owner locks.
+// A GrowingSet gives up files or volumes to stay within its bounds. This class remembers the keys
+// that were given up, so that nothing is followed again only to be given up again. When it has
+// remembered `most_remembered` keys, it forgets all of them, and they may be followed once more.
+// Inside the pipeline room only. Thread contract: one thread at a time; the owner locks.
 #pragma once
 
 #include <chrono>
@@ -26,7 +26,7 @@ class Followed {
 
     explicit Followed(GrowingLimits limits) : things_(limits) {}
 
-    // Returns null if it is not followed.
+    // Returns null if nothing is followed under this key.
     [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const { return things_.find(key); }
     // Makes a place for one more file or volume of the station. This may give up others, by the
     // rules of GrowingSet::has_place(). Returns false if there is no place.
@@ -38,8 +38,8 @@ class Followed {
     void add(const Key& key, std::shared_ptr<Object> object, const std::string& station) {
         things_.add(key, std::move(object), station, Clock::now());
     }
-    // Notes what it holds now. Returns false if it was given up, or if another object has its
-    // place.
+    // Notes what an object holds now. Returns false if it was given up, or if another object has
+    // its key.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth) {
         const bool stands = things_.grew(key, object, station, growth, Clock::now());
@@ -51,19 +51,19 @@ class Followed {
         things_.erase(key);
         remember(key);
     }
-    // Forgets it, as if it had never been followed or given up.
+    // Forgets the key, as if it had never been followed or given up.
     void forget(const Key& key) {
         things_.erase(key);
         given_up_.erase(key);
     }
 
     [[nodiscard]] bool was_given_up(const Key& key) const { return given_up_.contains(key); }
-    // Returns true once for each that was given up, so that it gets a second try.
+    // Returns true once for each key that was given up, which thus gets a second try.
     [[nodiscard]] bool take_second_try(const Key& key) {
         const auto at = given_up_.find(key);
         return at != given_up_.end() && !std::exchange(at->second.had_second_try, true);
     }
-    // Returns how many were given up since the last call.
+    // Returns how many keys were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up() { return std::exchange(given_up_count_, 0); }
 
     [[nodiscard]] std::size_t count() const { return things_.count(); }

@@ -71,8 +71,7 @@ std::int32_t control_word(std::span<const std::byte, 4> bytes) {
 }
 
 struct RecordChain {
-    // The file ends with its last word, or is not a file of records, in which case reading it whole
-    // finds out more.
+    // The file has its last record, or is not a file of records.
     bool is_whole = false;
     // Start of the last record, if it ends with the file; 0 if the file ends within a record.
     std::uint64_t last = 0;

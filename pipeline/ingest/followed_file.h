@@ -1,11 +1,12 @@
 // pipeline/ingest/followed_file.h -- a file whose volume is still growing, decoded once.
 //
-// Each look reads and decodes what was appended since the last one. Closed sweeps are shelved
-// (pipeline/keep/sweep_shelf.h), so that they take little memory. finish() gives the same volume,
-// bit for bit, as decoding the whole file, for the selected moments; it reads the file once more to
-// verify that it is still the followed one. Only files of LDM records are followed; other files
-// must be held whole until their end anyway. An error is final and means that the file must be read
-// as a whole. Inside the pipeline room only. Thread contract: one thread at a time.
+// Each call of read_to() reads and decodes what was appended since the last call. Closed sweeps are
+// kept on disk (pipeline/keep/sweep_shelf.h), so that they take little memory. finish() returns the
+// same volume, bit for bit, as decoding the whole file, for the selected moments; it reads the file
+// once more to verify that the followed bytes have not changed. Only files of LDM records are
+// followed, because other files must be held whole until their end anyway. After any error, the
+// file must be read as a whole. Inside the pipeline room only. Thread contract: one thread at a
+// time.
 #pragma once
 
 #include <bitset>
@@ -32,31 +33,31 @@ using MomentSet = std::bitset<level2::moment_count>;
 [[nodiscard]] MomentSet moments_in(const level2::Sweep& sweep,
                                    const std::vector<level2::Moment>& moments);
 
-// The sweeps of a volume on the shelf; const once the volume has ended.
+// The sweeps of a volume, on disk. They no longer change once the volume has ended.
 struct ShelvedVolume {
     level2::Volume facts;  // without sweeps
     std::string source_file;
     std::unique_ptr<SweepShelf> shelf;
-    // Identifies a sweep of this volume; keys rise in the order of the sweeps. In a growing file
-    // the key is the index in the volume. In a volume of chunks it is the number of the cut,
-    // because a late chunk may change the indices, but never the cut.
+    // Identifies a sweep of this volume; keys rise in the order of the sweeps. In a growing file,
+    // the key is the sweep's index in the volume. In a volume of chunks, it is the number of the
+    // cut, because a late chunk may change indices, but never the cut of a sweep.
     using SweepKey = std::size_t;
     std::map<SweepKey, SweepShelf::Place> places;  // on the shelf
     struct Kept {
-        MomentSet moments;         // the gridded ones
+        MomentSet moments;         // the gridded moments that it has
         double elevation_deg = 0;  // mean
     };
     std::map<SweepKey, Kept> sweeps;
 
-    // Returns true if no gridded sweep that has come is lower: true for the lowest cut and its
-    // repetitions.
+    // Returns true if no sweep with a gridded moment is lower than `elevation_deg`, as for the
+    // lowest cut and its repetitions.
     [[nodiscard]] bool is_lowest(double elevation_deg) const;
 };
 
 // Sweeps that no living grid shows yet.
 struct UnshownSweeps {
     bool any = false, low = false;
-    MomentSet moments;  // with new data in these sweeps
+    MomentSet moments;  // moments of these sweeps
 
     void add(MomentSet of_sweep, bool is_low) {
         any = true;
@@ -74,7 +75,7 @@ class FollowedFile {
         std::filesystem::path scratch;
         std::filesystem::path beneath = {};  // all files must be below it (IngestOptions)
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
-        // The limit for the open sweep within one stretch of the file; 0: see
+        // The limit of the bytes of a sweep that has not closed; 0: see
         // stormcellar/level2/decode.h.
         std::uint64_t open_sweep_limit_bytes = 0;
     };
@@ -82,10 +83,11 @@ class FollowedFile {
     // The start of a growing file.
     struct Growing {
         std::string station;            // from its header; empty if it names none
-        std::uint64_t last_record = 0;  // where it begins, if it ends with the file; else 0
+        std::uint64_t last_record = 0;  // its start; 0 if the file ends within the record
     };
-    // Returns the facts of a growing file: a file of LDM records whose last record has not come.
-    // Reads the lengths of its records. None if it does not grow or cannot be read.
+    // Examines a file by the lengths of its records. Returns the start of a growing file, which is
+    // a file of LDM records whose last record has not come; none for any other file, or if it
+    // cannot be read.
     [[nodiscard]] static std::optional<Growing> growing(const std::filesystem::path& path,
                                                         const std::filesystem::path& beneath = {});
     // Returns true if the last record of a growing file holds the last radial of a volume, whatever
@@ -95,18 +97,17 @@ class FollowedFile {
     static Result<std::unique_ptr<FollowedFile>> begin(const std::filesystem::path& path,
                                                        const Options& options);
 
-    // Reads and decodes up to this size. Errors: not_found if the file is gone. `may_read_on` is
-    // called after each stretch; if it returns false, reading ends with over_budget.
+    // Reads and decodes up to `size_bytes`. `may_read_on` is called after each stretch; if it
+    // returns false, reading ends with over_budget. Errors: also not_found if the file is gone.
     [[nodiscard]] Status read_to(std::uint64_t size_bytes,
                                  const std::function<bool()>& may_read_on = {});
-    // no read has failed
+    // Returns true if no read has failed.
     [[nodiscard]] bool is_whole() const { return is_whole_; }
-    // its last radial has come
+    // Returns true if the volume's last radial has come.
     [[nodiscard]] bool has_ended() const { return growing_.has_last_radial(); }
     [[nodiscard]] UnshownSweeps news() const { return news_; }
     void set_shown() { news_ = {}; }
-    // Returns station, pattern, position and the sweeps that have closed; radials are counted over
-    // all of them.
+    // Returns the sweeps that have closed, with the volume's station, pattern and position.
     [[nodiscard]] const ShelvedVolume& kept() const { return *kept_; }
     [[nodiscard]] std::size_t radials() const { return radials_; }
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
@@ -145,25 +146,26 @@ class FollowedFile {
 // The sweeps for the living grids of a growing volume, unpacked once for all moments.
 class LivingSweeps {
   public:
-    // Reads the sweeps of the growing volume that have one of these moments, and those of the
-    // site's last volume that still stand in for one. The volumes need not outlive the object.
-    // Errors: those of the shelf.
+    // Reads the sweeps of the growing volume that have one of these moments, and the sweeps of the
+    // site's last volume (null: none) that the growing volume has not yet replaced. The volumes
+    // need not outlive the object. Errors: those of the shelf.
     [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
                                                    const ShelvedVolume* last, MomentSet moments);
 
-    // Returns the sweeps of the growing volume, preceded by those sweeps of the last volume whose
-    // elevation has not come again (within 0.2 degrees). Only sweeps with the moment count, so a
-    // Doppler sweep stays until a Doppler sweep has come. If the last volume is more than 20
-    // minutes older, its sweeps are left out. The result is valid until the next call.
+    // Returns the growing volume's sweeps that have the moment, preceded by the last volume's
+    // sweeps that have it and whose elevation has not come again (within 0.2 degrees). Because only
+    // sweeps with the moment count, an old Doppler sweep stays until a new Doppler sweep has come.
+    // If the last volume is more than 20 minutes older, its sweeps are left out. The result is
+    // valid until the next call.
     [[nodiscard]] const level2::Volume& volume_of(level2::Moment moment);
-    // Returns the number of sweeps in that volume that are from the last volume.
+    // Returns how many sweeps of the last result of volume_of() are from the last volume.
     [[nodiscard]] std::size_t standing() const { return standing_; }
 
   private:
     struct One {
         level2::Sweep sweep;
-        MomentSet moments;  // for which it counts
-        bool stands = false;
+        MomentSet moments;    // for which it counts
+        bool stands = false;  // it is from the last volume
     };
     Status add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
                bool stands);

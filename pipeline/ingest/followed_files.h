@@ -1,11 +1,12 @@
 // pipeline/ingest/followed_files.h -- the files that are followed while they grow, and the sweeps
-// of each site's last volume, which living grids of the next one use.
+// of each site's last volume, which living grids of the next volume use.
 //
-// The set is limited for each station and in total (pipeline/ingest/followed.h). If disk space is
-// short, the last volumes of the sites are dropped first, the oldest first; living grids then have
-// fewer old sweeps. A file that was given up is not followed again; it is read whole when its
-// volume has ended. Nothing outlives the process. Inside the pipeline room only. Thread contract:
-// many threads may call all functions; one thread at a time works on a file.
+// The number and size of files are limited for each station and in total
+// (pipeline/ingest/followed.h). Beyond the limit of disk space, the last volumes of the sites are
+// dropped, the oldest first; living grids then have fewer old sweeps. A file that was given up is
+// not followed again, but read whole when its volume has ended. Nothing outlives the process.
+// Inside the pipeline room only. Thread contract: many threads may call all functions; one thread
+// at a time works on a file.
 #pragma once
 
 #include <cstdint>
@@ -33,15 +34,16 @@ class FollowedFiles {
     [[nodiscard]] std::shared_ptr<FollowedFile> begin(const std::filesystem::path& path,
                                                       const std::string& fallback_station,
                                                       const std::string& station);
-    // Notes that this much more of the file was read, and what it holds now. Returns false if the
-    // file was given up; then it must not be read on.
+    // Notes the memory and disk space that the file holds now. Returns false if the file is no
+    // longer followed; then do not read on.
     [[nodiscard]] bool grew(const std::filesystem::path& path, const FollowedFile& file,
                             const std::string& station);
     void forget(const std::filesystem::path& path);
-    // Gives up a file that holds more than its share. It will not be followed again.
+    // Gives up a file, which will not be followed again.
     void give_up(const std::filesystem::path& path);
 
-    // Keeps the sweeps of a volume for the site's next one. Call it when the volume has ended.
+    // Keeps the sweeps of a volume that has ended for the site's next volume, unless a later volume
+    // is kept or its start is more than 10 minutes in the future.
     void keep_last(std::shared_ptr<const ShelvedVolume> volume);
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> last_of(const std::string& station) const;
     [[nodiscard]] std::size_t count() const;

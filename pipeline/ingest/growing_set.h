@@ -1,21 +1,22 @@
 // pipeline/ingest/growing_set.h -- a set of followed files or volumes, limited for each station and
 // in total. Used only inside the pipeline room.
 //
-// Each member holds a descriptor, memory, and disk space, whatever its file claims. So its size is
-// updated at every stretch that is read. If a limit is exceeded, members are given up:
+// Each member holds a descriptor, memory and disk space. Its size is updated after every stretch
+// that is read, because what a file claims cannot be trusted. If a limit is exceeded, members are
+// given up:
 //   a station's own limit   among the members of the station
-//   the total limit         first among members that no known station claims, then among all
-//   the limit of beginnings among members without a closed sweep: a real volume is in this state
-//                           for a fifteenth of its time, a sweep that never ends forever
-// For memory and disk, the largest and least active member is given up: the largest by its size
-// times a weight that grows by one for each minute without progress. For the number of members, it
-// is the least active member of the station that has most.
+//   the total limit         first among members of unknown stations, then among all
+//   the limit of beginnings among members without a closed sweep. A real volume has no closed sweep
+//                           for a fifteenth of its time; a forged one may never have any.
+// For memory and disk, the member with the largest product of its size and (1 + its minutes without
+// progress) is given up. For the number of members, it is the least active member of the station
+// that has most members.
 //
-// There is no place for a new member if all others are active. A member is active if it has grown
-// within the last minute; or within the last five seconds, if it has not yet shown that it
-// continues (a sweep has closed, and more has come than at the first look). Giving up active
-// members for new ones in turn would mean reading everything again and again. At the total limit,
-// however, a station with fewer members takes a place from the station with most.
+// There is no place for a new member if all others are active, because giving up active members for
+// new ones would mean reading everything again and again. A member is active for a minute after it
+// has grown, or for five seconds if it has not yet shown that it continues (a sweep has closed, and
+// data came after the first look). At the total limit, however, a station with fewer members takes
+// a place from the station with most.
 //
 // Threads   One thread at a time; the owner locks.
 #pragma once
@@ -37,13 +38,14 @@ struct GrowingLimits {
     std::uint64_t held_bytes = std::uint64_t{192} << 20;
     std::uint64_t beginnings_held_bytes = std::uint64_t{192} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
-    // For one station, and for all members together that no known station claims. A site's volume
+    // Limits of one station. All members of unknown stations count as one station. A site's volume
     // holds some 3 MB of one moment, and two of its volumes may grow at once.
     std::size_t station_count = 16;
     std::uint64_t station_held_bytes = std::uint64_t{16} << 20;
     std::uint64_t station_shelf_bytes = std::uint64_t{512} << 20;
 
-    // Returns the limits for this many moments. 160 sites hold about a megabyte of each.
+    // Returns the limits for this many moments. Each of 160 sites holds about a megabyte of each
+    // moment.
     [[nodiscard]] static GrowingLimits of(std::size_t moments) {
         GrowingLimits limits;
         limits.held_bytes = (128 + 64 * moments) << 20;
@@ -74,8 +76,8 @@ class GrowingSet {
         return at == things_.end() ? nullptr : at->second.object;
     }
 
-    // Returns false if there is no place for a new member. One that is added nevertheless is given
-    // up when it next grows.
+    // Makes a place for a new member, by giving up others if necessary. Returns false if there is
+    // no place; a member that is added nevertheless is given up when it next grows.
     [[nodiscard]] bool has_place(const std::string& station, Clock::time_point now) {
         while (count_of(station) >= limits_.station_count) {
             if (!give_up_idle(&station, now)) return false;
@@ -92,7 +94,7 @@ class GrowingSet {
     }
 
     // Notes what a member holds now. Returns false if it was given up, or if another object has its
-    // place.
+    // key.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth, Clock::time_point now) {
         const auto at = things_.find(key);
@@ -161,8 +163,8 @@ class GrowingSet {
         return now - thing.grew_at >= (goes_on(thing) ? most_idle : most_idle_at_first);
     }
 
-    // Gives up the least active member of the station (null: of the station that has most), if it
-    // has made no progress for long enough.
+    // Gives up the idle member of the station (null: of the station with most members) that grew
+    // longest ago. Returns false if no member is idle.
     bool give_up_idle(const std::string* station, Clock::time_point now) {
         std::map<std::string, std::size_t> counts;
         if (station == nullptr) {
@@ -187,8 +189,8 @@ class GrowingSet {
         return true;
     }
 
-    // Gives up the least active member of the station that has most, if that has more than `count`
-    // + 1.
+    // Gives up the least active member of the station with most members, if it has more than
+    // `count` + 1 members.
     bool give_up_of_largest(std::size_t count) {
         std::map<std::string, std::size_t> counts;
         for (const auto& [key, thing] : things_)
@@ -210,7 +212,8 @@ class GrowingSet {
     }
 
     enum class What { memory, disk };
-    // Considers the things for which `which` is true. Returns false if none of them holds anything.
+    // Gives up one of the members for which `which` is true. Returns false if none of them holds
+    // anything.
     template <class Which>
     bool give_up_largest(const Which& which, What what, Clock::time_point now) {
         Place chosen = things_.end();

@@ -1,8 +1,8 @@
 // pipeline/ingest/handlers.h -- ingests files of each kind (pipeline/ingest/file_kind.h).
 //
 // There is one class for each kind. An object is made for one file and used once; take() returns
-// the outcome for the file. Errors are those of Ingestor::ingest(). If a handler finds by reading
-// that the file is of another kind, it passes the file to that kind's handler, with a new outcome.
+// the outcome for the file. Errors are those of Ingestor::ingest(). A handler that finds, by
+// reading, that the file is of another kind passes it to that kind's handler, with a new outcome.
 // Inside the pipeline room only. Thread contract: one thread uses an object; the context and the
 // file must outlive it.
 #pragma once
@@ -26,9 +26,9 @@ namespace stormcellar::pipeline {
 [[nodiscard]] Result<IngestOutcome> take(IngestContext& context, const OfferedFile& file,
                                          const FileKind& kind);
 
-// Handles a file that is gone by marking its rows as gone. If the file represents a volume of
-// chunks, its own data are already decoded. The volume is still polled under this name until it is
-// due, because later chunks may complete it.
+// Marks the rows of a file that is gone. If the file represents a volume of chunks, its data are
+// already decoded, and the volume is still polled under its name until it is due, because later
+// chunks may complete it.
 class TakeGone {
   public:
     TakeGone(IngestContext& context, const OfferedFile& file) : context_(context), file_(file) {}
@@ -114,13 +114,13 @@ class TakeWhole {
     IngestOutcome outcome_;
 };
 
-// A tar or zip archive: each member is ingested as a file named "ARCHIVE!MEMBER".
+// Handles a tar or zip archive: ingests each member as a file named "ARCHIVE!MEMBER".
 class TakeArchive {
   public:
     TakeArchive(IngestContext& context, const OfferedFile& file, OpenArchive open)
         : context_(context), file_(file), open_(std::move(open)) {}
-    // The archive at the path, already open or opened anew; none if the file is not an archive.
-    // Errors: it cannot be opened.
+    // Returns the archive at the path, opened before or now; none if the file is not an archive.
+    // Errors: the file cannot be opened.
     [[nodiscard]] static Result<std::optional<OpenArchive>> open(IngestContext& context,
                                                                  const std::filesystem::path& path,
                                                                  const FileStamp& stamp);
@@ -137,7 +137,7 @@ class TakeArchive {
     IngestOutcome outcome_;
 };
 
-// Ingests again one member of an archive that was settled before.
+// Ingests one member of an archive again, although it was settled before.
 [[nodiscard]] Result<IngestOutcome> take_member_again(IngestContext& context,
                                                       const MemberName& name,
                                                       const FileStamp& archive_stamp,

@@ -15,7 +15,7 @@ struct Ingestor::Impl {
 
     [[nodiscard]] Finish finish_of(bool finish_as_is) const {
         if (!finish_as_is) return Finish::when_it_ends;
-        // Without a shelf, the volume is not offered again when it has been quiet.
+        // Without a scratch directory, the file is not offered again after it was quiet.
         return context.options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
     }
     Result<IngestOutcome> ingest(const fs::path& path, bool finish_as_is);
@@ -84,15 +84,14 @@ Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_a
     return take(context, file, *kind);
 }
 
-// Rejects a file that was tried often enough. After a restart the cause may be gone, so the stamp
-// in the row settles nothing.
+// The cause may be gone after a restart, so the row gets a stamp that does not settle the file.
 Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error& why) {
     const auto stamp = stamp_of(path, context.options.beneath);
     if (context.living) context.living->forget(path);
     auto rejected =
         context.reject_unread(path, {why.code, "given up: " + without_path(why.message, path)},
                               stamp ? stamp->size_bytes : 0);
-    // Return the first error, not that of storing the rejection.
+    // Return `why` and not the error of storing the rejection.
     return rejected ? std::move(rejected) : Result<IngestOutcome>{tl::unexpected<Error>(why)};
 }
 

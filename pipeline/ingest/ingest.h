@@ -1,15 +1,15 @@
-// pipeline/ingest/ingest.h -- takes one raw file into the catalog and its grids into the cache.
+// pipeline/ingest/ingest.h -- registers a raw file in the catalog and puts its grids into the
+// cache.
 //
-// The daemon and the CLI share it. It never changes the raw file. A file that cannot be decoded is
-// recorded as rejected, with the reason; that is a result, not an error. The grid of a complete
-// volume replaces a grid in the cache; the grid of an incomplete volume never replaces that of a
-// complete one. If two existing files have one volume, the file with the later end counts. A volume
-// that the limits of the cache would not keep is not gridded. The data never cause an error. An
-// error means that the catalog or the cache cannot be written, or that the system has no memory or
-// descriptors left; trying again later may help. At the last try, every failure except a shortage
-// of the system (is_shortage()) is recorded as a rejection with its reason; if even that cannot be
-// stored, the error is returned. Thread contract: many threads may use an Ingestor at once, for
-// different files.
+// The daemon and the CLI share this class. It never changes the raw file. A file that cannot be
+// decoded is recorded as rejected, with the reason; that is a result, not an error.
+// pipeline/keep/keep_rule.h decides which grid stays if the cache already has a grid of the volume.
+// A volume that the limits of the cache would not keep is not gridded. ingest() returns no error
+// for bad data. An error means that the catalog or the cache cannot be used, or that the system
+// refused something, for example memory or descriptors; trying again later may help. At the last
+// try, every failure except a shortage (is_shortage()) is recorded as a rejection with its reason;
+// if the rejection cannot be stored, the error is returned. Thread contract: many threads may use
+// an Ingestor at once, for different files.
 #pragma once
 
 #include <filesystem>
@@ -37,21 +37,23 @@ class Ingestor {
     Ingestor(const Ingestor&) = delete;
     Ingestor& operator=(const Ingestor&) = delete;
 
-    // Ingests a file. `finish_as_is` grids a volume that has not ended (the file was quiet for long
-    // enough).
+    // Ingests a file. Set `finish_as_is` if the file was quiet for long enough: then a volume that
+    // has not ended is gridded, too.
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_as_is,
                                  Tries tries = Tries::more_follow);
-    // Writes a file into the catalog as seen, without reading it, unless it has a row (then the
-    // result is `stands`). If the file is gone, marks its rows as gone. The result is then `gone`,
-    // or `stands` if the file represents a volume of chunks.
+    // Registers an existing regular file as seen, without reading it, unless it has a row. If the
+    // file is gone, marks its rows as gone, and returns `gone` unless the file represents a volume
+    // of chunks. Returns `stands` in all other cases.
     Result<Noted> note(const std::filesystem::path& path);
-    // Does the same as ingest() for a file that was settled before: its volumes are gridded again
-    // as they are. If `is_the_same` fails for the bytes read, nothing is done and its error is
-    // returned.
+    // Ingests a file although it was settled before: its volumes are gridded again, complete or
+    // not. If `is_the_same` fails for the bytes read, returns its error and changes nothing.
+    // Errors: also not_found if the file is gone.
     Result<IngestOutcome> ingest_again(const std::filesystem::path& path,
                                        const ReadCheck& is_the_same = {});
 
-    // Rejects a file unread, "given up: WHY". After a restart it is offered again.
+    // Records a file as rejected without reading it, with the reason "given up: WHY". The row does
+    // not settle the file, so it is tried again when it is next offered. Errors: `why`, if the row
+    // cannot be stored.
     Result<IngestOutcome> give_up(const std::filesystem::path& path, const Error& why);
 
     [[nodiscard]] MosaicMaker& mosaics();

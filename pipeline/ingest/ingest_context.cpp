@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// Nearly all data of a volume of chunks are on the shelf.
+// This limit is small, because nearly all data of a volume of chunks are on disk.
 constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
 
 // Returns all moments that are gridded.

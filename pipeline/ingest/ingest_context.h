@@ -1,5 +1,5 @@
 // pipeline/ingest/ingest_context.h -- state and functions that the handlers of all kinds of files
-// share: where they write, what they remember of growing files, and how they write catalog rows.
+// share: the catalog, the store, the growing files, and writing catalog rows.
 //
 // Inside the pipeline room only. Thread contract: that of Ingestor; many threads may call all
 // functions, for different files.
@@ -46,21 +46,21 @@ struct IngestContext {
 
     // Returns the station if its data are accepted, otherwise an empty text.
     [[nodiscard]] std::string taken_station(const std::string& station) const;
-    // Notes that complete data of this station have come: the rule may then accept a new name.
+    // Tells the rule that decoded data of this station have come, so that it may accept a new name.
     void admit(const std::string& station) const;
 
-    // Writes the row of a file. If the file's station is not accepted, the row is stored with those
-    // of no known station.
+    // Writes the row of a file. If the file's station is not accepted, the row is stored among the
+    // files of unknown stations.
     Status record(catalog::FileFacts facts);
-    // Records the file as rejected. Returns the outcome, or the error if that cannot be stored.
+    // Records the file as rejected, and returns the outcome. Errors: the row cannot be stored.
     Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
-    // Rejects a file that was not examined. The stamp in its row settles nothing, so it is tried
-    // again when it is offered again. `size_bytes` is 0 if unknown.
+    // Rejects a file that was not examined. Its row does not settle it, so it is tried again when
+    // it is next offered. `size_bytes` is 0 if unknown.
     Result<IngestOutcome> reject_unread(const std::filesystem::path& path, const Error& why,
                                         std::uint64_t size_bytes = 0);
-    // Records that the file exists and is incomplete.
+    // Registers the file as seen, unless it has a row, and returns the outcome `incomplete`.
     Result<IngestOutcome> wait_unread(catalog::FileFacts facts, IngestOutcome outcome);
-    // Does the same without an outcome. An existing row stays as it is.
+    // Registers the file as seen, unless it has a row.
     Status note_seen(catalog::FileFacts facts);
     // Marks the rows of a file that is gone, and stops following it.
     Status mark_gone(const std::filesystem::path& path);
@@ -78,10 +78,11 @@ class Running {
     std::atomic<int>& count_;
 };
 
-// Returns the facts of a file that was not decoded: its path and stamp, and this station.
+// Returns the facts of a file that was not decoded: its path, size, modification time and this
+// station.
 [[nodiscard]] catalog::FileFacts facts_unread(const std::filesystem::path& path,
                                               const FileStamp& stamp, std::string station);
-// Returns the station in the file's name, or for a chunk in the names of its directories.
+// Returns the station in the file's name or, for a chunk, in its path (station_of_path()).
 [[nodiscard]] std::string station_of_name(const std::filesystem::path& path);
 // Returns the reason without the path at its beginning, because the catalog stores the path
 // separately.

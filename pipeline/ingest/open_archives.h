@@ -27,11 +27,11 @@ struct OpenArchive {
     archive::ArchiveReader reader;
     std::size_t taken = 0, rejected = 0;
     std::size_t known = 0;                     // members that the catalog already knew
-    std::set<std::filesystem::path> met = {};  // paths of the members so far
+    std::set<std::filesystem::path> met = {};  // paths of the members that were taken so far
 };
 
-// The archives that wait for their next turn. The first few stay open until they end or are
-// deleted; the others are opened again and read from their beginning. This ensures that some
+// The archives that wait for their next turn. The first four stay open until they end, are deleted,
+// or have waited for a day; the others are opened again and read from their beginning. So some
 // archives always make progress.
 class OpenArchives {
   public:

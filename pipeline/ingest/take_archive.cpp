@@ -18,9 +18,8 @@ using catalog::FileFacts;
 using catalog::FileState;
 
 // Returns the limits of an archive. A radar's day has some 300 volumes in 3 GB. An archive may use
-// no more than a file: memory for one member and little else. Level II is packed already, so a
-// packed archive unpacks to about its own size; raw messages inside it unpack to some ten times
-// that.
+// little more memory than its largest member. Level II files are packed already, so an archive
+// unpacks to about its own size; uncompressed Level II files in it unpack to some ten times that.
 archive::Limits limits_of(const IngestOptions& options) {
     archive::Limits limits;
     limits.archive_bytes = std::uint64_t{8} << 30;

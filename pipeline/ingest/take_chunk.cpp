@@ -17,8 +17,8 @@ using Added = ChunkVolume::Added;
 
 }  // namespace
 
-// Returns what is expected of the volume. One that found no place is read as soon as its end has
-// come.
+// Returns the chunks of the volume that are still expected. Once a file is quiet and the volume's
+// end has come, none are, so that a volume that found no place is read then.
 ChunkVolumes::Expected TakeChunk::expected() const {
     using Expected = ChunkVolumes::Expected;
     switch (file_.finish) {
@@ -90,8 +90,8 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
 
 Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                         const std::string& station) {
-    // If a volume cannot be stored, it is joined again. Until then it stays known, so that other
-    // jobs wait for it: two objects of one volume would overwrite each other's rows.
+    // If the volume cannot be stored, it is joined again. It stays known until it is finished, so
+    // that other jobs wait for it; two objects of one volume would overwrite each other's rows.
     volume.close();
     auto finished =
         finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));

@@ -21,8 +21,8 @@ Result<IngestOutcome> TakeGrowing::take() {
     const std::filesystem::path& beneath = context_.options.beneath;
     if (!followed_) begin();
     if (!followed_) {
-        // A file that is not followed is read only when it has ended or has been quiet, because
-        // reading it repeatedly would be useless.
+        // A file that is not followed is read only when it has ended or was quiet, because reading
+        // it at every change would be useless.
         if (FollowedFile::has_ended(file_.path, growing_.start, beneath)) return take_whole();
         return context_.wait_unread(std::move(facts_), std::move(outcome_));
     }
@@ -68,7 +68,7 @@ Result<IngestOutcome> TakeGrowing::show() {
     const ShelvedVolume& kept = followed_->kept();
     outcome_.ending = ended::Incomplete{.is_followed = true};
     outcome_.goes_on = !kept.places.empty();
-    // Set the station even if no sweep is complete: something of it has come.
+    // Set the station even if no sweep is complete, because data of the station have come.
     outcome_.station = kept.facts.station.empty() ? facts_.station : kept.facts.station;
     if (!followed_->news().any || followed_->holds_several()) return std::move(outcome_);
     facts_.station = kept.facts.station;
@@ -90,7 +90,7 @@ Result<IngestOutcome> TakeGrowing::show() {
     return std::move(outcome_);
 }
 
-// Finishes the volume, which has ended or is taken as it is; its file is no longer followed.
+// Grids the volume, which has ended or was quiet; its file is no longer followed.
 Result<IngestOutcome> TakeGrowing::finish(std::chrono::steady_clock::time_point start) {
     facts_.content_hash = followed_->content_hash();
     auto decoded = followed_->finish();

@@ -15,12 +15,12 @@ namespace {
 
 using catalog::FileState;
 
-// A radar's file holds one volume; a joined file may hold those of some hours. All of them are
+// A radar's file holds one volume, but a joined file may hold the volumes of some hours, which are
 // gridded in one job.
 constexpr std::size_t most_volumes = 64;
 
-// Returns a reason that names the station, because the row is stored with those of no known
-// station.
+// Returns a reason that names the station, because the row is stored among the files of unknown
+// stations.
 std::string of_other_station(const std::string& station, const std::string& reason) {
     const std::string text =
         fmt::format("is of {}, a station that [ingest] stations does not accept", station);
@@ -133,8 +133,8 @@ Result<IngestOutcome> TakeVolumes::settle() {
     return std::move(outcome_);
 }
 
-// Grids first and settles the row in the catalog afterward, so that after a crash in between the
-// work is repeated and nothing is lost.
+// Settles the row in the catalog only after gridding, so that after a crash the file is gridded
+// again.
 Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& volumes) {
     bool has_other_station = false;
     for (const level2::Volume& volume : volumes) {

@@ -13,17 +13,17 @@
 
 namespace stormcellar::pipeline {
 
-// Tells take() whether to grid a volume that has not ended, or to let it wait for more.
+// Tells take() if it may grid a volume that has not ended; otherwise the file waits for more.
 enum class MayBePartial : bool { no, yes };
 
-// Used once, for one file.
+// Takes the volumes of one file. An object is used once.
 class TakeVolumes {
   public:
-    // `facts` are the file's, with the hash of its contents. `outcome` has the facts known so far.
+    // `facts` describes the file, with the hash of its contents. take() completes `outcome`.
     TakeVolumes(IngestContext& context, catalog::FileFacts facts, IngestOutcome outcome)
         : context_(context), facts_(std::move(facts)), outcome_(std::move(outcome)) {}
 
-    // Takes the volumes. A file that holds too many is rejected. Errors: those of
+    // Takes the volumes. A file with more than 64 volumes is rejected. Errors: those of
     // Ingestor::ingest().
     Result<IngestOutcome> take(level2::Decoded decoded, MayBePartial partial);
 

@@ -1,9 +1,10 @@
 // pipeline/keep/geometry_cache.h -- keeps geometry that volumes of one site on one grid share.
 //
-// Making it takes longer than using it. The least recently used entries are dropped first.
+// Making a geometry takes longer than using it. The least recently used geometries are dropped
+// first.
 //
-// Threads   Many threads may use it. If two threads want an entry at the same time, it may be made
-//           twice, and one of the two is kept.
+// Threads   Many threads may use it. If two threads want the same geometry at once, both may make
+//           it, and the first result is kept.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +24,8 @@ namespace stormcellar::pipeline {
 
 class GeometryCache {
   public:
-    // The capacity for column geometries, which are large. The rest takes some 0.1 MiB each, so
-    // there may be more.
+    // `capacity` is the number of column geometries, which are large. All other entries take some
+    // 0.1 MiB each, so more of them are kept.
     explicit GeometryCache(std::size_t capacity) : geometries_(capacity) {}
 
     Result<std::shared_ptr<const grid::ColumnGeometry>> get(
@@ -33,11 +34,11 @@ class GeometryCache {
     // Returns grid::site_window().
     std::optional<grid::GridWindow> window(const grid::GridSpec& domain,
                                            const grid::SitePosition& site, double reach_m);
-    // Returns the distances for merging, for a window of the domain.
+    // Returns the distances of the window's columns from the site, for merging.
     std::shared_ptr<const grid::SiteDistance> distance(const grid::GridSpec& domain,
                                                        const grid::GridWindow& window,
                                                        const grid::SitePosition& site);
-    // Returns the columns for audits (grid::audit_reach_m).
+    // Returns the columns of the site for audits (grid::audit_reach_m).
     std::shared_ptr<const grid::SiteColumns> places(const grid::SitePosition& site,
                                                     const grid::GridSpec& spec);
 
@@ -82,7 +83,7 @@ class GeometryCache {
             // A value may be an optional itself.
             return std::optional<Value>(std::in_place, *found);
         }
-        // Returns the value that stays, which another thread may have made meanwhile.
+        // Keeps the value, unless another thread has kept one meanwhile. Returns the kept value.
         Value keep(const Key& key, Value value) {
             const MutexLock lock(mutex_);
             if (const Value* found = values_.find(key)) return *found;

@@ -11,13 +11,13 @@
 
 namespace stormcellar::pipeline {
 
-// Holds state/stormcellard.lock with the process id in it (flock: the kernel releases it when the
-// process ends, however that happens).
+// Holds a flock on STATE/stormcellard.lock, which contains the process id. The kernel releases the
+// lock when the process ends, even by a crash.
 class InstanceLock {
   public:
     static constexpr const char* file_name = "stormcellard.lock";
 
-    // Errors: bad_argument, with the process id, if another daemon holds it; io, permission.
+    // Errors: bad_argument, with the process id, if another daemon holds the lock; io, permission.
     static Result<InstanceLock> acquire(const std::filesystem::path& state);
 
   private:

@@ -16,7 +16,7 @@ bool is_living(const grid::Provenance& provenance) {
                        [](const std::string& note) { return note.starts_with(living_note); });
 }
 
-// Returns a number that orders grids by their cells; any such order will do.
+// Returns a number that depends only on the cells. The numbers of two grids tell which one stays.
 std::uint64_t order_of(const grid::BrickView& view) {
     std::vector<std::uint64_t> words;
     for (const grid::BrickEntry& brick : view.bricks) {

@@ -81,7 +81,7 @@ Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, level2::Mo
     return made;
 }
 
-// Audits and commits a grid. One that cannot be audited is committed with an unknown audit.
+// Audits and commits a grid. A grid that cannot be audited is committed without an audit.
 Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
                                    const GridSource& source, Living living,
                                    IngestOutcome& outcome) {
@@ -108,8 +108,7 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
         living == Living::yes ? cache::Durability::until_a_crash : cache::Durability::power_cut);
 }
 
-// Keeps the grids of all moments. One moment that the cache does not keep does not affect the
-// others.
+// If the cache does not keep the grid of one moment, the other moments are still gridded.
 Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, int threads,
                        IngestOutcome& outcome) {
     if (!has_place(volume, outcome)) return {};
@@ -165,7 +164,7 @@ Status SiteGrids::keep_living(const level2::Volume& volume, level2::Moment momen
     const auto commit_start = Clock::now();
     auto path = commit(*made, volume, source, Living::yes, outcome);
     outcome.commit_s += seconds_since(commit_start);
-    // The complete volume will report it.
+    // The grid of the complete volume will report this.
     if (!path && path.error().code == ErrorCode::over_budget) return {};
     if (!path) return of_storing(path.error());
     if (!path->empty()) outcome.living.push_back(std::move(*path));

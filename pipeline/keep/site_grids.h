@@ -20,7 +20,7 @@
 
 namespace stormcellar::pipeline {
 
-// Facts about the raw file that the caller knows.
+// Facts about the raw file of a volume.
 struct GridSource {
     std::string file;  // without directories
     bool partial = false;
@@ -34,17 +34,19 @@ class SiteGrids {
     SiteGrids(cache::StoreWriter& store, const IngestOptions& options)
         : store_(store), options_(options) {}
 
-    // Returns true if the position of the radar is known; if not, the outcome says so.
+    // Returns true if the volume has a station and the radar's position is known; if not, notes
+    // that in the outcome.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids each of the moments that the volume holds, audits the grids and commits them. A grid is
-    // left out, and the outcome says so, if a better one exists or the cache's limits do not keep
-    // it. Adds to the outcome's grids and times.
+    // Grids each of the moments that the volume holds, audits the grids and commits them. A new
+    // grid is dropped if a better one exists (pipeline/keep/keep_rule.h) or the cache's limits do
+    // not keep it; the outcome says so. Adds the paths of the grids, including better ones that
+    // stay, and the times to the outcome.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
-    // Does the same fast for one moment of a volume that is still growing: the grid is neither
-    // audited nor synced, because it will be replaced in seconds and made again after a crash. Adds
-    // to the outcome's `living`.
+    // Does the same for one moment of a growing volume, but neither audits nor syncs the grid,
+    // because it will be replaced in seconds and made again after a crash. Adds the path to the
+    // outcome's `living`.
     Status keep_living(const level2::Volume& volume, level2::Moment moment,
                        const GridSource& source, int threads, IngestOutcome& outcome);
 
@@ -67,19 +69,20 @@ class SiteGrids {
     // The geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};
-    // One commit at a time for each grid file, by the hash of its path.
+    // Let one thread at a time commit a grid file. The hash of the file's path selects the mutex.
     std::array<Mutex, 16> commits_;
 };
 
-// Classifies an error of gridding a decoded volume: whatever its code, the cause is in the file,
-// unless the system refused something.
+// Sets the cause of an error of gridding a decoded volume: the file, unless the code is io,
+// exhausted or no_space.
 [[nodiscard]] tl::unexpected<Error> of_gridding(Error error);
-// Classifies an error of writing into the cache: whatever its code, the cause is not in the file.
+// Sets the cause of an error of writing into the cache: never the file.
 [[nodiscard]] tl::unexpected<Error> of_storing(Error error);
-// Notes that the cache's limits leave no room for a grid, so that someone must change them. The
+// Notes that the cache's limits leave no room for a grid, so that an operator must change them. The
 // file is not tried again until a restart looks for missing grids.
 void note_no_room(IngestOutcome& outcome, const Error& why);
-// Notes that the cache keeps no grid this old of the station, or no grid of an unknown station.
+// Notes that a grid is too old for the cache or, for an unknown station, that the cache has no more
+// room for unknown stations.
 void note_not_kept(const std::string& station, IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

@@ -21,7 +21,7 @@ namespace {
 using level2::Sweep;
 using level2::SweepMoment;
 
-// Writes a sweep as bytes; the same process reads them back.
+// Writes a sweep as bytes, which only the same process reads.
 class Writer {
   public:
     template <class T>
@@ -142,7 +142,8 @@ Status move_all(std::uint64_t bytes, std::string_view verb, const Move& move) {
     return {};
 }
 
-// Opens a file without a name, or, if the file system cannot, one that loses its name at once.
+// Opens a file without a name. If the file system has no such files, creates a file and removes its
+// name at once.
 int nameless_file(const std::filesystem::path& directory) {
     const int made = ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (made >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return made;

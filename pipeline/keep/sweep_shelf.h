@@ -1,8 +1,8 @@
 // pipeline/keep/sweep_shelf.h -- stores sweeps on disk until they are needed again.
 //
-// The sweeps are packed with LZ4 in a file without a name, which disappears with the process
-// however that ends. 160 growing volumes hold more than a service should keep in memory; the page
-// cache can drop the file's pages when memory is short. A sweep comes back bit for bit.
+// The sweeps are packed with LZ4 in a file without a name, which disappears when the process ends,
+// even by a crash. 160 growing volumes hold more than a service should keep in memory, and the
+// kernel can drop the file's pages from memory when it is short. A sweep comes back bit for bit.
 //
 // Threads   put() by one thread at a time; get() by many, also during put().
 #pragma once
@@ -24,13 +24,13 @@ class SweepShelf {
         std::uint64_t offset = 0, packed_bytes = 0, bytes = 0;
     };
 
-    // The directory must be on a local file system with some room. Errors: io, no_space,
+    // Makes an empty shelf. The directory must be on a local file system. Errors: io, no_space,
     // permission.
     static Result<std::unique_ptr<SweepShelf>> make_in(const std::filesystem::path& directory);
 
     [[nodiscard]] Result<Place> put(const level2::Sweep& sweep);
     [[nodiscard]] Result<level2::Sweep> get(const Place& place) const;
-    // on disk
+    // Returns the size of the shelf on disk.
     [[nodiscard]] std::uint64_t bytes() const { return end_; }
 
   private:

@@ -1,24 +1,24 @@
 // pipeline/mosaic/between_grids.h -- makes frames of a domain for any instant from the grids in its
 // cache.
 //
-// It is used if frames must be closer in time than the grids. There are two kinds of domains:
-//   a station's own  The frame is made from the volumes before and after the instant by
-//                    grid/mosaic/time_interpolation.h: each cell from its own time if the grid says
-//                    when its sweeps were made, else from the middle of the volume. At the middle
-//                    of a volume with undated sweeps it is that volume's grid, code by code.
-//   a mosaic         The frame is made from its sites' grids (NAME.ICAO), by the chain and the
-//                    rules of its own frames (pipeline/mosaic/mosaic_frame.h). At their instants it
-//                    equals them, code by code.
+// It is for frames that must be closer in time than the grids. There are two kinds of domains:
+//   a station's own  grid/mosaic/time_interpolation.h makes the frame from the volumes before and
+//                    after the instant. A cell has its own time if the grid has the times of its
+//                    sweeps, otherwise the time of the volume's middle. At the middle of a volume
+//                    with undated sweeps, the frame is that volume's grid, code by code.
+//   a mosaic         The frame is made from the sites' partials (NAME.ICAO), by the rules of the
+//                    mosaic's frames (pipeline/mosaic/mosaic_frame.h). At the instant of such a
+//                    frame, it equals that frame, code by code.
 //
-// Gaps      Between volumes whose middles are more than 30 minutes apart, nothing is made. For a
-//           site of a mosaic the mosaic's own rule applies: within 15 minutes of a volume. Nothing
-//           is made before the first middle or after the last.
-// States    As in the interpolation: a cell that one end has not seen is never blended into clear
-//           air; the other end counts.
+// Gaps      No frame is made between volumes whose middles are more than 30 minutes apart, before
+//           the first middle or after the last. A site of a mosaic counts within 15 minutes of its
+//           volumes, as in the mosaic's frames.
+// States    If one of the two volumes has not seen a cell, the other volume gives its value, as in
+//           time_interpolation.h.
 // Limits    It does not account for echo that grows, decays or turns between the volumes; for the
 //           motion of moments other than REF, which are kept or blended in place; or, with undated
 //           sweeps, for the minutes from the lowest to the highest sweep.
-// Memory    Two grids of a station and the one that is made; for a mosaic, what its partials take.
+// Memory    Two grids of a station and the new frame; for a mosaic, its partials.
 // Threads   One thread at a time; it starts up to `threads` threads of its own.
 #pragma once
 
@@ -53,14 +53,15 @@ class BetweenGrids {
                                      level2::Moment moment, const BetweenOptions& options,
                                      std::vector<std::string>& problems);
 
-    // Returns whole multiples of the interval since midnight UTC.
+    // Returns the instants at which frames can be made: whole multiples of the interval since
+    // midnight UTC.
     [[nodiscard]] std::vector<UtcTime> instants(std::chrono::seconds interval) const;
-    // Makes the frame. Returns none if no volume is near. Errors: a grid that does not verify (its
-    // path begins the message); those of make_frame().
+    // Makes the frame of an instant. Returns none if no volume is near. Errors: the error of a grid
+    // that does not verify (its path begins the message); those of make_frame().
     [[nodiscard]] Result<std::optional<MosaicFrame>> at(UtcTime instant);
-    // Returns true if the path has a frame of the mosaic itself that equals the result of at().
+    // Returns true if the path has a frame of the mosaic that was made by the rules of at().
     [[nodiscard]] bool stands(const std::filesystem::path& path) const;
-    // Returns "advected", with a remark on what is unknown about it.
+    // Returns the method, such as "advected", with a remark if sweeps are undated.
     [[nodiscard]] std::string method_text() const;
 
   private:
@@ -83,7 +84,7 @@ class BetweenGrids {
     std::optional<Domain> mosaic_;  // none: a station's own grids
     std::unique_ptr<GeometryCache> geometries_;
     std::unique_ptr<InstantCache> instants_;
-    // The last pair of volumes (the index of its first in grids_), and its motion.
+    // The last pair of volumes (the index of the first one in grids_), and its motion.
     std::optional<std::size_t> pair_;
     Motions motions_;
 };

@@ -1,8 +1,8 @@
-// pipeline/mosaic/domain_frames.h -- determines which frames a domain has, how they are made, and
-// which are current or missing.
+// pipeline/mosaic/domain_frames.h -- tells which frames a domain has, the rules by which they are
+// made, and which are current or missing.
 //
-// Threads: pure functions of their arguments and of the store's contents.
-// Errors: not_found for a frame of a domain that is not given; otherwise the store cannot be read.
+// Threads   Functions without state; some of them read the store.
+// Errors    not_found for a frame of a domain that is not in `domains`; those of reading the store.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@
 
 namespace stormcellar::pipeline {
 
-// Returns the domain of this name (not that of a partial) if it has the moment; else null.
+// Returns the domain of this name if it has the moment, or null. A partial's name has no domain.
 [[nodiscard]] const Domain* find_domain(std::span<const Domain> domains, std::string_view name,
                                         level2::Moment moment);
 
@@ -33,26 +33,27 @@ namespace stormcellar::pipeline {
 [[nodiscard]] std::vector<UtcTime> instants_between(UtcTime from, UtcTime to,
                                                     std::chrono::seconds interval);
 
-// Returns true if the instant is between two partials, one of which counts for it by the rule of
-// MosaicMaker::take_in().
+// Returns true if the middle of some partial is not after the instant, and the middle of some
+// partial is not before it.
 [[nodiscard]] bool lies_between(const std::vector<PartialView>& partials, UtcTime instant);
 
-// Volumes of a site that are farther apart make no frame between them.
+// A frame uses no partial whose middle is farther from its instant.
 inline constexpr std::chrono::milliseconds greatest_frame_gap = FrameOptions{}.greatest_gap;
 
 enum class FrameStanding {
-    not_due,  // no volume before the instant, or none after it, that is close enough
+    not_due,  // the partials near the instant are all before it or all after it, or too far away
     current,  // exists, and was made of the present partials by the present rules
     to_make,  // is missing, damaged, or differs from what the present partials give
 };
 
-// Returns whether the frame is due, and whether it is what MosaicMaker::make_again() would make.
+// Compares the frame in the store with the frame that MosaicMaker::make_again() would make. Reads
+// no cells.
 [[nodiscard]] Result<FrameStanding> standing_of(const cache::StoreReader& store,
                                                 std::span<const Domain> domains,
                                                 const cache::GridName& frame);
 
-// Returns the frames that are due but do not exist, newest first. It looks between the partials of
-// the newest volumes (back to `newest` before the last), but not before the oldest existing frame.
+// Returns the frames that are due but do not exist, newest first. Searches from `newest` before the
+// start of the newest volume, but not before the oldest existing frame.
 [[nodiscard]] Result<std::vector<cache::GridName>> missing_frames(const cache::StoreReader& store,
                                                                   std::span<const Domain> domains,
                                                                   std::chrono::milliseconds newest);

@@ -12,7 +12,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Hashes bytes in their memory layout; fingerprints are compared only on machines of one kind.
+// Hashes values as they are in memory, because only machines of one kind compare fingerprints.
 class Digest {
   public:
     template <class Number>

@@ -3,9 +3,9 @@
 //
 // A frame in the cache lists the partials from which it was made, each with a fingerprint of
 // everything that affects the frame: its cells (by the checksums of its bricks), columns, site and
-// times. It also holds its recipe: the rules of overlap and time. So when a new volume comes, only
-// the columns in which the new frame differs are merged, and the rest is copied (grid::update()). A
-// fingerprint covers a grid file's statements about its bricks, so the codes must be verified
+// times. The frame also has its recipe, a hash of the rules of overlap and time. So when a new
+// volume comes, only the columns in which the new frame differs are merged, and the others are
+// copied (grid::update()). A fingerprint covers only the checksums of bricks, so verify the codes
 // before copying.
 //
 // Threads   Pure functions.
@@ -30,8 +30,8 @@ namespace stormcellar::pipeline {
 [[nodiscard]] Result<std::vector<grid::FramePart>> parts_of(
     const grid::GridSpec& domain, std::span<const PartialView* const> partials);
 
-// Returns the windows of all sites whose partials came, went or were replaced between two frames.
-// Both lists are ordered by ICAO, then time.
+// Returns the windows of all sites whose partials differ between two frames. Both lists must be
+// ordered by ICAO, then time.
 [[nodiscard]] std::vector<grid::GridWindow> changed_windows(std::span<const grid::FramePart> before,
                                                             std::span<const grid::FramePart> now);
 

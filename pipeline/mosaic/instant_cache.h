@@ -1,11 +1,11 @@
 // pipeline/mosaic/instant_cache.h -- keeps the grids of sites for instants, in memory.
 //
 // A frame is made again for each volume of any of its sites, and making a site's grid for the
-// instant costs more than all merging. The grids of sites whose volumes did not change are taken
-// from this cache. The least recently used grids are dropped first, within a limit of bytes.
+// instant costs more than all merging. So this cache keeps the grids of sites whose volumes have
+// not changed. The least recently used grids are dropped first, within a limit of bytes.
 //
-// Threads   Many threads may use it. If two threads want a grid at the same time, it may be made
-//           twice, and one of the two is kept.
+// Threads   Many threads may use it. If two threads want the same grid at once, both may make it,
+//           and one of the two is kept.
 #pragma once
 
 #include <compare>

@@ -11,7 +11,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-// Partials that a station keeps open before it is checked which of them count.
+// The number of open partials of a station beyond which those that cannot count are closed.
 constexpr std::size_t most_open = 24;
 
 UtcTime middle_of_file(const OpenPartial& partial) {
@@ -131,7 +131,7 @@ Result<bool> MappedPartials::drop_damaged(std::vector<std::string>& problems) {
         bad_.insert(path);
     }
     if (bad_.size() == known) return false;
-    // Without the damaged partial, another one may count.
+    // Without the damaged partials, others may count.
     if (Status loaded = load(problems); !loaded) return pass_on(loaded);
     return true;
 }

@@ -1,10 +1,10 @@
 // pipeline/mosaic/mapped_partials.h -- the partials of a domain near a time, from their files. Used
 // only inside the pipeline room.
 //
-// Each partial holds a descriptor and a map. Only partials within 35 minutes of the requested times
-// are opened. A radar has at most some twenty of these. If a station has more, only those stay open
-// that are the last before a frame or the first after it, so a flood of volumes takes no
-// descriptors.
+// Each partial holds a descriptor and a map. Only partials that may count within 35 minutes of the
+// requested times are opened. A radar has at most some twenty of these. If a station has more than
+// 24, only the last partial before each frame and the first one after it stay open, so a flood of
+// volumes does not use up the descriptors.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -20,15 +20,15 @@
 
 namespace stormcellar::pipeline {
 
-// The longest time from a volume's start, which names it in the store, to its middle.
+// The longest time from a volume's start, by which its grid is named, to its middle.
 inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minutes{10};
 
 // Returns the names of a domain's partials: "NAME.ICAO". Errors: the cache cannot be read.
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
-// Answer to a partial that cannot be read, twice in a row. A daemon leaves it out, so that it
-// does not hold up the frames of other radars; a caller that makes each frame once gets an error.
+// The treatment of a partial that cannot be read. A daemon leaves the partial out, so that it does
+// not hold up the frames of other radars; a caller that makes each frame once gets an error.
 enum class Unreadable { is_left_out, is_an_error };
 
 struct OpenPartial {
@@ -38,21 +38,21 @@ struct OpenPartial {
 
 class MappedPartials {
   public:
-    // Opens the partials that count for an instant between `from` and `to`. Partials that cannot be
-    // opened are named in `problems`; partials of an earlier configuration are left out. `store`
-    // and `domain` must outlive the object. Errors: the cache cannot be read; exhausted if
-    // descriptors have run out, because the partial is not to blame; also io as `unreadable` says.
+    // Opens the partials that may count for an instant from `from` to `to`. Partials that cannot be
+    // opened are named in `problems`; partials of another grid are left out. `store` and `domain`
+    // must outlive the object. Errors: the cache cannot be read; a shortage, for example of
+    // descriptors; with Unreadable::is_an_error, io for a partial that cannot be read.
     static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
                                        level2::Moment moment, UtcTime from, UtcTime to,
                                        std::vector<std::string>& problems,
                                        Unreadable unreadable = Unreadable::is_left_out);
 
-    // Returns the partials. Valid until a partial is dropped.
+    // Returns the open partials, valid until drop_damaged() drops one.
     [[nodiscard]] std::vector<PartialView> views() const;
     // Returns ok if no file was truncated while it was read.
     [[nodiscard]] Status check_whole() const;
-    // Verifies all partials and drops the damaged ones, each named in `problems`. Returns false if
-    // none was damaged. Errors: as in open().
+    // Verifies all partials, drops the damaged ones and names them in `problems`. Then opens
+    // partials that may count instead. Returns false if none was damaged. Errors: as in open().
     Result<bool> drop_damaged(std::vector<std::string>& problems);
 
   private:

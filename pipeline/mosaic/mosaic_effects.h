@@ -1,13 +1,15 @@
 // pipeline/mosaic/mosaic_effects.h -- the steps, rungs and effects of a frame of several sites. The
-// steps of gridding (grid/plan/grid_effects.h) come first, the same for all volumes; then follow
+// steps of gridding (grid/plan/grid_effects.h), the same for all volumes, come first. The steps of
+// merging follow:
 //
 //   step      rungs, from cheap to exact                     effects that reach them
 //   time      nearest, blend, advected                       time_blend, echo_motion
 //   sweeps    as one, each at its own time                   sweep_times
 //   overlap   the nearest site, the rule asked for           site_overlap
 //   codes     default steps, fine steps                      fine_codes
-// The rule by which sites overlap is a definition, like the averaging; if it is the nearest site,
-// the step has no effect. The motion of the exact form is the one that the default grids show.
+// The user chooses the rule by which sites overlap, as with the averaging; if that rule is the
+// nearest site, the step has no effect. The exact rung of `time` uses the motion that the default
+// grids show.
 //
 // Threads   Pure functions.
 #pragma once
@@ -20,7 +22,7 @@
 
 namespace stormcellar::pipeline {
 
-// The steps of merging by name, beside those of gridding (grid::step).
+// The names of the steps of merging; grid::step has the names of the steps of gridding.
 namespace step {
 inline constexpr std::string_view time = "time";
 inline constexpr std::string_view sweeps = "sweeps";
@@ -39,21 +41,23 @@ struct MosaicChoice {
     bool operator==(const MosaicChoice&) const = default;
 };
 
-// Returns the chain with names, rungs and sentences; the steps of gridding come first, in order.
+// Returns the chain of steps with their names, rungs and sentences; the steps of gridding come
+// first.
 [[nodiscard]] accuracy::Chain mosaic_effects_of(level2::Moment moment, grid::Averaging averaging,
                                                 grid::Overlap overlap);
 
 [[nodiscard]] MosaicChoice mosaic_choice(const accuracy::Chain& chain,
                                          const accuracy::Choice& choice);
 
-// Returns the default without a budget: the default of gridding, advected, each sweep at its own
-// time, the rule asked for, the default codes. The settings of the effects change it.
+// Returns the choice that applies without a budget: the default of gridding, advected, each sweep
+// at its own time, the requested rule of overlap, default codes. The settings of the chain's
+// effects override it.
 [[nodiscard]] accuracy::Choice default_mosaic_choice(const accuracy::Chain& chain,
                                                      const grid::GridSpec& domain,
                                                      double beam_width_deg);
 
-// Returns how values are stored: the default; or two bytes with steps of a 64th of the default's,
-// or of a 16th if the default has two bytes.
+// Returns the default quantization of the moment. If `fine`, returns two bytes with a 64th of the
+// default step, or a 16th if the default has two bytes.
 [[nodiscard]] grid::Quantization quantization_of(level2::Moment moment, bool fine);
 
 // Returns the options with the rungs of the choice.

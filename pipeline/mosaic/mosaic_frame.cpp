@@ -37,8 +37,8 @@ struct SiteShare {
     }
 };
 
-// Two windows of one site differ if the site moved, and codes differ if the configuration was
-// changed.
+// Returns true if both partials have the same window and codes. Windows differ if the site moved,
+// and codes if the configuration was changed.
 bool is_pair(const PartialView& before, const PartialView& after) {
     return *before.view.spec == *after.view.spec &&
            before.view.quantization == after.view.quantization;
@@ -128,8 +128,8 @@ Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options
     return {};
 }
 
-// Collects texts, each once, in order. The file of a frame holds 1 MiB of them, and each part adds
-// some; the texts beyond a limit are only counted.
+// Collects texts, each once, in order. Texts beyond a limit are only counted, because a frame's
+// file holds at most 1 MiB of texts and each part adds some.
 class TextsOnce {
   public:
     TextsOnce(std::size_t most_bytes, std::string_view kind)
@@ -155,8 +155,8 @@ class TextsOnce {
     std::vector<std::string> texts_;
 };
 
-// Limits of the texts of a frame. A thousand parts with the usual notes and radar troubles need
-// less.
+// The texts of a frame, with their limits. A thousand parts with the usual notes and radar troubles
+// need less.
 struct FrameTexts {
     TextsOnce source_files{std::size_t{192} << 10, "volumes"};
     TextsOnce stations{std::size_t{32} << 10, "stations"};
@@ -200,8 +200,8 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
-// Returns the columns in which the new frame differs from the previous one; none if the previous
-// one cannot be used.
+// Returns the windows in which the new frame differs from the previous one; none if nothing can be
+// copied from the previous frame.
 std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* previous,
                                                            const cache::GridDescription& now,
                                                            const FrameOptions& options,

@@ -1,18 +1,17 @@
 // pipeline/mosaic/mosaic_frame.h -- merges the grids of several sites into one grid for an instant.
 //
-// Each volume is gridded once, on its site's window of the domain's grid. This is its partial,
-// which the daemon keeps in the cache and the command line in memory. For each site, a frame takes
-// the partials before and after the instant and makes one grid of them for the instant
+// Each volume is gridded once, on its site's window of the domain's grid. The result is called a
+// partial; the daemon keeps it in the cache, and the command line in memory. For each site, a frame
+// takes the partials before and after the instant and makes one grid of them for the instant
 // (grid/mosaic/time_interpolation.h); then it merges the grids of all sites
 // (stormcellar/grid/mosaic.h). The same partials and options give the same bytes, wherever they
 // come from.
 //
-// If a frame for the same instant was made before, and some of its partials are the same, only the
-// bricks that the other partials touch are merged, and the rest is copied: the same bytes at lower
-// cost. A frame is provisional while a site has nothing after the instant, because a later volume
-// will change it.
+// If a frame for the same instant was made before, only the bricks that changed partials touch are
+// merged, and the others are copied. This gives the same bytes at lower cost. A frame is
+// provisional while a site has nothing after the instant, because a later volume will change it.
 //
-// Threads   Pure functions, except for the caches of geometries, which many threads may share.
+// Threads   Functions without state, except for the caches, which many threads may share.
 #pragma once
 
 #include <map>
@@ -55,7 +54,7 @@ struct MadePartial {
                                                               const PartialOptions& options,
                                                               GeometryCache& geometries);
 
-// A partial in memory or in a file. The data that it refers to must outlive it.
+// A partial in memory or in a file. Its data must outlive the view.
 struct PartialView {
     const cache::GridDescription* description = nullptr;
     grid::BrickView view;
@@ -69,17 +68,17 @@ struct PartialView {
     }
 };
 
-// By ICAO; none if the motion of the echo is unknown.
+// The motion of the echo by ICAO; none: unknown.
 using Motions = std::map<std::string, std::optional<grid::MotionField>>;
 
 struct FrameOptions {
     grid::MosaicOptions overlap;
     grid::TimeMethod time = grid::TimeMethod::advected;
     bool sweep_times = true;
-    // A partial farther from the instant than this is not used; the site had a gap there.
+    // A partial whose middle is farther from the instant is not used.
     std::chrono::milliseconds greatest_gap = std::chrono::minutes{15};
-    // Result of estimate_motions(); sites missing in it do not move. Null: motions are estimated
-    // from the partials. It must outlive the call.
+    // The result of estimate_motions(), which must outlive the call; the echo of sites that it does
+    // not have does not move. Null: motions are estimated from the partials.
     const Motions* motions = nullptr;
     int threads = 1;
 };
@@ -88,8 +87,8 @@ struct FrameOptions {
 struct Bracket {
     std::optional<std::size_t> before, after;
 };
-// Returns the brackets by ICAO. Sites that have neither partial are left out. Of partials with the
-// same middle, the last one counts.
+// Returns the brackets of all sites that have a partial within `greatest_gap` of the instant, by
+// ICAO. Of partials with the same middle, the last one counts.
 [[nodiscard]] std::vector<Bracket> brackets_of(std::span<const PartialView> partials,
                                                UtcTime instant,
                                                std::chrono::milliseconds greatest_gap);
@@ -100,18 +99,20 @@ struct Bracket {
                                                UtcTime instant, level2::Moment moment,
                                                const FrameOptions& options);
 
-// The partials from which make_frame() makes the frame, as its provenance lists them, and the
-// rules. Frames with the same recipe are identical to the byte. Errors: those of make_frame(),
-// except errors of cells, which are not read.
+// The partials from which make_frame() makes a frame, as its provenance lists them, and a hash of
+// the rules. Frames with the same FrameRecipe are identical to the byte.
 struct FrameRecipe {
     std::vector<grid::FramePart> parts;
     std::uint64_t recipe = 0;
 };
+// Returns the recipe of a frame without reading cells. Errors: those of make_frame(), except those
+// of cells.
 [[nodiscard]] Result<FrameRecipe> recipe_for(const grid::GridSpec& domain,
                                              std::span<const PartialView> partials, UtcTime instant,
                                              const FrameOptions& options);
 
-// Returns the same, with the whole description in the frame's file.
+// Returns the description that make_frame() gives the frame, without reading cells. Errors: those
+// of recipe_for().
 [[nodiscard]] Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
                                                             std::span<const PartialView> partials,
                                                             UtcTime instant,
@@ -120,25 +121,26 @@ struct FrameRecipe {
 struct MosaicFrame {
     cache::GridDescription description;
     grid::Mosaic mosaic;
-    // The windows whose bricks were merged, if the rest was copied; none: all were merged.
+    // The windows whose bricks were merged, if the other bricks were copied; none: all bricks were
+    // merged.
     std::optional<std::vector<grid::GridWindow>> merged;
 };
 
 class InstantCache;
 
-// A frame made before. Its codes must have been verified.
+// A frame that was made before and whose codes were verified.
 struct PreviousFrame {
     const cache::GridDescription* description = nullptr;
     grid::BrickView cells;
 };
 
-// Earlier results that may be reused. The frame has the same bytes without them.
+// Earlier results that may be reused, which save time and do not change the frame's bytes.
 struct MadeBefore {
     // Any earlier frame; its parts (pipeline/mosaic/frame_parts.h) show how much of it can be
     // reused.
     const PreviousFrame* frame = nullptr;
-    InstantCache* instants =
-        nullptr;  // the grids of sites for instants (pipeline/mosaic/instant_cache.h)
+    // The grids of sites for instants (pipeline/mosaic/instant_cache.h).
+    InstantCache* instants = nullptr;
 };
 
 // Makes a frame. Errors: not_found if no site has a partial near the instant; the error of a

@@ -42,7 +42,7 @@ PartialOptions partial_options(const Domain& domain, level2::Moment moment,
     return options;
 }
 
-// The time from the site's previous volume to its next one, if they exist and count.
+// The time from the site's previous volume to its next one, or less; the frames in it change.
 struct Span {
     UtcTime from, to;
 };
@@ -63,8 +63,7 @@ Span span_changed_by(const cache::GridDescription& changed,
     return span;
 }
 
-// Returns true if another try may succeed, because the system refused something. Otherwise the
-// volume or the budgets allow no grid.
+// Returns true if another try may succeed, because the system refused something.
 bool may_pass(const Error& error) {
     return error.cause() != Cause::data && error.code != ErrorCode::over_budget &&
            error.code != ErrorCode::bad_argument && error.code != ErrorCode::not_found;
@@ -105,7 +104,7 @@ MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
-// Takes in a volume. Errors of one domain do not affect the others.
+// Continues with the other domains after an error of one.
 Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     Kept kept;
     Status all;
@@ -188,7 +187,7 @@ Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
     return {};
 }
 
-// Makes a frame. A partial that turns out to be damaged is left out; others repair it.
+// Makes a frame without the partials that turn out to be damaged. CacheMender repairs them.
 Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedPartials& partials,
                                                 const std::vector<LateMachine>& late,
                                                 const PreviousFrame* previous,
@@ -240,8 +239,8 @@ void MosaicMaker::finish(cache::GridDescription& frame,
         frame.provenance.left_out.push_back(machine.text());
 }
 
-// Returns true if the frame lacks a partial. A frame whose partials have left the cache stays as it
-// is.
+// Returns true if the frame is due and is missing, lacks a partial, or describes an earlier state
+// of its partials. A frame whose partials have left the cache is not stale.
 Result<bool> MosaicMaker::is_stale(const FrameJob& job, const MappedPartials& partials) const {
     const auto views = partials.views();
     if (!lies_between(views, job.instant)) return false;

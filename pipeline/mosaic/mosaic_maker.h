@@ -1,23 +1,25 @@
 // pipeline/mosaic/mosaic_maker.h -- keeps the mosaics of configured domains up to date as volumes
 // come.
 //
-// A volume of a site that a domain uses is gridded on the domain's columns and kept in the store as
-// the domain "NAME.ICAO". Then the frames of "NAME" that it changes are made again: those between
-// the site's previous volume and its next one. Only bricks that are touched by sites with changed
-// partials are merged again (pipeline/mosaic/frame_parts.h); the bytes are the same as those of a
-// frame made whole. Frames are at whole multiples of the interval since midnight UTC, none before
-// the oldest volume thereabouts or after the newest. A frame is provisional until each of its sites
-// has a volume after it (or has had none for 15 minutes), and has a revision that counts its
-// volumes. Its bytes depend only on its partials, however often it is made.
+// A volume of a site that a domain uses is gridded on the domain's columns, and its partial is kept
+// in the store as the domain "NAME.ICAO". Then the frames of "NAME" between the site's previous
+// volume and its next one are made again. Only bricks that sites with changed partials touch are
+// merged again (pipeline/mosaic/frame_parts.h); the bytes are the same as if the whole frame was
+// merged. Frames are at whole multiples of the interval since midnight UTC, from the middle of the
+// oldest partial nearby to the middle of the newest. A frame is provisional until each of its sites
+// has a volume after it, or has had none for 15 minutes. Its revision is the number of its
+// partials. Its bytes depend only on its partials and on late machines, however often it is made.
 //
-// The partials of a frame are verified first, and so is the earlier frame from which bricks are
-// copied. A partial that cannot be read, or is damaged, is left out of frames and named.
+// The partials of a frame, and the earlier frame from which bricks are copied, are verified before
+// use. A partial that cannot be read, or is damaged, is left out of frames and named in the
+// problems.
 //
 // If the process ends or a disk fails between a partial and its frames, the frames lack the
 // partial. So the frames around each partial of another machine that the store already has are
 // checked again (make_stale()).
 //
-// A frame leaves out machines that are late (pipeline/options/partial_sources.h), and says so.
+// A frame leaves out the stations of late machines (pipeline/options/partial_sources.h); its
+// provenance names them.
 //
 // Threads   Many threads may use it; calls for the same domain and moment wait for each other.
 // Errors    Those of gridding, merging and the store.
@@ -66,7 +68,7 @@ struct OthersPartial {
 struct Kept {
     std::vector<std::filesystem::path> partials, frames;
     std::size_t updated = 0;            // frames of which unchanged bricks were copied
-    std::vector<std::string> problems;  // what was left out, and why
+    std::vector<std::string> problems;  // partials, domains and frames that were left out, and why
     // Set if the cache had another partial of the same volume, and both volumes are complete: true
     // if this partial replaced the other, false if it did not.
     std::optional<bool> won = {};
@@ -74,36 +76,37 @@ struct Kept {
 
 // A frame that was made and now exists.
 struct FrameMade {
-    std::filesystem::path path;                           // empty: older than the cache's limits
-                                                          // allow
-    std::vector<std::string> stations;                    // stations of its partials
+    std::filesystem::path path;         // empty: the cache's limits do not keep the frame
+    std::vector<std::string> stations;  // stations of its partials
     std::optional<std::vector<grid::GridWindow>> merged;  // as in MosaicFrame
 };
 
 // A frame that make_stale() checked.
 struct StaleFrame {
     cache::GridName name;
-    std::optional<FrameMade> made;  // none: it was current, or is not due
+    std::optional<FrameMade> made;  // none: the frame was current, or is not due
 };
 
 class MappedPartials;
 
 class MosaicMaker {
   public:
-    // Without a store or domains, it does nothing.
+    // Makes a maker that does nothing if `store` is null or `domains` is empty.
     MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
                 FramesWhen frames = FramesWhen::volume_comes,
                 std::shared_ptr<PartialSources> sources = nullptr);
 
-    // Takes in a volume; does nothing if no domain uses it. Uses `threads` threads. Errors: only
-    // temporary ones, for example if the system refuses a write; all other domains have the volume
-    // nevertheless.
+    // Makes the partials of a volume and the frames that they change. Does nothing if no domain
+    // uses the volume. Uses `threads` threads. Errors: only temporary ones, for example if the
+    // system refuses a write; the other domains have the volume nevertheless. Lasting ones are
+    // among the problems.
     Result<Kept> take_in(const VolumeSource& source, int threads);
     // Takes in a partial that another machine made: copies it into the store and makes the frames
-    // that it changes. Does nothing if the store has it, or keeps another grid of the volume.
-    // Errors: those of the file (corrupt, truncated and others), bad_argument if no domain has such
-    // a partial, and those of the store. A frame that can never be made is named in the problems,
-    // but the partial is accepted.
+    // that it changes. If the store has the partial already, only notes its frames for
+    // make_stale(); does nothing if the store keeps another grid of the volume. Errors: those of
+    // the file (corrupt, truncated and others), bad_argument if no domain has such a partial, and
+    // those of the store. A frame that can never be made is named in the problems, but the partial
+    // is accepted.
     Result<Kept> take_partial(const OthersPartial& partial, int threads);
     // Checks one of the frames around the partials that the store already had when take_partial()
     // was called, newest first. Makes it again if it lacks one of the partials or describes an
@@ -117,7 +120,7 @@ class MosaicMaker {
         return find_domain(domains_, name, moment);
     }
 
-    // Makes a frame from the existing partials and replaces the existing one. `problems` names
+    // Makes a frame from the existing partials; it replaces the existing frame. `problems` names
     // partials that are left out. Errors: not_found if the domain is not configured, or no site has
     // a volume near the instant; bad_argument for an instant at which the domain has no frames.
     Result<FrameMade> make_again(const cache::GridName& frame, int threads,

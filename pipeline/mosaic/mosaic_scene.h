@@ -1,10 +1,10 @@
 // pipeline/mosaic/mosaic_scene.h -- makes the frame of one instant from volumes of several sites
-// over one domain, by any choice. The accuracy planner measures mosaics on it (mosaic_plan.h).
+// over one domain, by any choice, so that the accuracy planner can measure frames
+// (pipeline/plan/mosaic_plan.h).
 //
-// The instant brackets some of the volumes. Only these are gridded again, once for each choice of
-// gridding; the last two choices are kept. The motion of echo is estimated once, from the default
-// grids, and used for every frame, so that the error of a rung is not mixed with that of another
-// motion.
+// Only the volumes next to the instant are used. They are gridded once for each choice of gridding,
+// and the results of the last two choices are kept. The motion of echo is estimated once, from the
+// default grids, and used for every frame, so that a rung's error contains no error of motion.
 //
 // Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace stormcellar::pipeline {
 
-// One volume of a site, and its partials' facts about their source.
+// One volume of a site, and facts about its raw file.
 struct SceneVolume {
     const level2::Volume* volume = nullptr;
     grid::SitePosition site;
@@ -30,8 +30,8 @@ struct SceneVolume {
     std::vector<std::string> notes;
 };
 
-// Makes the partials in order, each on its site's window of the domain. Errors name the file: those
-// of make_partial(); bad_argument for a site that sees nothing of the domain.
+// Makes the partials of the volumes, in order, each on its site's window of the domain. Errors name
+// the file: those of make_partial(); bad_argument for a site that sees nothing of the domain.
 [[nodiscard]] Result<std::vector<MadePartial>> make_partials(std::span<const SceneVolume> volumes,
                                                              const grid::GridSpec& domain,
                                                              const PartialOptions& options,
@@ -39,9 +39,10 @@ struct SceneVolume {
 
 [[nodiscard]] std::vector<PartialView> views_of(const std::vector<MadePartial>& partials);
 
-// Returns the instant of a mosaic of these partials: the middle between the earliest and the latest
-// of the sites' newest partials, by their middles. If these are not all within `greatest_gap` of
-// it, returns the middle of the newest, because volumes far apart in time cannot be blended.
+// Returns the instant for a mosaic of these partials: the middle between the earliest and the
+// latest of the sites' newest partials, by their middles. If that instant is more than
+// `greatest_gap` from these two, returns the middle of the newest partial, because volumes far
+// apart in time cannot be blended.
 [[nodiscard]] UtcTime instant_of_newest(
     std::span<const PartialView> partials,
     std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap);
@@ -49,8 +50,7 @@ struct SceneVolume {
 struct MosaicSceneOptions {
     FrameOptions frame;      // time, sweeps and motions are set by the choice and the scene
     PartialOptions partial;  // likewise method, frame and quantization
-    // None: instant_of_newest().
-    std::optional<UtcTime> instant = std::nullopt;
+    std::optional<UtcTime> instant = std::nullopt;  // none: instant_of_newest()
 };
 
 class MosaicScene {
@@ -72,13 +72,14 @@ class MosaicScene {
     // Returns the partials of the volumes in use, gridded and quantized by the choice.
     [[nodiscard]] Result<const std::vector<MadePartial>*> partials(const MosaicChoice& choice);
 
-    // Forgets what was kept for this choice's gridding, so that it is made anew.
+    // Forgets the kept partials of this choice's gridding, so that they are made anew.
     void forget(const MosaicChoice& choice);
 
-    // Returns the volumes that the instant brackets.
+    // Returns the volumes next to the instant, which the frames use.
     [[nodiscard]] const std::vector<SceneVolume>& volumes() const { return volumes_; }
     [[nodiscard]] const std::vector<Times>& times() const { return times_; }
-    // Returns their brackets as indexes. Time is interpolated between the two volumes of a pair.
+    // Returns the brackets of the sites, as indexes into volumes(). A pair is a bracket with both
+    // volumes.
     [[nodiscard]] const std::vector<Bracket>& brackets() const { return brackets_; }
     [[nodiscard]] std::size_t pair_count() const;
     [[nodiscard]] const Motions& motions() const { return motions_; }
@@ -92,7 +93,7 @@ class MosaicScene {
     [[nodiscard]] const MosaicChoice& default_choice() const { return default_; }
 
   private:
-    // Choices on which partials depend.
+    // The choices on which partials depend.
     struct Gridding {
         grid::SceneChoice choice;
         bool fine_codes = false;

@@ -1,4 +1,4 @@
-// Takes in partials that other machines made (MosaicMaker::take_partial).
+// This file takes in partials that other machines made (MosaicMaker::take_partial()).
 #include <algorithm>
 #include <chrono>
 #include <string_view>
@@ -14,8 +14,8 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Limits of a part, far above real ones. They keep the texts of all parts of a frame small, and the
-// work on them short.
+// Limits of a part, far above real parts. They keep the texts of a frame's parts small and quick to
+// process.
 constexpr std::size_t most_notes = 64;  // and as many troubles of the radar
 constexpr std::size_t most_files = 8;   // and as many stations
 constexpr std::size_t most_sweeps = 256;
@@ -62,7 +62,7 @@ Status check_records(const OthersPartial& partial, const cache::GridDescription&
     return {};
 }
 
-// Checks that the grid is what its name says, and a part of this domain.
+// Checks that the grid's description fits its name, and that the grid is a part of this domain.
 Status check(const OthersPartial& partial, const cache::GridDescription& grid,
              const Domain& domain) {
     const std::string station = partial.name.domain.substr(domain.name.size() + 1);
@@ -91,8 +91,8 @@ bool is_within(const grid::GridWindow& one, const grid::GridWindow& other) {
            one.end_x() <= other.end_x() && one.end_y() <= other.end_y();
 }
 
-// Checks the requirements of a merge, which refuses the whole frame if one part does not match the
-// others.
+// Checks that the part can be merged with others; a merge refuses the whole frame if one part does
+// not match.
 Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
                    const Domain& domain) {
     const cache::GridDescription& grid = file.description();
@@ -109,8 +109,7 @@ Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
         return fail(ErrorCode::corrupt, "{}: its columns are not whole bricks of the domain {}",
                     partial.file.native(), domain.name);
     }
-    // A merge keeps geometry for each window and position that is as large as the window, so limit
-    // them.
+    // A merge keeps geometry as large as the window, so limit the window.
     if (!reach || !is_within(*window, *reach)) {
         return fail(ErrorCode::corrupt, "{}: its columns are further than {} reaches",
                     partial.file.native(), grid.sites.front().icao);

@@ -2,8 +2,8 @@
 //
 // Each site's partial holds what it saw, unchanged. The age of each cell follows from the partial's
 // sweeps (grid/sweep/sweep_clock.h), and the motion of the weather from two volumes of a site, if
-// there are two. With these, grid/judge/site_comparison.h compares what both sites saw at one
-// instant; that header says what this requires and how exact it is. Reflectivity only.
+// there are two. With these, grid/judge/site_comparison.h compares the reflectivity that both sites
+// saw at one instant; that header states the requirements and the accuracy.
 //
 // Cost      0.1 to 0.3 s for a pair of 1 km grids, and some 30 MiB.
 // Threads   Pure functions.
@@ -19,8 +19,8 @@
 
 namespace stormcellar::pipeline {
 
-// Two partials of one site on the same columns: the one whose middle is nearest to an instant, and
-// the next nearest; null if there is no other.
+// The partial of a site whose middle is nearest to an instant, and the next nearest partial on the
+// same columns (null: none).
 struct SiteLook {
     const PartialView* nearest = nullptr;
     const PartialView* other = nullptr;
@@ -31,13 +31,14 @@ struct SiteLook {
 [[nodiscard]] std::vector<SiteLook> looks_about(std::span<const PartialView> partials,
                                                 UtcTime instant);
 
-// Returns true if any place is within the range of comparison of both sites.
+// Returns true if some place is within the range of comparison of both sites.
 [[nodiscard]] bool may_overlap(const grid::SitePosition& a, const grid::SitePosition& b);
 
-// Returns none if the site was seen once, or if both volumes have too little echo.
+// Returns the motion of the weather between two volumes of a site; none if there is only one volume
+// or too little echo.
 [[nodiscard]] std::optional<grid::UniformMotion> motion_between(const SiteLook& look);
 
-// Compares two looks. The motion is the combined one around A and B, as far as it is known. Errors:
+// Compares two sites. Uses the combined motion around A and B, as far as it is known. Errors:
 // bad_argument for sites that cannot overlap and for grids of other moments than REF; those of
 // compare_sites().
 [[nodiscard]] Result<grid::SiteComparison> compare_looks(const SiteLook& a, const SiteLook& b,

@@ -1,9 +1,9 @@
 // pipeline/mosaic/site_watch.h -- compares the overlapping sites of the mosaics in the cache from
 // time to time.
 //
-// For the newest complete (not provisional) frame of a domain, each pair of sites that may overlap
-// is compared by the frame's partials (pipeline/mosaic/pair_comparison.h), at most once in an hour
-// of the frames' time. If old data are replayed after newer ones, nothing is compared.
+// Takes the newest frame of a domain that is not provisional, and compares each pair of its sites
+// that may overlap by the frame's partials (pipeline/mosaic/pair_comparison.h). A pair is compared
+// again only for a frame that is at least an hour later, so not while older data are replayed.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -24,19 +24,19 @@ struct PairReport {
     std::string domain;
     UtcTime instant;  // of the frame
     grid::SiteComparison found;
-    std::vector<std::string> faults;  // faults that have a name: grid::faults()
+    std::vector<std::string> faults;  // those that grid::faults() names
 };
 
 class SiteWatch {
   public:
     static constexpr std::chrono::milliseconds period = std::chrono::hours{1};
 
-    // The store must outlive it.
+    // The store must outlive the object.
     SiteWatch(const cache::StoreReader& store, std::vector<Domain> domains);
 
-    // Compares the next pair that is due; none if no pair is due. A pair with a partial that is
-    // gone or damaged, or that cannot be compared, waits for its next turn. Errors: the cache
-    // cannot be read.
+    // Compares the next pair that is due; returns none if no pair is due. A pair that cannot be
+    // compared, for example because a partial is gone or damaged, is skipped until an hour later.
+    // Errors: the cache cannot be read.
     Result<std::optional<PairReport>> compare_next();
 
   private:
@@ -52,7 +52,7 @@ class SiteWatch {
 
     const cache::StoreReader& store_;
     std::vector<Domain> domains_;  // domains with reflectivity
-    // By domain and pair: the instant of the frame of the last comparison.
+    // The instant of the frame last compared, by domain and pair.
     std::map<std::pair<std::string, Pair>, UtcTime> compared_;
 };
 

@@ -37,7 +37,7 @@ struct Domain {
     bool operator==(const Domain&) const = default;
 };
 
-// Times at which frames of the domains are made.
+// Tells when frames of the domains are made.
 enum class FramesWhen {
     volume_comes,  // at once when a volume changes them, as the daemon does
     asked_for,     // only by MosaicMaker::make_again(), so that an archive makes each frame once
@@ -45,26 +45,30 @@ enum class FramesWhen {
 
 // West, south, east and north in degrees. Across the antimeridian, west is greater than east.
 using Bounds = std::array<double, 4>;
-[[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and not empty
+[[nodiscard]] bool is_bounds(const Bounds& bounds);  // true if in range and not empty
 [[nodiscard]] double width_deg(const Bounds& bounds);
 [[nodiscard]] grid::GeoPoint middle_of(const Bounds& bounds);
-// Returns how many columns of the spec the boundary is at most away from its center; the spec's
-// size does not matter. Errors: those of grid::validate().
+// Returns the largest distances, along x and y in columns of the spec, from the spec's center to
+// the boundary of the bounds. The spec's nx and ny do not matter. Errors: those of
+// grid::validate().
 [[nodiscard]] Result<grid::ColumnPoint> half_columns_of(const grid::GridSpec& spec,
                                                         const Bounds& bounds);
 
-// Reads heights above mean sea level from the key levels_km: "BOTTOM:TOP:STEP" or a list. Returns
-// none if the key is absent, or if it makes no sense, which is recorded as a complaint.
+// Reads heights above mean sea level from the key levels_km: "BOTTOM:TOP:STEP" or a list of
+// numbers. Returns none if the key is absent or, with a complaint, if its value has another form.
+// Complains about an empty list, but returns it.
 [[nodiscard]] std::optional<std::vector<double>> read_levels_m(TomlTable& table);
-// Reads the name of one moment. Returns none, with a complaint, for any other name.
+// Returns the moment of this name, or none, with a complaint about the key.
 [[nodiscard]] std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key,
                                                         const std::string& name);
-// Reads a list of moments, each once. Returns none if the key is absent. Unknown names are recorded
-// as complaints and left out.
+// Reads a list of moments and drops repeated ones. Returns none if the key is absent or, with a
+// complaint, if its value is not a list of texts. Complains about unknown names, which are left
+// out, and about an empty list.
 [[nodiscard]] std::optional<std::vector<level2::Moment>> read_moments(TomlTable& table,
                                                                       std::string_view key);
 
-// Reads all [[domain]] tables. Invalid ones are recorded as complaints and left out.
+// Reads all [[domain]] tables. Complains about invalid domains, but returns them, too, so check
+// TomlFile::finish().
 [[nodiscard]] std::vector<Domain> read_domains(TomlTable& root);
 
 }  // namespace stormcellar::pipeline

@@ -1,4 +1,4 @@
-// pipeline/options/ingest_options.h -- how files are ingested (pipeline/ingest/ingest.h).
+// pipeline/options/ingest_options.h -- options for ingesting files (pipeline/ingest/ingest.h).
 //
 // Threads   Plain data.
 #pragma once
@@ -20,16 +20,17 @@
 
 namespace stormcellar::pipeline {
 
-// Limit of the packed sweeps of growing volumes on disk, which keep memory small. It applies to
-// followed files together with the sites' last volumes, and again to chunks. A feed of 160 sites
-// takes 1 to 3 GB for each.
+// Limit of the packed sweeps of growing volumes on disk. It applies once to followed files together
+// with the sites' last volumes, and once to volumes of chunks. For a feed of 160 sites, each of the
+// two takes 1 to 3 GB.
 inline constexpr std::uint64_t most_shelf_bytes = std::uint64_t{4} << 30;
 
-// Limit of the unpacked bytes of a file, or of the chunks of a volume: three times a large volume.
+// Limit of the unpacked bytes of a file, or of the chunks of a volume: three times the size of a
+// large volume.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
 
-// Returns the limit of the arrays of a volume of which these moments are decoded: twice that of any
-// known volume, whose largest moment has 14 MiB.
+// Returns the limit of a volume's arrays if these moments are decoded (empty: all): twice the
+// arrays of any known volume, whose largest moment has 14 MiB.
 [[nodiscard]] inline std::uint64_t most_array_bytes(const level2::Selection& selection) {
     const std::uint64_t moments =
         selection.moments.empty() ? std::size(level2::all_moments) : selection.moments.size();
@@ -43,29 +44,29 @@ struct LivingGrids {
     // and a volume is finished with the chunks that exist.
     std::filesystem::path scratch;
     bool make = true;  // false: no living grids are made, but chunks are still joined
-    // Called before each living grid. Returns false while there is more urgent work; the next
-    // living grid then shows the sweeps. Not called for a new low sweep. Empty: there is always
+    // Called before living grids are made, unless there is a new low sweep. Returns false while
+    // there is more urgent work; then the next living grid shows the sweeps. Empty: there is always
     // time.
     std::function<bool()> has_time;
     // for volumes in chunks (stormcellar/level2/live_volume.h)
     std::chrono::seconds chunk_timeout{600};
     std::chrono::seconds chunk_grace{30};
-    // Beyond this limit (see above), the volume that has not grown for longest is given up and read
-    // again from its files.
+    // Limit of sweeps on disk, as above. Beyond it, growing volumes are given up
+    // (pipeline/ingest/growing_set.h) and read again from their files.
     std::uint64_t shelf_bytes = most_shelf_bytes;
-    // Limit of the number of files, volumes of chunks, and last volumes of sites, each with a
-    // descriptor.
+    // Limit of the number of followed files, of volumes of chunks, and of last volumes of sites,
+    // separately. Each holds a descriptor.
     std::size_t count = 320;
 };
 
-// Decides from the size and hash of a file that was read whether it is gridded; the error says why
-// not. The threads that ingest call it.
+// Accepts a file by the size and hash of the bytes read, or returns why it must not be gridded. The
+// threads that ingest call it.
 using ReadCheck = std::function<Status(const std::filesystem::path& path, std::uint64_t size_bytes,
                                        std::uint64_t content_hash)>;
 
 struct IngestOptions {
-    // The stations whose data are accepted; null: all with a valid name. Data of other stations are
-    // cataloged with those of no known station, and neither followed nor gridded.
+    // The stations whose data are accepted; null: all with a valid name. Files of other stations
+    // are cataloged among those of unknown stations, and neither followed nor gridded.
     std::shared_ptr<StationRule> stations;
     // Moments of each site's own grids; one decoding and one geometry serve all. Not empty.
     std::vector<level2::Moment> moments = {level2::Moment::ref};
@@ -82,19 +83,19 @@ struct IngestOptions {
     int decode_threads = 1;
     int grid_threads = 1;
     LivingGrids living;
-    // Nothing outside this directory is opened, wherever links lead (base/beneath.h). Empty: files
-    // may be anywhere.
+    // No file outside this directory is opened, and no link below it is followed (base/beneath.h).
+    // Empty: files may be anywhere.
     std::filesystem::path beneath;
     // A larger file is rejected unread. No known volume has half this size.
     std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
-    // A file that unpacks to more is rejected, too.
+    // A file that unpacks to more than this is also rejected.
     std::uint64_t most_output_bytes = most_unpacked_bytes;
-    // The members of an archive are ingested for this long at a time. Then the archive is
-    // incomplete, and continues with its next member when it is offered again (has_next_turn).
-    // None: all at once.
+    // The members of an archive are ingested for this long at a time. Then the result is
+    // `incomplete` with has_next_turn, and the next call continues with the next member. None: all
+    // members at once.
     std::optional<std::chrono::milliseconds> archive_turn;
-    // Called for each file after it was read and before it is used. Its error rejects the file, for
-    // example if it is no longer the cataloged one. Empty: every file is accepted.
+    // Called for each file after it was read and before it is used. An error rejects the file, for
+    // example because it is no longer the cataloged one. Empty: every file is accepted.
     ReadCheck check_read;
 };
 

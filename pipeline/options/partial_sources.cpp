@@ -7,7 +7,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A picture has no room for the names of all stations of a machine.
+// A picture, which shows this text, has no room for the names of all stations of a machine.
 constexpr std::size_t most_named = 6;
 
 }  // namespace

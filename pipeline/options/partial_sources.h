@@ -1,10 +1,10 @@
-// pipeline/options/partial_sources.h -- the machines that bring partials of mosaics, and how far
-// behind each of them is.
+// pipeline/options/partial_sources.h -- the machines that bring partials of mosaics, and those of
+// them that are late.
 //
 // A machine is late for a frame if the newest of its volumes is older than the frame by more than
-// the allowed time. Then the frame leaves out the stations that no other machine brings, and says
-// so. This depends only on the times of volumes, not on a clock, so a frame is the same whoever
-// makes it, and whenever.
+// the allowed time. The frame then leaves out the machine's stations that no timely machine brings,
+// and says so. This depends only on the times of volumes, not on a clock, so a frame does not
+// depend on who makes it or when.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -25,7 +25,7 @@ namespace stormcellar::pipeline {
 
 struct LateMachine {
     std::string name;
-    std::set<std::string> stations;  // stations that no other machine brings
+    std::set<std::string> stations;  // those that no timely machine brings; not empty
     UtcTime newest;                  // middle of its newest volume
     // Returns "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
     [[nodiscard]] std::string text() const;
@@ -35,13 +35,15 @@ class PartialSources {
   public:
     explicit PartialSources(std::chrono::seconds late_after) : late_after_(late_after) {}
 
-    // Notes that a machine brought a partial of this station whose volume has this middle.
+    // Notes that a machine brought a partial of this station; `middle` is its volume's middle.
     void brought(const std::string& machine, const std::string& domain, level2::Moment moment,
                  const std::string& station, UtcTime middle);
-    // Returns the machines that are late for a frame, by name.
+    // Returns the machines that are late for a frame and bring stations that no timely machine
+    // brings, by name.
     [[nodiscard]] std::vector<LateMachine> late_for(const std::string& domain,
                                                     level2::Moment moment, UtcTime instant) const;
-    // Returns the middle of the newest volume that a machine brought for any mosaic.
+    // Returns the middle of the newest volume that a machine brought for any mosaic; none if it
+    // brought none.
     [[nodiscard]] std::optional<UtcTime> newest_of(const std::string& machine) const;
 
   private:

@@ -22,8 +22,8 @@ struct MosaicRequest {
     grid::GridSpec domain;
     accuracy::Chain chain;                   // from mosaic_effects_of(), with the requested
                                              // settings
-    FrameOptions frame;                      // without what the chain's choice decides
-    PartialOptions partial;                  // without what the chain's choice decides
+    FrameOptions frame;                      // the chain's choice overrides its rungs
+    PartialOptions partial;                  // likewise
     std::optional<UtcTime> instant;          // none: instant_of_newest()
     bool is_planned = false;                 // predict the size of each effect for these volumes
     std::optional<accuracy::Budget> budget;  // needs a plan
@@ -40,13 +40,13 @@ struct MosaicOfVolumes {
 // make_partials(), make_frame() and plan_mosaic().
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request);
-// Does the same with geometries that several calls share; a plan measures with its own geometries.
+// Does the same with geometries that several calls share; a plan uses its own geometries.
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request,
                                                   GeometryCache& geometries);
 
-// Returns one partial for each volume. The chain's settings apply, and defaults otherwise. Errors:
-// those of make_partials().
+// Returns one partial for each volume, gridded by the chain's settings and otherwise by the
+// defaults. Errors: those of make_partials().
 [[nodiscard]] Result<std::vector<MadePartial>> grid_volumes(const std::vector<SceneVolume>& volumes,
                                                             const MosaicRequest& request,
                                                             GeometryCache& geometries);
@@ -56,7 +56,7 @@ struct MosaicOfVolumes {
 [[nodiscard]] Result<MosaicScene> scene_of(const std::vector<SceneVolume>& volumes,
                                            const MosaicRequest& request);
 
-// One call caches this many geometries of sites.
+// The capacity of the GeometryCache of a call that gets none.
 inline constexpr std::size_t mosaic_geometries = 4;
 
 }  // namespace stormcellar::pipeline

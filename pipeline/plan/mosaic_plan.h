@@ -2,19 +2,20 @@
 // size of each effect in it, as grid/plan/grid_effects.h does for the grid of one volume.
 //
 // Sizes are found as follows:
-//   gridding  The largest of all volumes', each predicted by itself (grid::predict()), because a
-//             cell of a frame is a mean of its volumes' cells or one of them.
+//   gridding  The largest of the sizes that grid::predict() finds for each volume, because a cell
+//             of a frame is one cell of its volumes or a mean of such cells.
 //   time, sweeps, overlap
-//             Values: whole frames of the default grids in fine codes, with the step at one rung
-//             against the next, and every other of these three steps exact. They are not sampled,
-//             because a moved cell may come from anywhere. Positions: how far the fastest echo
-//             moves between a volume's middle and the instant (echo_motion), or between a sweep and
-//             its volume's middle (sweep_times), by the motion that the grids show.
-//   codes     Proven: half a step for each time that a value is rounded: in its partial, between
-//             two volumes, and where sites mix.
-// The chosen frame is measured against that of the exact chain, over all cells with a value in
-// both, so the 99th percentile is not an estimate. The price is gridding every volume by the exact
-// chain. Values must be plain numbers: VEL and PHI cannot be planned.
+//             The error of values is the difference between whole frames of the default grids in
+//             fine codes: one with the step at this rung and one at the next, the other two steps
+//             exact. Frames are not sampled, because a moved cell may come from anywhere. The error
+//             of positions is the distance that the fastest echo moves, by the motion that the
+//             grids show, between a volume's middle and the instant (echo_motion), or between a
+//             sweep and its volume's middle (sweep_times).
+//   codes     A proven bound: half a step for each time that a value is rounded, in its partial,
+//             between two volumes, and where sites mix.
+// The chosen frame is compared with the frame of the exact chain, over all cells with a value in
+// both, so the 99th percentile is not an estimate. For that, every volume must be gridded by the
+// exact chain. VEL and PHI cannot be planned, because their values are cyclic.
 //
 // Threads   Those of the scene.
 #pragma once
@@ -34,7 +35,8 @@ namespace stormcellar::pipeline {
 [[nodiscard]] Status predict(MosaicScene& scene, const grid::PlanOptions& options,
                              accuracy::Chain& chain);
 
-// Distances that the fastest echo of any pair of volumes moves, by the motion that the grids show.
+// The distances that the fastest echo of any pair of volumes moves, by the motion that the grids
+// show.
 struct Displacements {
     double to_instant_m = 0;     // from a volume's middle
     double within_volume_m = 0;  // from a volume's middle to its first or last sweep
@@ -46,8 +48,8 @@ struct MosaicPlan {
     MosaicChoice choice;
 };
 
-// Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan holds the
-// default, with the size of each effect. Errors: those of predict() and of accuracy::govern().
+// Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan has the default
+// choice and the size of each effect. Errors: those of predict() and of accuracy::govern().
 [[nodiscard]] Result<MosaicPlan> plan_mosaic(MosaicScene& scene, accuracy::Chain chain,
                                              const std::optional<accuracy::Budget>& budget,
                                              const grid::PlanOptions& options = {});

@@ -82,7 +82,8 @@ class GriddingSizes {
         return chain;
     }
 
-    // Combines predictions: sizes are those of the worst volume; times are added up.
+    // Adds the prediction of one volume: a size becomes the largest of all volumes, and times are
+    // added up.
     static void add(const accuracy::Chain& one, bool first, accuracy::Chain& all) {
         for (std::size_t i = 0; i < one.steps.size(); ++i) {
             for (std::size_t k = 0; k < one.steps[i].effects.size(); ++k) {
