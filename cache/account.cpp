@@ -23,7 +23,7 @@ void Account::ask_who_is_known(std::string_view group) {
     if (found != groups_.end()) set_known(found->second, is_known_(group));
 }
 
-// Grids of unknown groups have their own part of each order.
+// Moves the group's grids to their new places in the orders.
 void Account::set_known(Group& group, bool known) {
     if (group.known == known) return;
     group.known = known;

@@ -1,11 +1,12 @@
-// cache/account.h -- the contents of the cache, and the grids that would have to be evicted. Used
-// only inside the cache room.
+// cache/account.h -- records the contents of the cache, and chooses the grids to evict. Used only
+// inside the cache room.
 //
-// This is pure bookkeeping: it reads no file and no clock. Grids are ordered by their own time. If
-// that is more than 10 minutes in the future, the time at which the file was written counts
+// An account reads no file and no clock. Grids are evicted in the order of their times. If a grid's
+// time is more than 10 minutes in the future, the time at which its file was written counts
 // instead, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
 // All grids of others (stormcellar/cache/budget.h) come before all grids of known groups. A grid is
-// never a victim while it is pinned, being written or evicted (busy), stuck, or protected.
+// not chosen while it is pinned, busy (being written or evicted) or stuck, or while its protection
+// counts.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -33,17 +34,17 @@ struct GridFacts {
     bool pinned = false;
 };
 
-// The grids that may have to be evicted.
+// The grids that may be chosen.
 enum class Reach {
     others,       // grids of groups that are not known
     unprotected,  // also grids of known groups that are not protected
     all,          // also the protected grids
 };
 
-// Conditions under which a grid is protected from a limit.
+// The conditions under which the newest grids are protected from a limit.
 struct Protection {
-    std::chrono::milliseconds age{};     // grids written less than this ago; 0: of any age
-    std::optional<std::uint64_t> space;  // at most half of it is protected; none: any amount
+    std::chrono::milliseconds age{};     // the grid was written less than this ago; 0: at any time
+    std::optional<std::uint64_t> space;  // they hold at most half of it; none: no limit
 };
 
 class Account {
@@ -52,30 +53,30 @@ class Account {
 
     explicit Account(IsKnown is_known = is_known_group) : is_known_(std::move(is_known)) {}
 
-    // Sets the current time. A grid is believed from now on if its time has come.
+    // Sets the current time, which may make the times of more grids believable (is_believed()).
     void set_now(UtcTime now);
     // Sets the size of the file system, for budgets in percent; 0: not known.
     void set_capacity(std::uint64_t bytes) { capacity_ = bytes; }
-    // Asks again which groups are known. Otherwise the account asks when the first grid of a group
-    // comes.
+    // Asks `is_known` about all groups, or one group, again. Otherwise the account asks when the
+    // first grid of a group comes.
     void ask_who_is_known();
     void ask_who_is_known(std::string_view group);
     [[nodiscard]] bool is_known(std::string_view group) const;
 
-    // Adds the grid, or replaces its facts. It is then neither busy nor stuck.
+    // Adds the grid, or replaces its facts. The grid is then neither busy nor stuck.
     void put(const GridName& name, const GridFacts& facts);
     void erase(const GridName& name);
     [[nodiscard]] const GridFacts* find(const GridName& name) const;
     [[nodiscard]] bool is_busy(const GridName& name) const;
     void set_pinned(const GridName& name);
-    void set_busy(const GridName& name);     // not a victim until put() or erase()
+    void set_busy(const GridName& name);     // not chosen until put() or erase()
     void set_leaving(const GridName& name);  // busy, and its bytes will soon be free
-    void set_stuck(const GridName& name);    // it could not be removed: not a victim until put()
-    // Returns the names of one domain and moment within these times.
+    void set_stuck(const GridName& name);    // could not be removed: not chosen until put()
+    // Returns the names of one domain and moment from `from` to `to`.
     [[nodiscard]] std::vector<GridName> names(const std::string& domain, level2::Moment moment,
                                               UtcTime from, UtcTime to) const;
 
-    // Counts bytes besides those of the grids: files being written, and leftovers.
+    // Counts bytes that are not in grids: of files being written, and of leftovers.
     void reserve(std::string_view group, std::uint64_t bytes);
     void release(std::string_view group, std::uint64_t bytes);
 
@@ -86,54 +87,57 @@ class Account {
     [[nodiscard]] std::size_t pinned_count() const { return pinned_; }
     [[nodiscard]] std::vector<std::string> groups() const;
 
-    // Returns the newest time of a group that counts; none if there is none.
+    // Returns the newest believable time of the group's grids, or none.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
     // Returns true if a grid of this name is or would be the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
-    // Returns true if a grid of this name, written now, must be kept whatever has to be evicted for
-    // it. This is the case in a known group, if the grid is the newest or already pinned.
+    // Returns true if a grid of this name must be kept even if protected grids must be evicted for
+    // it: if its group is known, and the grid is pinned or is or would be the newest of its domain
+    // and moment.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Returns true if a grid of this name, written now, is older than the age of its group and not
-    // protected from it.
+    // Returns true if the age of its group does not keep a grid of this name, written now. A pinned
+    // grid does not expire; nor does the newest grid of a domain and moment in a known group,
+    // unless it is a part.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
-    // Returns the space as stormcellar/cache/budget.h defines it; none: no limit.
+    // Returns the space of a budget, as stormcellar/cache/budget.h defines it; none: no limit.
     [[nodiscard]] std::optional<std::uint64_t> space_of(const Budget& budget) const;
     [[nodiscard]] std::optional<std::uint64_t> others_limit(const Budgets& budgets) const;
 
-    // Returns true if this many bytes more fit now.
+    // Returns true if this many more bytes of the group fit now.
     [[nodiscard]] bool fits(std::string_view group, std::uint64_t bytes,
                             const Budgets& budgets) const;
-    // Returns the grids that must be evicted so that `bytes` of this grid fit, the oldest first, in
-    // addition to those being evicted already; none if that is impossible. Takes only grids that
-    // come before this one, unless this one is to stay.
+    // Returns the grids that must be evicted so that `bytes` of this grid fit, in addition to the
+    // grids that are being evicted already; none if that is impossible. Chooses only grids that
+    // come before this one, unless this one is_to_stay().
     [[nodiscard]] std::optional<std::vector<GridName>> room_for(
         const GridName& name, std::uint64_t bytes, const Budgets& budgets,
         Reach reach = Reach::unprotected) const;
-    // Returns the oldest grids that hold this many bytes on disk. If the budget of all limits
-    // space, they come from all groups, else from the grid's group. The rule of room_for() applies.
-    // The result is shorter if there are no more such grids.
+    // Returns the oldest grids that together hold `bytes` on disk, or fewer if there are no more.
+    // Chooses from all groups if the total budget limits space, otherwise from the grid's group;
+    // and only grids that room_for() may choose.
     [[nodiscard]] std::vector<GridName> oldest(const GridName& name, std::uint64_t bytes,
                                                const Budgets& budgets) const;
 
-    // Returns the oldest grids that must go so that the group (empty: all) holds `bytes` or less;
-    // at most `most` of them.
+    // Returns the oldest grids that must be evicted so that the group (empty: all groups) holds at
+    // most `bytes`; at most `most` grids.
     [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
                                                 std::size_t most, const Protection& protection = {},
                                                 Reach reach = Reach::unprotected) const;
-    // Does the same for the grids of others, so that they hold `bytes` or less together.
+    // Does the same for all grids of others together.
     [[nodiscard]] std::vector<GridName> others_down_to(std::uint64_t bytes, std::size_t most) const;
+    // Returns the group's grids that are older than its age; at most `most`. Protected grids stay,
+    // except parts.
     [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
                                                 std::size_t most) const;
-    // Returns grids of others that are older than the time for which grids are protected, by the
-    // time of writing.
+    // Returns grids of others that were written longer ago than `protected_for`; at most `most`.
     [[nodiscard]] std::vector<GridName> outlived(const Budgets& budgets, std::size_t most) const;
 
   private:
     struct Entry {
         GridFacts facts;
         UtcTime counted;
-        bool known = true;  // the same as its group
+        bool known = true;  // the same as in its group
         bool busy = false, leaving = false, stuck = false;
         [[nodiscard]] bool may_go() const { return !facts.pinned && !busy && !stuck; }
     };
@@ -155,7 +159,7 @@ class Account {
                    std::tie(second.known, second.counted, *second.name);
         }
     };
-    using Order = std::set<const Item*, ByAge>;  // those that may be evicted
+    using Order = std::set<const Item*, ByAge>;  // grids for which may_go() is true
     struct Group {
         bool known = true;
         std::map<GridName, Entry> grids;
@@ -178,7 +182,7 @@ class Account {
     [[nodiscard]] std::set<const Item*> lapsed(const Group* group,
                                                const Protection& protection) const;
     class Shield;
-    // bytes that others use, without grids that are being evicted
+    // Returns the bytes that others use, without grids that are being evicted.
     [[nodiscard]] std::uint64_t staying_of_others() const;
     [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
     Item* find_item(const GridName& name);

@@ -1,5 +1,5 @@
-// This part of the account chooses: the newest and the protected grids, the grids that fit, and the
-// grids that must be evicted.
+// This part of the account finds the newest and the protected grids, and chooses the grids to
+// evict.
 #include <algorithm>
 
 #include "cache/account.h"
@@ -7,8 +7,8 @@
 namespace stormcellar::cache {
 namespace {
 
-constexpr std::uint64_t others_part = 10;    // at most this part of a budget's space
-constexpr std::uint64_t protected_part = 2;  // at most this part, too
+constexpr std::uint64_t others_part = 10;    // others hold at most a tenth of the space
+constexpr std::uint64_t protected_part = 2;  // protected grids hold at most half of the space
 
 }  // namespace
 
@@ -23,7 +23,7 @@ const Account::Item* Account::newest_of(const Group& group, const std::string& d
     return nullptr;
 }
 
-// Goes from one domain and moment to the next. There are few of them, however many grids there are.
+// Jumps from one domain and moment to the next, because there are few of them and many grids.
 template <class Visit>
 void Account::for_each_newest(const Group& group, Visit visit) const {
     for (auto item = group.grids.begin(); item != group.grids.end();) {
@@ -50,7 +50,7 @@ bool Account::is_newest(const GridName& name) const {
     const Item* const item = newest_of(*group, name.domain, name.moment);
     if (item == nullptr) return true;
     const UtcTime newest = item->first.time;
-    // A grid that is believed is newer than any that is not.
+    // A grid with a believable time counts as newer than any grid without one.
     if (believed(name.time) != believed(newest)) return believed(name.time);
     return name.time >= newest;
 }
@@ -69,8 +69,9 @@ bool Account::is_protected(const Item& item, std::chrono::milliseconds age) cons
     return item.second.known && is_younger(item, age) && is_newest(item.first);
 }
 
-// The smallest grids keep their protection, so that as many as possible have it. A pinned grid
-// stays without protection.
+// Returns the grids whose protection does not count because protected grids would hold too much.
+// The smallest grids keep their protection, so that as many grids as possible have it. A pinned
+// grid needs no protection.
 std::set<const Account::Item*> Account::lapsed(const Group* group,
                                                const Protection& protection) const {
     std::vector<const Item*> items;
@@ -96,8 +97,8 @@ std::set<const Account::Item*> Account::lapsed(const Group* group,
     return {first, items.end()};
 }
 
-// The grids that are protected from one limit, of a group or of all. Lapsed protections are only
-// computed when the first protected grid is in the way, which is rare in a cache that rolls.
+// Tells which grids are protected from one limit, of a group or of all groups. Computes the lapsed
+// protections only when a protected grid comes up for eviction, which is rare.
 class Account::Shield {
   public:
     Shield(const Account& account, const Group* group, const Protection& protection)
@@ -157,7 +158,8 @@ bool Account::fits(std::string_view group, std::uint64_t bytes, const Budgets& b
            (is_known(group) || within(used_by_others(), others_limit(budgets)));
 }
 
-// A grid of others may only replace other grids of others.
+// Returns the end of the grids that may be evicted for a grid of this name. A grid of others may
+// only replace other grids of others.
 Account::Order::const_iterator Account::end_for(const Order& order, const GridName& name) const {
     if (is_to_stay(name)) return order.end();
     const bool known = is_known(group_of(name.domain));
@@ -172,7 +174,7 @@ std::optional<std::vector<GridName>> Account::room_for(const GridName& name, std
     std::set<const Item*> chosen;
     std::vector<GridName> victims;
     std::uint64_t freed = 0;
-    // Takes grids from `order` until `used` and `bytes` are within the limit.
+    // Chooses grids from `order` until `used` and `bytes` together are within the limit.
     const auto choose = [&](const Order& order, std::uint64_t used,
                             const std::optional<std::uint64_t>& limit, Shield shield) {
         if (!limit) return true;
@@ -276,7 +278,7 @@ std::vector<GridName> Account::expired(std::string_view group, const Budgets& bu
     return victims;
 }
 
-// A file from the future cannot have been written that long ago.
+// A file that was written far in the future, by a wrong clock, counts as written long ago.
 std::vector<GridName> Account::outlived(const Budgets& budgets, std::size_t most) const {
     std::vector<GridName> victims;
     const auto age = budgets.protected_for;

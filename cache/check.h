@@ -25,18 +25,18 @@ namespace stormcellar::cache {
                                        const grid::Quantization& quantization);
 
 // Checks that every entry is one of the three kinds in its only form: unused fields are zero;
-// counts, codes and packed sizes are in range; status blocks are used once each and in order; and
-// no status block claims a value.
+// counts, codes and packed sizes are in range; entries refer to all status blocks, once each and in
+// order; and no cell of a status block has the status `value`.
 [[nodiscard]] Status check_bricks(std::span<const grid::BrickEntry> bricks,
                                   std::span<const std::byte> states,
                                   const grid::Quantization& quantization, Packing packing);
 
-// Returns the size of all stored bricks together, packed.
+// Returns the packed size of all stored bricks together.
 [[nodiscard]] std::uint64_t packed_size(std::span<const grid::BrickEntry> bricks);
 
 [[nodiscard]] std::uint64_t brick_count(const grid::GridSpec& spec);
 
-// The count, the minimum and the maximum of the cells with a value in a brick of codes.
+// The number of cells with a value in a brick of codes, and their minimum and maximum.
 struct CodeRange {
     std::uint16_t value_count = 0;
     std::uint16_t min_code = 0;

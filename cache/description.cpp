@@ -36,7 +36,8 @@ enum class RecordKind : std::uint16_t {
     left_out = 21,
 };
 
-// Records of one text: a member of the provenance. An empty one that is `optional` is not written.
+// A kind of record that holds one text, and its member of the provenance. An empty text that is
+// `optional` is not written.
 struct TextRecord {
     RecordKind kind;
     std::string grid::Provenance::*text;
@@ -50,7 +51,7 @@ constexpr std::array<TextRecord, 6> text_records = {
      {RecordKind::effects, &grid::Provenance::effects, true},
      {RecordKind::predicted_error, &grid::Provenance::predicted_error, true}}};
 
-// Records of one text: an element of a list of the provenance.
+// A kind of record that holds one element of a list of texts in the provenance.
 struct ListRecord {
     RecordKind kind;
     std::vector<std::string> grid::Provenance::*list;
@@ -107,7 +108,7 @@ void append_site(std::vector<std::byte>& bytes, const grid::SitePosition& site) 
     append_record(bytes, RecordKind::site, contents);
 }
 
-// A sweep as a record holds it.
+// The bytes of a sweep in a record.
 struct StoredSweep {
     double elevation_deg = 0;
     std::int64_t start_ms = 0;
@@ -122,7 +123,7 @@ void append_sweep(std::vector<std::byte>& bytes, const grid::SweepTime& sweep) {
     append_record(bytes, RecordKind::sweep, std::as_bytes(std::span(&stored, 1)));
 }
 
-// A part as a record holds it; its ICAO follows.
+// The bytes of a part in a record. Its ICAO follows.
 struct StoredPart {
     std::int64_t time_ms = 0;
     std::uint64_t fingerprint = 0;
@@ -177,7 +178,7 @@ bool read_site(std::span<const std::byte> bytes, GridDescription& description) {
     return true;
 }
 
-// Checks that a grid can have these columns.
+// Returns true if the columns of the part are possible in a grid.
 bool is_window(const StoredPart& part) {
     constexpr std::int32_t most = grid::GridSpec::greatest_side;
     const auto lies_within = [](std::int32_t first, std::int32_t count) {

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The directory's own record gives the type; a system call is made only if it does not.
+// The entry usually has the type already, without a system call.
 bool is_of_type(const fs::directory_entry& entry, fs::file_type type) {
     std::error_code ignored;
     if (entry.is_symlink(ignored)) return false;

@@ -1,8 +1,7 @@
 // cache/directories.h -- reads the directories of a cache. Used only inside the cache room.
 //
-// Symbolic links are not followed. A file at the place of a grid without a grid's name is not ours
-// and is left out, as is a file that vanishes during the reading. A missing directory holds
-// nothing.
+// Symbolic links are not followed. Files and directories without the names of a cache are left out,
+// and so are files that vanish while a directory is read. A missing directory counts as empty.
 //
 // Threads   Functions without state, which read directories.
 #pragma once
@@ -21,6 +20,7 @@
 
 namespace stormcellar::cache {
 
+// Makes the error of a failed operation on a directory, with its path.
 [[nodiscard]] tl::unexpected<Error> directory_failure(const std::filesystem::path& path,
                                                       const std::error_code& error);
 
@@ -43,10 +43,10 @@ struct Day {
 struct FoundGrid {
     UtcTime time;
     std::uint64_t bytes_on_disk = 0;
-    UtcTime written;  // when the file was last changed
+    UtcTime written;  // the file's modification time
     bool pinned = false;
 };
-// Returns the grid of a path, or none if there is no regular file.
+// Returns the facts of the grid at a path, or none if there is no regular file.
 [[nodiscard]] std::optional<FoundGrid> look_at_grid(const std::filesystem::path& path,
                                                     UtcTime time);
 
@@ -62,8 +62,8 @@ struct DayContents {
                                            UtcTime from = UtcTime{},
                                            UtcTime to = last_possible_time);
 
-// Removes every file whose name marks it as being written: the leftovers of killed writers. Call it
-// only if nobody is writing.
+// Removes the temporary files of killed writers from the cache's directory and the directories of
+// days. Call it only if nobody is writing.
 [[nodiscard]] Status sweep_temporaries(FileSystem& file_system, const std::filesystem::path& cache);
 
 }  // namespace stormcellar::cache

@@ -1,7 +1,7 @@
-// cache/evict.h -- evicts grids on request, besides a daemon that writes and evicts as well.
+// cache/evict.h -- evicts grids on request, even while a daemon writes and evicts.
 //
-// The choice is a list, so it can be shown before anything is evicted. Pinned grids are never
-// evicted; a grid that is pinned after it was chosen is kept.
+// plan_eviction() returns a list of grids, which can be shown before evict() is called. Pinned
+// grids are never evicted, even if they are pinned after they were chosen.
 //
 // Threads   Any thread, any process.
 #pragma once
@@ -20,21 +20,21 @@ namespace stormcellar::cache {
 
 struct EvictionOrder {
     std::string domain;  // a domain with its parts, or a single part; empty: all
-    // A grid is evicted if any of these selects it. `to` also selects the newest grids. `bytes` and
-    // `older_than` keep the newest grid of each domain that is_known_group() knows
-    // (stormcellar/cache/budget.h), however old or large it is. `bytes` selects grids of others
-    // first.
+    // A grid is chosen if any of these members chooses it. `to` also chooses the newest grids.
+    // `bytes` and `older_than` keep the newest grid of each domain and moment in a group that
+    // is_known_group() knows (stormcellar/cache/budget.h), however old or large it is, but
+    // `older_than` keeps no part (NAME.ICAO). `bytes` chooses grids of others first.
     std::optional<UtcTime> to;           // up to and including this time
-    std::optional<std::uint64_t> bytes;  // the oldest ones, until the rest takes no more than this
-    // this much older than the newest of the same domain
+    std::optional<std::uint64_t> bytes;  // the oldest, until the others take no more than this
+    // Grids that are older than the newest grid of their group by more than this.
     std::optional<std::chrono::milliseconds> older_than;
 };
 
 struct EvictionPlan {
     std::vector<StoreEntry> victims;  // oldest first
-    std::size_t looked_at = 0;        // grids of the domain
-    std::size_t pinned = 0;           // how many of these are pinned
-    std::uint64_t bytes_left = 0;     // on disk, the size of the grids that stay
+    std::size_t looked_at = 0;        // grids of the requested domains
+    std::size_t pinned = 0;           // pinned grids among them
+    std::uint64_t bytes_left = 0;     // size on disk of those that stay
 };
 [[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store,
                                                  const EvictionOrder& order, UtcTime now);
@@ -43,8 +43,8 @@ struct EvictionReport {
     std::vector<StoreEntry> evicted;
     std::vector<std::string> problems;  // failed removals, one line each
 };
-// Evicts the victims. A grid that is reported as evicted stays away after a power cut, unless a
-// problem says that its directory could not be synced.
+// Evicts the victims. Leaves out pinned and missing grids. A power cut does not bring back a grid
+// that is reported as evicted, unless a problem says that its directory could not be synced.
 [[nodiscard]] EvictionReport evict(FileSystem& file_system, const std::vector<StoreEntry>& victims);
 
 }  // namespace stormcellar::cache

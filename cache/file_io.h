@@ -1,6 +1,6 @@
 // cache/file_io.h -- reads a file that may change at any time. Used only inside the cache room.
 //
-// Messages name no file, because the caller adds the path.
+// Messages name no file, because the caller adds the path with with_path().
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace stormcellar::cache {
 
-// A read-only map of a whole file, registered with the guard of cache/map_guard.h. It is a map of
-// the whole file because an offset must be a multiple of the machine's page size, which may be
+// A read-only map of a whole file, registered with the guard of cache/map_guard.h. The whole file
+// is mapped because the start of a map must be a multiple of the machine's page size, which may be
 // larger than the page size of the format.
 class Map {
   public:
@@ -49,7 +49,7 @@ class Map {
 // Returns the facts of a regular file. Errors: not_a_file for anything else.
 [[nodiscard]] Result<struct stat> facts_of(const Descriptor& file);
 
-// Fills all of `bytes`. Errors: truncated if the file ends before that.
+// Fills all of `bytes` from the file. Errors: truncated if the file ends too early.
 [[nodiscard]] Status read_at(const Descriptor& file, std::uint64_t offset,
                              std::span<std::byte> bytes);
 

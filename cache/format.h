@@ -1,7 +1,7 @@
 // cache/format.h -- the bytes of a grid file, as docs/cache-format.md specifies them.
 //
-// All numbers are little-endian, and so are the machines, so that a brick of a mapped file can be
-// used without conversion. Every offset in the document is asserted here.
+// All numbers are little-endian, like the supported machines, so a brick of a mapped file needs no
+// conversion. Assertions check every offset that the document specifies.
 #pragma once
 
 #include <array>
@@ -16,22 +16,24 @@ namespace stormcellar::cache::format {
 
 static_assert(std::endian::native == std::endian::little, "grid files are mapped as they stand");
 
-// Not text, not 7-bit clean, and damaged by any conversion of line ends.
+// The bytes tell the file from text, and show damage by a 7-bit transfer or a conversion of line
+// ends.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'S', 'C', 'G', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
 inline constexpr std::uint32_t version = 2;
-// Files of this version and later are read. Versions differ only in the meaning of their records.
+// Files of this version up to `version` are read. These versions differ only in the meaning of
+// their records.
 inline constexpr std::uint32_t oldest_version = 1;
 inline constexpr std::uint64_t page_size = 4096;
 
-// Limits of the memory that a file may require from its reader.
+// Limits of a file, which bound the memory of its reader.
 inline constexpr std::uint64_t max_description_bytes = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t max_bricks = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t max_metadata_bytes = std::uint64_t{1} << 29;
 inline constexpr std::uint64_t status_block_bytes = 1024;
 
 // Bits of required_features.
-inline constexpr std::uint32_t feature_window = 1;  // the offsets are not both 0
+inline constexpr std::uint32_t feature_window = 1;  // offset_x_cells or offset_y_cells is not 0
 // Bricks of codes are packed one by one and follow each other without gaps.
 inline constexpr std::uint32_t packed_codes = 2;
 inline constexpr std::uint32_t known_features = feature_window | packed_codes;
@@ -132,8 +134,9 @@ static_assert(static_cast<int>(grid::Projection::lambert_conformal) == 2);
 static_assert(static_cast<int>(level2::Moment::ref) == 0);
 static_assert(static_cast<int>(level2::Moment::cfp) == 6);
 
-// The places of the sections. Only padding is between them, so the sizes determine the places, and
-// a file has no other layout. Arguments within the limits cannot overflow.
+// The places of the sections. Between them there is only padding, so the sizes of the sections
+// determine their places. layout_of() does not overflow if its arguments are within the limits
+// above.
 struct Layout {
     std::uint64_t levels_offset = page_size;
     std::uint64_t description_offset = 0;

@@ -1,7 +1,7 @@
 // cache/grid_facts.h -- reads the facts of a grid file, without its cells.
 //
-// It reads only the bytes before the codes, and neither maps nor unpacks the codes. So it takes the
-// same short time for a packed file. It is for programs that list many grids.
+// It reads only the bytes before the codes, so packed files take no longer than others. It is for
+// programs that list many grids.
 //
 // Threads   Pure function, which reads a file.
 #pragma once
@@ -19,7 +19,7 @@ struct GridFacts {
     std::uint64_t checksum = 0;  // the same as GridFile::checksum()
 };
 
-// Reads the file from its beginning. It checks header and description in the same way as
+// Reads the facts of an open file. Checks header and description in the same way as
 // GridFile::open(), but neither the table of bricks nor the codes. Errors: those of
 // GridFile::open(), without a path.
 [[nodiscard]] Result<GridFacts> read_grid_facts(const Descriptor& file);

@@ -1,4 +1,4 @@
-// Opens a grid file and uses nothing in it before it is checked.
+// This file opens grid files, and uses nothing in them before it is checked.
 //
 // All bytes that control the reader (header, table, states, names) are read into our own memory and
 // checked there, so that another program that alters or cuts the file later cannot mislead us. Only
@@ -30,8 +30,8 @@ namespace {
 using format::FileHeader;
 using grid::BrickEntry;
 
-// Checks the fields that define how to read the others. After this, sizes can be computed without
-// overflow.
+// Checks the fields on which reading the other fields depends. After this, sizes can be computed
+// without overflow.
 Status check_identity(const FileHeader& header) {
     if (header.magic != format::magic) {
         return fail(ErrorCode::corrupt, "is not a stormcellar grid file");
@@ -69,7 +69,7 @@ bool is_packed(const FileHeader& header) {
     return (header.required_features & format::packed_codes) != 0;
 }
 
-// Every offset must follow from the sizes, because there is no other layout.
+// Returns the layout that follows from the sizes in the header, which must have the same offsets.
 Result<format::Layout> checked_layout(const FileHeader& header) {
     const auto along = [](std::uint32_t cells) {
         return static_cast<std::uint32_t>(grid::bricks_along(static_cast<int>(cells)));

@@ -1,4 +1,5 @@
-// Writes a grid file: metadata first, then every run of stored bricks at its own place.
+// This file writes grid files: first the metadata, then every run of stored bricks at its own
+// place.
 #include <algorithm>
 #include <cstring>
 #include <system_error>
@@ -25,7 +26,7 @@ std::int64_t milliseconds_of(UtcTime time) {
     return time.time_since_epoch().count();
 }
 
-// Checks the view. It must be consistent before its spans are read.
+// Checks that the view is consistent, before its spans are read.
 Status check_view(const GridDescription& description, const BrickView& view) {
     const grid::GridSpec& spec = description.spec;
     const std::uint64_t bricks = brick_count(spec);
@@ -59,9 +60,9 @@ std::span<const std::byte> codes_of(const BrickView& view, std::size_t brick) {
     return view.codes.subspan(brick * size, size);
 }
 
-// Makes the table in its only form: unused fields are zero, and status blocks occur once each and
-// in order. So the same cells give the same bytes, whatever made the view. Counts and checksums are
-// computed from the cells and not copied, so that a file always agrees with its own table.
+// Makes the table in its only form, so that the same cells always give the same bytes: unused
+// fields are zero, and status blocks occur once each and in order. Computes counts and checksums
+// from the cells, so that a file always agrees with its own table.
 Tables canonical_tables(const BrickView& view, Packing packing) {
     Tables tables;
     tables.bricks.reserve(view.bricks.size());

@@ -1,8 +1,8 @@
-// cache/leftover_watch.h -- notes whether a file that could not be written was left behind. Used
-// only inside the cache room.
+// cache/leftover_watch.h -- finds out if a failed write left a temporary file behind. Used only
+// inside the cache room.
 //
-// AtomicFile removes its temporary file when it fails. If the file system refuses even that, the
-// file stays and takes space that must be counted.
+// AtomicFile removes its temporary file when it fails. If the file system refuses even the removal,
+// the file stays and takes space, which must be counted.
 //
 // Threads   One thread, for one file.
 #pragma once
@@ -34,7 +34,7 @@ class LeftoverWatch final : public FileSystem {
     }
     Status remove(const std::filesystem::path& path) override;
 
-    // Returns the path of a file that was made and neither renamed nor removed.
+    // Returns the path of the last file that was created, if it was neither renamed nor removed.
     [[nodiscard]] const std::optional<std::filesystem::path>& leftover() const { return made_; }
 
   private:

@@ -16,7 +16,8 @@ namespace {
 // The previous action of SIGBUS; written once, before the handler can run.
 struct sigaction former_action = {};
 
-// Replaces a map of ours by zeros, for good.
+// Replaces the registered map that has the address by zeros. Returns false if there is none or that
+// fails.
 bool take_fault(void* address) {
     const auto place = reinterpret_cast<std::uintptr_t>(address);
     const auto range = cut_map_at(place);

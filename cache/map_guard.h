@@ -1,11 +1,12 @@
-// cache/map_guard.h -- makes a file that is cut under its map an error instead of the end of the
-// program.
+// cache/map_guard.h -- turns the truncation of a mapped file into an error instead of the end of
+// the program.
 //
 // Reading a page of a map beyond the end of its file, or a page that the disk cannot deliver,
 // raises SIGBUS. With the guard, such a fault in the map of a GridFile turns the whole map into
-// zeros and is remembered: GridFile::check_whole() returns truncated from then on. So a user of a
-// view calls check_whole() afterward and discards the work on an error. Every other SIGBUS keeps
-// its effect. Signals belong to the program, so a program installs the guard; no library does.
+// zeros, and GridFile::check_whole() returns truncated from then on. So a user of a view must call
+// check_whole() afterward and discard the work on an error. Every other SIGBUS has its usual
+// effect. The program must install the guard, because handling signals is not the business of a
+// library.
 #pragma once
 
 namespace stormcellar::cache {

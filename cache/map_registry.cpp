@@ -14,7 +14,7 @@ struct Block {
     std::atomic<Block*> next{nullptr};
 };
 
-// It is never destroyed, because a handler may run while the program ends.
+// The first block is never destroyed, because a handler may run while the program ends.
 Block& first_block() {
     static constinit Block block;
     return block;
@@ -60,8 +60,8 @@ void MapRegistration::release() {
     place_ = nullptr;
 }
 
-// The map that is being read stays in its place during the fault, so a place that changes belongs
-// to another map.
+// The map whose read failed keeps its place during the fault, so a place that is being changed
+// belongs to another map.
 std::optional<MapRange> cut_map_at(std::uintptr_t address) {
     for (Block* block = &first_block(); block != nullptr; block = block->next.load()) {
         for (MapPlace& place : block->places) {

@@ -13,16 +13,16 @@
 
 namespace stormcellar::cache {
 
-// One place of the registry. Places are reused and never freed, so that a handler may walk through
+// One place of the registry. Places are reused and never freed, so that a signal handler may search
 // them at any time.
 struct MapPlace {
     std::atomic<bool> taken{false};
-    std::atomic<std::uint32_t> changes{0};  // odd while begin and end do not belong together
+    std::atomic<std::uint32_t> changes{0};  // odd while begin and end are being changed
     std::atomic<std::uintptr_t> begin{0}, end{0};
     std::atomic<bool> cut{false};
 };
 
-// Keeps a map in the registry as long as this object lives. The map must outlive it.
+// Keeps a map in the registry while this object lives. The map must outlive the object.
 class MapRegistration {
   public:
     MapRegistration() = default;  // without a map
@@ -35,7 +35,7 @@ class MapRegistration {
     ~MapRegistration() { release(); }
 
     void release();
-    // Returns true if a read inside the map has failed since it was registered.
+    // Returns true if cut_map_at() was called for the map since it was registered.
     [[nodiscard]] bool was_cut() const { return place_ != nullptr && place_->cut.load(); }
 
   private:
@@ -45,7 +45,8 @@ class MapRegistration {
 struct MapRange {
     std::uintptr_t begin = 0, end = 0;
 };
-// Returns the registered map that holds the address, marked as cut; none if no map does.
+// Marks the registered map that has the address as cut, and returns its range; none if no map has
+// it.
 [[nodiscard]] std::optional<MapRange> cut_map_at(std::uintptr_t address);
 
 }  // namespace stormcellar::cache

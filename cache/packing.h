@@ -14,15 +14,14 @@
 
 namespace stormcellar::cache {
 
-// Returns the packed codes of one brick, or the codes unchanged if packing would not make them
-// shorter.
+// Packs the codes of one brick. Returns them unchanged if packing would not make them shorter.
 [[nodiscard]] std::vector<std::byte> pack_brick(std::span<const std::byte> codes);
 
-// Fills all of `codes`. Returns corrupt if `packed` does not give exactly this many.
+// Unpacks into `codes`. Errors: corrupt if `packed` does not give exactly that many bytes.
 [[nodiscard]] Status unpack_brick(std::span<const std::byte> packed, std::span<std::byte> codes);
 
-// Memory of zeros. The system provides pages only where it is written, so the places of absent
-// bricks cost nothing.
+// Memory that is all zeros at first. The system provides pages only where the memory is written, so
+// the places of absent bricks cost nothing.
 class SparseMemory {
   public:
     SparseMemory() = default;  // empty

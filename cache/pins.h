@@ -1,10 +1,10 @@
-// cache/pins.h -- pins grids that must stay, and evicts other grids.
+// cache/pins.h -- pins grids, and evicts grids that are not pinned.
 //
-// A pin is an empty file beside the grid, X.scg.pin, so any process may set one and it outlives all
-// processes. The pin belongs to the name: a grid that is replaced stays pinned. Pinning and
-// evicting hold the lock of the day's directory (flock, which the system releases when its holder
-// dies). So a grid whose pin was set is never evicted: either the pin is set in time, or its setter
-// learns that the grid is gone.
+// A pin is an empty file beside the grid, X.scg.pin. Any process may set a pin, and the pin
+// outlives the process. The pin belongs to the name, so a grid that is replaced stays pinned.
+// Pinning and evicting lock the day's directory (flock, which the system releases when its holder
+// dies). So once pin_grid() has returned success, evict_grid() does not evict the grid; if the
+// eviction comes first, pin_grid() returns not_found.
 //
 // Threads   Any thread of any process.
 // Errors    Messages name the path.
@@ -21,20 +21,21 @@ namespace stormcellar::cache {
 inline constexpr std::string_view pin_extension = ".pin";
 [[nodiscard]] bool is_pinned(const std::filesystem::path& grid);
 
-// Pins a grid. Errors: not_found if there is no grid. On success the pin survives a power cut.
-// Pinning a pinned grid is not an error.
+// Pins a grid; does nothing if it is pinned. On success the pin survives a power cut. Errors:
+// not_found if there is no grid.
 [[nodiscard]] Status pin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 // Removes a pin, and returns true if there was one. The grid need not exist.
 [[nodiscard]] Result<bool> unpin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 
 enum class Evicted { gone, pinned, missing };
-// Unlinks the file of a grid that is not pinned. A reader that has it open keeps its bytes; the
-// space is freed when the last reader closes it. Until the directory is synced, the name may come
-// back after a power cut.
+// Removes the file of a grid that is not pinned. A reader that has the file open can still read it;
+// the space is freed when the last reader closes it. Until the directory is synced, a power cut may
+// bring the name back.
 [[nodiscard]] Result<Evicted> evict_grid(FileSystem& file_system,
                                          const std::filesystem::path& grid);
 
-// Removes the directory of a day, then those of its moment and its domain, if they are empty.
+// Removes the directory of a day if it is empty, and then the directories of its moment and its
+// domain likewise.
 void remove_empty_directories(const std::filesystem::path& day);
 
 }  // namespace stormcellar::cache

@@ -81,8 +81,8 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
     return roller;
 }
 
-// Grids of others do not count here, because they are no reason to bring known grids down to the
-// low mark.
+// Grids of others do not count for the total limit, because they must not bring known grids down to
+// the low mark.
 void Roller::note_reached(const std::string& group, std::uint64_t bytes) {
     const auto is_full = [&](std::uint64_t used, const Budget& budget) {
         return budget.bytes && used + bytes > *budget.bytes;
@@ -164,8 +164,8 @@ std::vector<Result<Evicted>> Roller::remove_files(const std::vector<GridName>& v
     return outcomes;
 }
 
-// The victims count until the removal of their names is synced: only then is their room free even
-// after a power cut.
+// The victims count until the removal of their names is synced, because before that, a power cut
+// may bring them back.
 void Roller::evict(const std::vector<GridName>& victims) {
     for (const GridName& name : victims) {
         account_.set_leaving(name);
@@ -199,7 +199,8 @@ void Roller::evict(const std::vector<GridName>& victims) {
     changed_.notify_all();
 }
 
-// Each turn takes its victims out of the account's order, removed or not, so this ends.
+// The loop ends because evict() takes the victims out of the account's order, even if they cannot
+// be removed.
 void Roller::evict_all(const std::function<std::vector<GridName>()>& choose) {
     for (auto victims = choose(); !victims.empty(); victims = choose())
         evict(victims);
@@ -224,7 +225,7 @@ bool Roller::leaves_out(const GridName& name) {
 bool Roller::would_keep(const GridName& name) const {
     const std::string_view group = group_of(name.domain);
     const MutexLock lock(mutex_);
-    // Somebody has made the station known since the account asked: the commit will ask again.
+    // The station became known after the account asked. The commit will ask again.
     if (!account_.is_known(group) && surroundings_.is_known(group)) return true;
     if (account_.is_expired(name, budgets_)) return false;
     if (account_.is_to_stay(name)) return true;

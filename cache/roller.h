@@ -1,14 +1,14 @@
 // cache/roller.h -- keeps a cache within its budgets while it is written. Used only inside the
 // cache room; stormcellar/cache/store.h is the public header.
 //
-// It holds the account of the grids in the cache. The account is made from the names at the start.
-// Each roll() corrects it and notices files that others removed, added or pinned. A commit reserves
-// the largest size that its file may take before it writes the first byte. If that does not fit, it
-// evicts first. The removed names are synced before their room is used again. Files are removed one
-// by one, each in one step, so a crash leaves a grid whole or not at all.
+// A Roller has the account of the grids in the cache. open() makes the account from the files, and
+// each roll() corrects it if other programs removed, added or pinned grids. Before a commit writes
+// the first byte, it reserves the largest size that its file may take, and evicts grids if that
+// does not fit. The removal of names is synced before their room is used again. Each file is
+// removed in one step, so a crash leaves a grid whole or not at all.
 //
-// Threads   Any thread. No lock is held while files are removed or written, and a thread that waits
-//           for another's commit or eviction holds nothing.
+// Threads   Any thread. The account is not locked while files are written, or while grids are
+//           evicted.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ namespace stormcellar::cache {
 
 class Roller;
 
-// Room for one file that is being written. The destructor enters into the account the grid that
-// then exists at the path: the new one, the old one or none.
+// Room for one file that is being written. The destructor frees the room, and enters the grid that
+// then exists at the path into the account: the new one, the old one or none.
 class Reservation {
   public:
     Reservation(Roller& roller, GridName name, std::uint64_t bytes)
@@ -59,30 +59,31 @@ class Reservation {
 class Roller {
   public:
     // Removes the leftovers of a killed writer and brings the cache within its budgets. Errors:
-    // busy if another process has opened it for rolling.
+    // busy if the cache is already open for rolling.
     static Result<std::unique_ptr<Roller>> open(FileSystem& file_system,
                                                 std::filesystem::path directory, Budgets budgets,
                                                 Surroundings surroundings);
 
-    // Reserves room for a grid. Returns none if the budgets would not keep it, so that it need not
-    // be written. Commits of the same name wait for each other. Errors: over_budget if the grid is
-    // pinned or the newest of a known domain, and evicting all grids that may be evicted is not
-    // enough.
+    // Reserves room for a grid. Returns none if the budgets would not keep the grid, so that it
+    // need not be written. Commits of the same name wait for each other. Errors: over_budget if
+    // Account::is_to_stay() is true for the grid, but evicting all grids that may be evicted does
+    // not make enough room.
     Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
-    // Evicts the oldest grids that hold this many bytes, because a full disk refused this grid.
-    // Returns false if the budgets do not provide for that or nothing may be evicted.
+    // Evicts the oldest grids that hold this many bytes, after a full disk refused this grid.
+    // Returns false if no budget limits the space of the grid's group or nothing was evicted.
     bool make_room(const GridName& name, std::uint64_t bytes);
-    // Returns true if the grid is left out because the disk is full. This is the case for a grid of
-    // others, for which nobody should wait. It counts as not kept.
+    // Returns true, and counts the grid as not kept, if it is a grid of others. Such a grid is left
+    // out if the disk is full, because nobody should wait for it.
     bool leaves_out(const GridName& name);
-    // Counts a temporary file that could not be removed; a later roll removes it.
+    // Counts a temporary file that could not be removed. Later rolls try to remove it.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
 
     using OnStep = std::function<void()>;
     RollReport roll(const OnStep& step = {});  // store.h
     void set_budgets(Budgets budgets);
     [[nodiscard]] StoreUsage usage() const;
-    // Answers by the account and the time of the last reservation, settlement or roll.
+    // Returns true if the budgets would keep this grid if it had the mean size of all grids, by the
+    // time of the last reservation, settlement or roll.
     [[nodiscard]] bool would_keep(const GridName& name) const;
     [[nodiscard]] std::uint64_t block_bytes() const { return block_bytes_; }
 
@@ -105,7 +106,7 @@ class Roller {
     [[nodiscard]] std::vector<Result<Evicted>> remove_files(const std::vector<GridName>& victims,
                                                             std::vector<std::string>& problems)
         STORMCELLAR_EXCLUDES(mutex_);
-    // Gives up the lock while it removes files.
+    // Evicts the victims. Unlocks `mutex_` while it removes files.
     void evict(const std::vector<GridName>& victims) STORMCELLAR_REQUIRES(mutex_);
     void evict_all(const std::function<std::vector<GridName>()>& choose)
         STORMCELLAR_REQUIRES(mutex_);
@@ -134,7 +135,7 @@ class Roller {
     Budgets budgets_ STORMCELLAR_GUARDED_BY(mutex_);
     Account account_ STORMCELLAR_GUARDED_BY(mutex_);
     std::set<GridName> in_flight_ STORMCELLAR_GUARDED_BY(mutex_);  // being written or evicted
-    // Groups that reached a limit since the last roll; empty name: all.
+    // Groups that reached a limit since the last roll; an empty name means the total limit.
     std::set<std::string> reached_ STORMCELLAR_GUARDED_BY(mutex_);
     std::map<Day, DayState> days_ STORMCELLAR_GUARDED_BY(mutex_);
     std::vector<Leftover> leftovers_ STORMCELLAR_GUARDED_BY(mutex_);

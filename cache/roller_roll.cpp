@@ -1,5 +1,5 @@
-// This part of the roller examines the whole cache every few seconds: changes by others, grids that
-// are too old, and how full the file system is.
+// This part of the roller examines the whole cache every few seconds. It finds changes by other
+// programs, grids that are too old, and how full the file system is.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// This many files are removed before other threads may use the account again. Removing the oldest
-// grids first goes through the directories of all domains in turn, and each directory is synced
-// once for each batch. With 64 files in a batch, nearly every file cost a sync.
+// The number of files that are removed in one batch. The oldest grids are spread over the
+// directories of all domains, and each directory is synced once for each batch, so small batches
+// would need a sync for nearly every file.
 constexpr std::size_t batch = 2048;
 // Every directory is read again after this many rolls, even if it seems unchanged.
 constexpr int rolls_between_full_readings = 60;
-// A directory that changed this recently may change again without a new time of change.
+// A directory that changed this recently may change again without a new modification time.
 constexpr std::int64_t settling_ns = 2'000'000'000;
 
 std::int64_t nanoseconds_now() {
@@ -62,8 +62,8 @@ Status Roller::reread(bool all, const OnStep& step) {
     return {};
 }
 
-// It holds the lock, so that no grid of ours appears or vanishes between the reading and the
-// account.
+// Holds the lock while it reads, so that no grid of this process appears or vanishes before
+// adopt().
 Status Roller::reread_day(const Day& day, bool even_unchanged) {
     const MutexLock lock(mutex_);
     struct stat facts {};
@@ -80,7 +80,8 @@ Status Roller::reread_day(const Day& day, bool even_unchanged) {
     return {};
 }
 
-// Skips grids that are being written or evicted; those operations update the account.
+// Enters the grids of a day into the account. Skips grids that are being written or evicted,
+// because those operations update the account.
 void Roller::adopt(const Day& day, const DayContents& contents) {
     account_.set_now(surroundings_.now());
     if (const auto span = span_of(day)) {
@@ -126,8 +127,7 @@ void Roller::remove_leftovers() {
     });
 }
 
-// Evicts what others hold beyond their share, and grids of others that nothing has replaced for
-// long.
+// Evicts grids of others that were written long ago, and then grids of others beyond their share.
 void Roller::limit_others(const OnStep& step) {
     const auto evict_each = [&](auto choose) STORMCELLAR_REQUIRES(mutex_) {
         evict_all([&]() STORMCELLAR_REQUIRES(mutex_) {
@@ -143,8 +143,8 @@ void Roller::limit_others(const OnStep& step) {
     });
 }
 
-// Enforces one budget: of a group, or of all if the name is empty. `filling` is what the file
-// system would hold if everything that was evicted since it was read were free by now.
+// Enforces the budget of a group, or the total budget if the name is empty. `filling` counts the
+// space of grids that were evicted since it was read as free.
 void Roller::keep_budget(const std::string& group, const std::optional<Filling>& filling,
                          RollReport& report, const OnStep& step) {
     const Budget budget = group.empty() ? budgets_.total : budgets_.of(group);

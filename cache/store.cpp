@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 // programs may take the room that eviction made on a full disk.
 constexpr int most_tries = 4;
 
-// Creates the directory, which then also survives a power cut.
+// Creates the directory, and syncs its parent, so that it survives a power cut.
 Status make_cache_directory(FileSystem& file_system, const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directories(directory, error);
@@ -87,8 +87,9 @@ Result<RollingStore> RollingStore::open(FileSystem& file_system, fs::path direct
     return RollingStore(file_system, std::move(directory), std::move(*roller));
 }
 
-// The name of a directory is durable once its parent is synced. The first use of an existing
-// directory also syncs, because its maker may have been killed before it could.
+// Creates the directory if it is missing, and syncs its parent, so that it survives a power cut.
+// The first use of an existing directory also syncs, because its creator may have been killed
+// before the sync.
 Status StoreWriter::make_directory(const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directory(directory, error);

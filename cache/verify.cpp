@@ -1,6 +1,6 @@
-// Checks whether an open grid file is unchanged since it was written. It reads through the
-// descriptor and never through the map, so a file that was cut in the meantime is an error and not
-// a signal.
+// This file checks that an open grid file has not changed since it was written. It reads through
+// the descriptor and never through the map, so a file that was cut in the meantime gives an error
+// and not a signal.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -36,8 +36,8 @@ Status GridFile::verify() const {
     return {};
 }
 
-// A file that was cut and extended to its old size has changed all the same, and the map has shown
-// zeros since then.
+// A file that was cut and then extended to its old size has changed as well, and its map shows
+// zeros.
 Status GridFile::Mapping::check_map() const {
     if (Status same = check_unchanged_size(); !same) return same;
     if (!map || !map->was_cut()) return {};
@@ -50,8 +50,8 @@ Status GridFile::Mapping::check_unchanged_size() const {
     return check_size(static_cast<std::uint64_t>(facts->st_size), at.file_size);
 }
 
-// The metadata on disk may have changed since they were read. That is damage too, though it can no
-// longer mislead this reader.
+// Metadata that changed on disk after they were read are damage too, although they cannot mislead
+// this reader.
 Status GridFile::Mapping::check_metadata() const {
     std::vector<std::byte> bytes(metadata.size());
     if (Status read = read_at(file, 0, bytes); !read) return read;

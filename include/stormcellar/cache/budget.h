@@ -3,33 +3,33 @@
 // A budget applies to one group (a domain and its parts, stormcellar/cache/grid_name.h) or to the
 // whole cache. Each limit that is set counts. The oldest grids are evicted first.
 //   bytes    The bytes on disk of grids, of files being written and of the leftovers of killed
-//            writers, counted in the blocks that the file system allocates. They are never
-//            exceeded, because bytes are reserved before they are written. Directories are not
+//            writers, counted in the blocks that the file system allocates. A commit never exceeds
+//            this limit, because it reserves the bytes before it writes them. Directories are not
 //            counted (4 KiB for each day and domain).
-//   percent  How full the file system may be with the data of all its users, as df counts. Any
-//            excess is evicted from the cache within 10 s, as far as the cache can.
-//   age      Counted back from the newest grid of the same group, not from now, so that old data
-//            stay while they are replayed. Times more than 10 minutes in the future do not count as
-//            newest.
+//   percent  How full the file system may be with the data of all its users, as df counts. Each
+//            roll evicts any excess from the cache, as far as the cache can.
+//   age      A grid's age counts from the newest grid of the same group, not from now, so that old
+//            data stay while they are replayed. Times more than 10 minutes in the future do not
+//            count as newest.
 // If the cache exceeds a limit, it is brought down to low_watermark times the limit.
 //
 // A group is known if the opener of the store says so (Surroundings::is_known in store.h; by
-// default is_known_group() below). Every other group is an invented station until somebody makes it
+// default is_known_group() below). Every other group counts as an invented station until it becomes
 // known; its grids are the grids of others.
-//   others     They are evicted before any known grid, whoever needs room, and make room only for
-//              one another. Together they hold at most a tenth of the space of the total budget;
-//              grids beyond that are not kept. A roll evicts those that were written longer ago
-//              than protected_for, whatever the budgets.
-//   protected  The newest grid of each domain (or part) and moment of a known group is protected as
-//              long as it was written less than protected_for ago. The time of writing counts, so
-//              that replayed old data are protected too. A part is not protected from the age. All
-//              grids that are protected from one limit hold at most half of its space. Beyond that,
-//              the protection of the largest grids lapses, and among equals that of the oldest.
-//              Protection also lapses where the newest grid of a known group would otherwise find
-//              no room.
+//   others     Grids of others are evicted before any grid of a known group, and no grid of a known
+//              group is evicted for them. Together they hold at most a tenth of the space of the
+//              total budget; grids beyond that are not kept. A roll also evicts those that were
+//              written longer ago than protected_for.
+//   protected  The newest grid of each domain (or part) and moment of a known group is protected
+//              while it was written less than protected_for ago. Because the time of writing
+//              counts, replayed old data are protected too. A part is not protected from the age.
+//              All grids that are protected from one limit may hold at most half of its space.
+//              Beyond that, the largest grids are not protected and, among equally large ones, the
+//              oldest. Protected grids are also evicted if the newest grid of a known group would
+//              otherwise find no room.
 //   pinned     Pinned grids are never evicted.
 // The space of a budget is its bytes, or its percent of the file system, or the smaller of the two.
-// Without either, no protection lapses and the share of others has no limit.
+// Without either, protected grids and grids of others may hold any space.
 //
 // Units     Bytes, percent, milliseconds.
 // Threads   Plain data and pure functions.
@@ -55,20 +55,21 @@ struct Budget {
 
 struct Budgets {
     Budget total;  // its age applies to every group, counted from that group's own newest grid
-    Budget every_domain;                                 // for each group that is not named
+    Budget every_domain;                                 // for each group that is not in `domains`
     std::map<std::string, Budget, std::less<>> domains;  // by group
     double low_watermark = 0.9;                          // above 0, up to 1; a share of each limit
-    // 0: no time limit, so the newest known grids stay protected and the budgets alone decide about
-    // the grids of others.
+    // 0: no time limit, so the newest known grids stay protected, and only the budgets limit the
+    // grids of others.
     std::chrono::milliseconds protected_for = std::chrono::hours{168};
 
     [[nodiscard]] const Budget& of(std::string_view group) const;
-    // Returns the shorter of the group's age and the age of all.
+    // Returns the shorter of the group's age and the total budget's age; none if neither is set.
     [[nodiscard]] std::optional<std::chrono::milliseconds> age_of(std::string_view group) const;
-    // Returns true if a full disk may be answered by eviction: some budget of bytes or percent is
-    // set for the group. A budget of age alone limits how long grids stay, and does not allow
-    // evicting them sooner.
+    // Returns true if grids may be evicted when the disk is full: if the group's budget or the
+    // total budget limits bytes or percent. A budget of age alone does not allow evicting grids
+    // sooner.
     [[nodiscard]] bool makes_room(std::string_view group) const;
+    // Returns the bytes to which a cache that exceeds `limit` is brought down.
     [[nodiscard]] std::uint64_t low_mark(std::uint64_t limit) const;
     bool operator==(const Budgets&) const = default;
 };

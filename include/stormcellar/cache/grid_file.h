@@ -1,12 +1,10 @@
 // stormcellar/cache/grid_file.h -- one grid in one immutable file, which mmap reads without a copy.
 //
-// docs/cache-format.md specifies the bytes. A file is written whole by temporary file, fsync and
-// rename. Nothing in it is trusted before it is validated: opening checks magic, version, sizes,
-// offsets and the checksum of header, brick table and states; verify() checks the checksums of
-// bricks. Header, table, states and names are read into memory and checked there. Only the codes
-// are mapped; packed codes are unpacked into memory and checked, too. So a file that another
-// program changes later may show wrong values until verify(), but never leads a reader outside its
-// memory.
+// docs/cache-format.md specifies the bytes. A file is written as a temporary file, synced and
+// renamed. open() reads header, table, states and names into memory, and checks magic, version,
+// sizes, offsets and the checksum there. Codes are mapped, or if they are packed, unpacked into
+// memory and checked; verify() checks the checksums of bricks. So a file that another program
+// changes later may show wrong values until verify(), but never leads a reader outside its memory.
 //
 // Units     Sizes are in bytes. Each open file holds one descriptor.
 // Threads   A GridFile is immutable after open(). Many threads may use its views.
@@ -26,8 +24,8 @@
 
 namespace stormcellar::cache {
 
-// The storage of bricks of codes in a file. Packed bricks take a third to three quarters of the
-// space. They are unpacked into the reader's own memory when the file is opened, and need no map.
+// The form of the bricks of codes in a file. Packed bricks take a third to three quarters of the
+// space. open() unpacks them into the reader's own memory instead of mapping them.
 enum class Packing { none, lz4 };
 
 // Everything in a grid except its cells.
@@ -41,10 +39,10 @@ struct GridDescription {
 [[nodiscard]] GridDescription describe(const grid::Grid& grid);
 
 // Writes the file and returns its size on disk in bytes, without holes. The same cells and
-// description give the same bytes. Errors: io and no_space, which leave nothing behind (if only the
-// directory's sync failed, the new file is there, whole); bad_argument for names or notes of more
-// than 1 MiB, more than 4,194,304 bricks, a time beyond the years 1970 to 9999, or a view that does
-// not fit its spec.
+// description give the same bytes. Errors: io, no_space and others of the file system, after which
+// the path has the old file (or the new one, whole, if only the sync of the directory failed);
+// bad_argument for names and notes of more than 1 MiB, more than 4,194,304 bricks, a time outside
+// the years 1970 to 9999, or a view that does not fit its spec.
 [[nodiscard]] Result<std::uint64_t> write_grid_file(FileSystem& file_system,
                                                     const std::filesystem::path& path,
                                                     const GridDescription& description,
@@ -52,31 +50,31 @@ struct GridDescription {
                                                     Packing packing = Packing::none);
 
 // Returns an upper bound of the size of that file on disk, in bytes, for a file system that
-// allocates blocks of `block_bytes` (a power of two). It counts each block that a byte falls into,
-// and room for the file system's own lists of blocks (1 in 64, and 4). Limits such as those of
-// write_grid_file() are not checked. The bound is too low only if a file system allocates blocks
-// that nobody wrote.
+// allocates blocks of `block_bytes` (a power of two). Counts each block that has a byte, and room
+// for the file system's own lists of blocks (1 in 64, and 4). Does not check the limits of
+// write_grid_file(). The bound is too low only if a file system allocates blocks that nobody wrote.
 [[nodiscard]] std::uint64_t most_bytes_on_disk(const GridDescription& description,
                                                const grid::BrickView& view,
                                                std::uint64_t block_bytes);
 
-// Table and states are read to memory, and packed bricks may take many times their size there. So a
-// program that opens a stranger's file bounds both. Bricks that are not packed are mapped.
+// The limits of memory for opening a file. `read_bytes` limits the bytes before the codes, and
+// `unpacked_bytes` the codes of a packed file, which may take many times their size on disk. Set
+// both for a file from another machine.
 struct GridFileLimits {
     std::uint64_t read_bytes = ~std::uint64_t{0};
     std::uint64_t unpacked_bytes = ~std::uint64_t{0};
 };
-// These limits exceed the grid of any site. A WSR-88D with cells of 500 m on 48 levels has 330 MB
-// of codes if every brick is stored and the moment has two bytes a cell. With cells of 250 m it has
-// 80 MB of table and states.
+// These limits exceed the needs of any site's grid. A WSR-88D grid with cells of 500 m on 48 levels
+// has 330 MB of codes if every brick is stored and the moment has two bytes a cell. With cells of
+// 250 m it has 80 MB of table and states.
 constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{128} << 20U,
                                         .unpacked_bytes = std::uint64_t{352} << 20U};
 
 class GridFile {
   public:
-    // Opens a file. Errors: not_found, io, truncated, corrupt (checksum, impossible sizes) or
-    // unsupported (a later version, or more than the limits allow). Every message begins with the
-    // path.
+    // Opens a file. Errors: truncated; corrupt (checksum, impossible sizes); unsupported (a later
+    // version, or more than the limits allow); not_a_file; not_found, permission, io, exhausted.
+    // Every message begins with the path.
     static Result<GridFile> open(const std::filesystem::path& path,
                                  const GridFileLimits& limits = {});
 
@@ -90,22 +88,23 @@ class GridFile {
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this GridFile lives
     [[nodiscard]] std::uint64_t bytes_on_disk() const;
     [[nodiscard]] std::uint64_t bytes() const;  // of the file, holes included
-    // Returns the checksum of the header, which covers the description and the checksums of all
-    // bricks. So files with other contents have another checksum.
+    // Returns the checksum in the header, which covers the description and the checksums of all
+    // bricks. So files with different contents have different checksums.
     [[nodiscard]] std::uint64_t checksum() const;
-    // Returns a descriptor of the open file, which stays readable if the file is evicted. Errors:
-    // exhausted.
+    // Returns another descriptor of the open file, which can be read even after the file is
+    // evicted. Errors: exhausted.
     [[nodiscard]] Result<Descriptor> duplicate_descriptor() const;
     [[nodiscard]] Packing packing() const;
     // Checks, with one system call, that the file still has the size that it had when it was
-    // opened. Returns truncated or corrupt if another program cut or lengthened it. Reading the
-    // codes of a cut file raises SIGBUS, as with any map, unless the program has the guard of
+    // opened. Errors: truncated or corrupt if another program cut or lengthened it. Reading mapped
+    // codes of a cut file raises SIGBUS, unless the program has installed the guard of
     // cache/map_guard.h. Then the codes read as 0 (not seen), and this function returns truncated
-    // afterward. So also call it after using a view. Our own programs never cut a file.
+    // afterward. So call it after using a view. Our own programs never cut a file.
     [[nodiscard]] Status check_whole() const;
-    // Reads the whole file again, not through the map, so that a cut file is an error here. Checks
-    // that header, table and states have not changed since open(), that every stored brick has its
-    // checksum, minimum, maximum and count, and that the places of absent bricks read as zeros.
+    // Reads the whole file again, but not through the map, so that a cut file gives an error.
+    // Checks that header, table and states have not changed since open(), that every stored brick
+    // has its checksum, minimum, maximum and count, and that the places of absent bricks read as
+    // zeros.
     [[nodiscard]] Status verify() const;
 
   private:

@@ -2,8 +2,8 @@
 //
 // A name is a domain, a moment and a time. Its file is
 // DOMAIN/MOMENT/YYYYMMDD/DOMAIN_MOMENT_YYYYMMDD_HHMMSS_mmm.scg below the cache's directory. A
-// domain is NAME, or NAME.ICAO for the part of one site in the grid of NAME. Budgets count a domain
-// and its parts together, as the group NAME.
+// domain is NAME, or NAME.ICAO for the part of one site in the grid of NAME. A domain and its parts
+// form the group NAME, to which a budget applies.
 //
 // Threads   Pure functions.
 // Errors    None; a text of another form gives none or false.
@@ -29,15 +29,16 @@ struct GridName {
     auto operator<=>(const GridName&) const = default;
 };
 
-// Returns true if a name has the form of a domain: [A-Za-z0-9][A-Za-z0-9_-]{0,63}, with or without
-// a part after it, which is '.' and an ICAO ([A-Z][A-Z0-9]{3}).
+// Returns true if a name has the form of a domain: [A-Za-z0-9][A-Za-z0-9_-]{0,63}, which may be
+// followed by a part, '.' and an ICAO ([A-Z][A-Z0-9]{3}).
 [[nodiscard]] bool is_domain_name(std::string_view name);
 
-// Returns the text before the first '.': "northeast" for "northeast" and for "northeast.KBOX".
+// Returns the text before the first '.', or all of it: "northeast" for "northeast" and for
+// "northeast.KBOX".
 [[nodiscard]] std::string_view group_of(std::string_view domain);
 [[nodiscard]] bool is_part(std::string_view domain);
 
-// Returns true for times from 1970 to 9999, which have a name.
+// Returns true for times from 1970 to 9999, the only ones that can be in a name.
 [[nodiscard]] bool is_possible(UtcTime time);
 inline constexpr UtcTime last_possible_time{
     std::chrono::sys_days{std::chrono::year{10000} / 1 / 1} - std::chrono::milliseconds{1}};

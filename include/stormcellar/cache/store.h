@@ -1,21 +1,22 @@
 // stormcellar/cache/store.h -- the directory of grid files.
 //
-// stormcellar/cache/grid_name.h defines layout and names. The names are the only index, so nothing
-// can disagree with the files. The default domain of a station is its ICAO. A grid that is
-// committed again for the same time replaces the old one; a reader keeps the file that it has open.
-// Symbolic links inside the store are not followed. Files with other names, or in other places, are
-// not ours: they are never listed or changed. Times are from 1970 to 9999.
+// stormcellar/cache/grid_name.h defines layout and names. There is no index besides the names of
+// files. The domain of a station's own grids is its ICAO. A grid that is committed again for the
+// same time replaces the old one; a reader that has the old file open can still read it. Symbolic
+// links inside the store are not followed. Files with other names, or in other places, are never
+// listed or changed. Times are from 1970 to 9999.
 //
 // A store is opened in one of three roles. Each offers everything that the previous one does:
 //   StoreReader   lists grids and gives their paths; it never changes anything
-//   StoreWriter   commits and removes grids; it keeps no budget
-//   RollingStore  the one writer of a cache that keeps its budgets (stormcellar/cache/budget.h), at
-//                 each commit and at each roll()
+//   StoreWriter   commits and removes grids; it does not keep to budgets
+//   RollingStore  the only writer of a cache with budgets (stormcellar/cache/budget.h), which it
+//                 keeps to at each commit and each roll()
 //
 // Units     Sizes are in bytes on disk.
 // Threads   Many threads may use one store. Many processes may read and evict; one process writes.
 //           A StoreReader may be copied, also from a writer; a writer may only be moved.
-// Errors    See each function. In addition io and permission, with the reason of the system.
+// Errors    See each function; also io, permission and others of the file system, with the system's
+//           reason.
 #pragma once
 
 #include <cstdint>
@@ -46,28 +47,27 @@ struct StoreEntry {
     bool pinned = false;
 };
 
-// The space of a file system for the current user. The capacity is the used space plus the space
-// that is free for this user.
+// The space of a file system. The capacity is the used space plus the space that is free for the
+// current user.
 struct Filling {
     std::uint64_t used_bytes = 0, capacity_bytes = 0;
 };
 [[nodiscard]] Result<Filling> filling_of(const std::filesystem::path& directory);
 
-// Questions of a rolling store to its surroundings; tests replace the functions.
+// The functions by which a rolling store asks about its surroundings. Tests replace them.
 struct Surroundings {
     std::function<UtcTime()> now = now_utc;
     std::function<Result<Filling>(const std::filesystem::path&)> filling = filling_of;
-    // Returns true if a group (a domain without its part) is known, as defined in
-    // stormcellar/cache/budget.h. Any thread calls it, often, while the store is locked, so it must
-    // not call the store.
+    // Returns true if a group is known, as defined in stormcellar/cache/budget.h. Any thread may
+    // call it, often and while the store is locked, so it must be fast and must not call the store.
     std::function<bool(std::string_view group)> is_known = is_known_group;
 };
 
 // The work since the previous roll, commits included.
 struct RollReport {
     std::uint64_t evicted = 0, evicted_bytes = 0;
-    // One line for each budget that cannot be kept, file that cannot be removed, and directory that
-    // cannot be read.
+    // One line for each budget that cannot be kept, and for failures to read the cache or to remove
+    // files (only the first few).
     std::vector<std::string> problems;
 };
 
@@ -79,8 +79,8 @@ struct StoreUsage {
     bool operator==(const StoreUsage&) const = default;
 };
 
-// Removes the entries in the future (by is_believed()), unless all are. For callers that show the
-// newest grid. `entries` are sorted by time.
+// Removes the entries in the future (by is_believed()), unless all entries are in the future. For
+// callers that show the newest grid. `entries` must be sorted by time.
 void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now);
 
 class Roller;
@@ -88,26 +88,28 @@ class Roller;
 // The events that a committed grid survives.
 enum class Durability {
     power_cut,
-    // A crash of the process, but not of the system. Readers see the grid whole or not at all, but
-    // after a power cut the file may be damaged, or be the previous one. For grids that are
-    // replaced within seconds and can be made again.
+    // Only a crash of the process. Readers see the grid whole or not at all, but after a power cut
+    // the file may be damaged, missing or the previous one. For grids that are replaced within
+    // seconds and can be made again.
     until_a_crash,
 };
 
 class StoreReader {
   public:
-    // Opens a store. Errors: not_found if the directory does not exist.
+    // Opens a store. Errors: not_found if the directory does not exist, not_a_file if it is not a
+    // directory.
     static Result<StoreReader> open(std::filesystem::path directory);
 
-    // Returns the path of a grid of this name, whether it exists or not. Errors: bad_argument for a
-    // name that no domain can have, and for a time beyond the years 1970 to 9999.
+    // Returns the path of a grid of this name, which need not exist. Errors: bad_argument if
+    // is_domain_name() or is_possible() is false.
     [[nodiscard]] Result<std::filesystem::path> path_of(const std::string& domain,
                                                         level2::Moment moment, UtcTime time) const;
 
-    // Returns the names, sorted. A directory is a domain if it contains the directory of a moment.
+    // Returns the names of the domains, sorted. A directory is a domain if it contains the
+    // directory of a moment.
     [[nodiscard]] Result<std::vector<std::string>> domains() const;
-    // Returns grids sorted by time. `from` and `to` are inclusive; none: open. The result is empty
-    // if nothing matches.
+    // Returns the domain's grids of the moment, sorted by time. `from` and `to` are inclusive;
+    // none: no limit. The result is empty if there are none.
     [[nodiscard]] Result<std::vector<StoreEntry>> list(const std::string& domain,
                                                        level2::Moment moment,
                                                        std::optional<UtcTime> from,
@@ -126,8 +128,8 @@ class StoreReader {
     std::filesystem::path directory_;
 };
 
-// The old name, for programs that read. It will be removed in the next release. Programs that write
-// use the name of their role.
+// The old name of StoreReader, which the next release removes. Programs that write use the name of
+// their role.
 using Store [[deprecated("StoreReader, StoreWriter or RollingStore")]] = StoreReader;
 
 class StoreWriter : public StoreReader {
@@ -142,36 +144,36 @@ class StoreWriter : public StoreReader {
     StoreWriter& operator=(const StoreWriter&) = delete;
     ~StoreWriter();
 
-    // Sets how bricks are stored in the files of later commits: unpacked by default. Call it before
-    // more than one thread calls commit().
+    // Sets the form of bricks in the files of later commits, which are not packed by default. Call
+    // it before more than one thread calls commit().
     void pack_with(Packing packing) { packing_ = packing; }
 
-    // Commits a grid and returns its path. The path is empty if the budgets do not keep the grid
-    // (it is older than the age, the oldest of a full cache, or of others and beyond their share);
-    // then nothing was written. On success the grid and new directories survive a power cut, unless
-    // `durability` asks for less. If the disk is full, the oldest grids are evicted, provided a
-    // budget of bytes or percent is set. Errors: bad_argument as in path_of() and
-    // write_grid_file(); over_budget if there is no room for the newest grid of a known domain or a
-    // pinned one, because the budget is smaller than the grid or the held grids are pinned or
-    // cannot be removed; no_space if the disk stays full (a grid of others is then not kept,
-    // without an error).
+    // Commits a grid and returns its path. Without budgets, the grid is always written. With
+    // budgets, the path is empty and nothing is written if they do not keep the grid: if it is too
+    // old, the oldest of a full cache, or a grid of others beyond their share. On success the grid
+    // and new directories survive a power cut, unless `durability` asks for less. If the disk is
+    // full and Budgets::makes_room(), the oldest grids are evicted. Errors: bad_argument as in
+    // path_of() and write_grid_file(); over_budget if there is no room for a pinned grid or the
+    // newest grid of a domain and moment in a known group, because a limit is smaller than the grid
+    // or the grids in the cache are pinned or cannot be removed; no_space if the disk stays full
+    // (for a grid of others, an empty path is returned instead).
     Result<std::filesystem::path> commit(const std::string& domain,
                                          const GridDescription& description,
                                          const grid::BrickView& view,
                                          Durability durability = Durability::power_cut);
-    // Returns true if the budgets would keep a grid of this time and of average size, or if there
-    // are no budgets. It is for checks before long work; commit() decides.
+    // Returns true if there are no budgets, or if they would keep a grid of this name and of
+    // average size. Use it before long work; commit() decides.
     [[nodiscard]] bool would_keep(const std::string& domain, level2::Moment moment,
                                   UtcTime time) const;
 
-    // Removes a grid for good, for example a damaged one. A reader keeps the file that it has open.
-    // Errors: not_found if it no longer exists.
+    // Removes a grid, for example a damaged one, even if it is pinned. A reader that has the file
+    // open can still read it. Errors: not_found if the grid no longer exists.
     Status remove(const StoreEntry& entry);
 
   protected:
     StoreWriter(FileSystem& file_system, std::filesystem::path directory,
                 std::unique_ptr<Roller> roller);
-    // Only for a RollingStore, which always has a roller.
+    // Returns the roller. Only a RollingStore may call it, because other writers have none.
     [[nodiscard]] Roller& roller() { return *roller_; }
     [[nodiscard]] const Roller& roller() const { return *roller_; }
 
@@ -189,21 +191,22 @@ class StoreWriter : public StoreReader {
 
     FileSystem* file_system_;
     Packing packing_ = Packing::none;
-    std::unique_ptr<DurableDirectories> durable_;  // directories whose names are surely on disk
-    std::unique_ptr<Roller> roller_;               // null: keeps no budget
+    std::unique_ptr<DurableDirectories> durable_;  // directories whose parents were synced
+    std::unique_ptr<Roller> roller_;               // null: no budgets
 };
 
-// Call roll() every few seconds: only roll() checks how full the file system is, the ages, and what
-// other programs changed in the cache.
+// A writer that keeps to budgets. Call roll() every few seconds, because only roll() checks the age
+// of grids, how full the file system is, and changes by other programs.
 class RollingStore : public StoreWriter {
   public:
-    // Opens a cache: removes the leftovers of a killed writer, counts the grids, and keeps the
-    // budgets from then on. Errors: busy if another process has opened the cache as a RollingStore.
+    // Opens a cache. Creates the directory if it is missing, removes the leftovers of a killed
+    // writer, counts the grids, and evicts grids that exceed the budgets. Errors: busy if the cache
+    // is already open as a RollingStore.
     static Result<RollingStore> open(FileSystem& file_system, std::filesystem::path directory,
                                      Budgets budgets, Surroundings surroundings = {});
 
     // Evicts the grids that exceed the budgets. Calls `step` after each directory that is read and
-    // each batch of removed files, so that the caller can see progress.
+    // before each batch of removals, so that the caller can see progress.
     RollReport roll(const std::function<void()>& step = {});
     void set_budgets(Budgets budgets);  // applies from the next commit or roll on
     [[nodiscard]] StoreUsage usage() const;
