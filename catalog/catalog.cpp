@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_left_alone_named = 5;
 
-// Checks the station of a user's query. A name in lower case is not converted, so it finds nothing.
+// Checks the station of a user's query. A name in lower case is an error.
 Status check_asked_for(std::string_view station) {
     if (station.empty() || is_icao(station)) return {};
     return fail(ErrorCode::bad_argument,
@@ -72,8 +72,8 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     const bool created = fs::create_directories(directory, error);
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
     if (created) {
-        // state/catalog, usually with its parent. SQLite syncs this directory, but not its entry in
-        // the parent.
+        // Sync the new directory's entry in its parent, and usually the parent's entry. SQLite
+        // syncs only the directory itself.
         const fs::path parent = fs::absolute(directory).lexically_normal().parent_path();
         for (const fs::path& above : {parent, parent.parent_path()}) {
             if (Status synced = real_file_system().sync_directory(above); !synced) {
@@ -83,7 +83,7 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     }
     if (!options.drop.empty()) {
         Status written = write_drop_directory(directory, options.drop);
-        // If the disk is full, readers work without it.
+        // Readers can work without this file if the disk is full.
         if (!written && written.error().code != ErrorCode::no_space) return pass_on(written);
     }
     if (options.stations) {
@@ -104,9 +104,9 @@ Result<CatalogReader> CatalogReader::open(fs::path directory, std::size_t most_o
     return CatalogReader(std::make_unique<Impl>(std::move(directory), std::move(options), false));
 }
 
-// Deletes other databases' rows of the path, after it was written into the database of this name. A
-// database that is known to have a row must allow its deletion. If one may have a row but cannot be
-// read, the trouble belongs to its own station.
+// Deletes the rows of the path in other databases, after the row in the database `name` was
+// written. Fails if a row that is known to exist cannot be deleted, but not if a database that may
+// have a row cannot be read.
 Status CatalogWriter::forget_elsewhere(const fs::path& path, const std::string& name) {
     const auto home = impl().homes.exchange(path, name);
     if (home && (home->empty() || *home == name)) return {};
@@ -138,14 +138,14 @@ Status CatalogWriter::note_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!noted) {
-        // A file whose name gives no station may belong to any, so it does not wait for this
-        // database.
+        // A file without a station in its name may belong to any station, so it need not wait for
+        // this database.
         const bool is_other_trouble =
             name == unknown_station && noted.error().code != ErrorCode::no_space;
         return is_other_trouble ? Status{} : pass_on(noted);
     }
     if (*noted == Registered::left_out || impl().homes.set_if_free(facts.path, name)) return {};
-    // A thread that has read the file may have registered it in the right database meanwhile.
+    // Meanwhile, another thread has read the file and registered it in another database.
     const auto forgotten = impl().with(name, false, [&](StationDatabase& database) {
         database.forget(facts.path);
         return true;
@@ -215,7 +215,8 @@ Result<std::optional<bool>> CatalogReader::find_settled(const fs::path& path,
     const auto home = impl().homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
     const std::string guess = home.value_or(std::string{impl().home_of(path.native())});
-    // A name without a station is not a reason to open the database of unknown stations.
+    // If the name has no station, trouble of the database of unknown stations must not concern the
+    // file.
     const bool is_its_own = home || guess != unknown_station;
     auto guessed = is_its_own ? impl().with(guess, false, ask) : impl().with_neighbor(guess, ask);
     if (guessed && guessed->has_value()) return guessed;
@@ -298,7 +299,7 @@ Status CatalogWriter::examine(std::string_view station) {
         return station_of(each) == station;
     });
     if (name == names->end()) return {};
-    // Only a writer can complete what a crash interrupted.
+    // Let the writer complete a write or a repair that a crash interrupted.
     const auto opened = impl().with(*name, false, [](StationDatabase&) { return true; });
     if (!opened) return pass_on(opened);
     const fs::path path = impl().path_of(*name);
@@ -344,7 +345,7 @@ Result<std::vector<StationSummary>> CatalogReader::stations() const {
     return summaries;
 }
 
-// Runs a user's query on the database of that station.
+// Runs a user's query on the database of a station.
 template <class Work>
 auto CatalogReader::ask(std::string_view station, Work work) const {
     using Answer = decltype(impl().with(std::string{}, false, work));

@@ -11,15 +11,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The largest number of a database's rows that are searched for strays while a new file waits; this
-// takes some milliseconds. mark_missing() searches larger databases.
+// A database with at most this many rows is searched for strays while a new file waits, which takes
+// some milliseconds. mark_missing() searches larger databases.
 constexpr std::int64_t most_looked_through = 10'000;
 
 // A database in trouble is not tried again within this time for other stations.
 constexpr std::chrono::seconds between_tries{10};
 
-// If a try took longer than this, it is not repeated within the time above for its own station,
-// either.
+// If a try took longer than this, the database is not tried again within that time for its own
+// station, either.
 constexpr std::chrono::seconds longest_try{1};
 
 // The number of databases closed when descriptors run out. It leaves descriptors to open one
@@ -60,8 +60,8 @@ bool CatalogReader::Impl::knows(std::string_view station) const {
 
 Status CatalogReader::Impl::open(Slot& place, const std::string& name, bool create) {
     const fs::path path = path_of(name);
-    // Check this even if the database was closed to make room: rows that are lost with a deleted
-    // file must be made again.
+    // Check this even if the database was closed to make room, because rows that were lost with a
+    // deleted database must be made again.
     if (place.file != FileIdentity{} && place.file != FileIdentity::of(path)) {
         databases.close(place);  // readers would not see writes to the old file
         place.file = {};

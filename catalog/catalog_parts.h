@@ -1,7 +1,7 @@
-// catalog/catalog_parts.h -- the parts of a Catalog: its databases, which are opened when needed
-// and repaired when found damaged. Used only inside the catalog room.
+// catalog/catalog_parts.h -- the state of a catalog: its databases, which are opened when needed
+// and repaired when damaged. Used only inside the catalog room.
 //
-// Threads   Those of Catalog; each database is used by one thread at a time.
+// Threads   As CatalogReader; one thread at a time uses each database.
 #pragma once
 
 #include <atomic>
@@ -28,10 +28,11 @@ namespace stormcellar::catalog {
 
 inline constexpr std::string_view database_ending = ".sqlite";
 
-// Returns the station of a database's name; empty for files of unknown stations.
+// Returns the station of a database's name; an empty text for the database of unknown stations.
 [[nodiscard]] std::string station_of(const std::string& name);
 
-// Returns the names of the databases in a directory, sorted, for any stations.
+// Returns the names of all databases in a directory, sorted, whether or not their stations are
+// known.
 [[nodiscard]] Result<std::vector<std::string>> database_names(
     const std::filesystem::path& directory);
 
@@ -55,9 +56,10 @@ struct CatalogReader::Impl {
         return directory / (name + std::string{database_ending});
     }
 
-    // Returns true if a station may have a database of its own.
+    // Returns true if the rule lets a station have a database of its own.
     [[nodiscard]] bool knows(std::string_view station) const;
-    // Returns the database with the station's rows. No unchecked text becomes a file name.
+    // Returns the name of the database with the station's rows. Names that knows() has not accepted
+    // never become names of files.
     [[nodiscard]] std::string name_for(std::string_view station) const {
         return std::string{knows(station) ? station : unknown_station};
     }
@@ -65,12 +67,13 @@ struct CatalogReader::Impl {
         return guessed_home(path, options.stations.get());
     }
 
-    // The result of work on a database.
+    // The result of `work` on a database.
     template <class Work>
     using Done = Result<std::invoke_result_t<Work&, StationDatabase&>>;
-    // Runs `work` on the database of that name, which is opened if necessary and repaired if it is
-    // damaged. A missing database is created if the call writes and `create` is set; else
-    // not_found. An error is a trouble of that station until a later call succeeds.
+    // Runs `work` on the database of this name, which is opened if necessary and, by a writer,
+    // repaired if it is damaged. A writer creates a missing database if `create` is set; otherwise
+    // the error is not_found. An error is listed as a trouble of the station until a later call
+    // succeeds.
     template <class Work>
     Done<Work> with(const std::string& name, bool create, Work work) {
         const OpenDatabases::Lease place = databases.lease(name);
@@ -85,8 +88,8 @@ struct CatalogReader::Impl {
         return done;
     }
 
-    // Does the same for another station's sake: a database that was in trouble seconds ago is not
-    // tried again, because a try may take until a failing disk gives up.
+    // Does the same on behalf of another station. Does not try a database that was in trouble
+    // seconds ago, because a try may take until a failing disk gives up.
     template <class Work>
     Done<Work> with_neighbor(const std::string& name, Work work) {
         if (auto recent = recent_trouble(name)) return tl::unexpected<Error>(std::move(*recent));
@@ -104,7 +107,8 @@ struct CatalogReader::Impl {
             if (is_snapshot) databases.close(place);
             return done;
         } catch (const SQLite::Exception& error) {
-            // If SQLite cannot open a file for writing, it opens it for reading, and keeps it so.
+            // If SQLite cannot open a file for writing, it opens the file for reading and never
+            // tries again to write.
             const bool is_stuck = writing && code_of(error) == ErrorCode::permission;
             if (is_snapshot || is_stuck) databases.close(place);
             if (code_of(error) == ErrorCode::io && is_out_of_descriptors())
@@ -115,7 +119,8 @@ struct CatalogReader::Impl {
 
     Status open(Slot& place, const std::string& name, bool create)
         STORMCELLAR_REQUIRES(place.mutex);
-    // Returns true if another attempt may succeed: the damage was set aside, or was only temporary.
+    // Repairs a damaged database. Returns true if another attempt may succeed, because the database
+    // was repaired or is not damaged after all.
     bool mend(Slot& place, const std::string& name) STORMCELLAR_REQUIRES(place.mutex);
 
     void note_repair(Repair repair) {
@@ -124,41 +129,44 @@ struct CatalogReader::Impl {
     }
     [[nodiscard]] std::vector<Trouble> troubles() const;
 
-    // Returns the names of the databases in the directory whose stations are known, sorted.
+    // Returns the names of the databases in the directory whose stations the rule knows, sorted.
     [[nodiscard]] Result<std::vector<std::string>> names();
 
-    // Returns the names of the databases that may have a row of the path. A row outside home_of()
-    // is a stray: its file is named like one station and holds data of another or of none. A writer
-    // sees every write, so it knows the paths of strays (PathFilter) and need not look up a new
+    // Returns the names of the databases that may have a row of the path. A row in another database
+    // than home_of() is a stray: the data of its file are not of the station in its name. A writer
+    // sees every write, so it remembers the paths of strays (PathFilter) and need not look up a new
     // file in every database.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
-    // Searches for strays if that was put off because there are too many rows for a file to wait.
+    // Searches a database for strays if names_that_may_have() did not, because it has too many
+    // rows.
     void look_for_strays(StationDatabase& database, const std::string& name);
-    // Called before the row is written, with the slot's mutex held.
+    // Notes that the database gets a row of the path. Call it before the row is written, with the
+    // slot's mutex held.
     void expect_row(const std::filesystem::path& path, const std::string& name);
 
   private:
     [[nodiscard]] Result<std::unique_ptr<StationDatabase>> open_database(const std::string& name);
-    // Returns true if a database may have a stray row of the path. `is_likely` says that the path
-    // is one of the known strays.
+    // Returns true if a database may have a stray row of the path. Set `is_likely` if strays_ may
+    // have the path.
     [[nodiscard]] bool may_have_stray(const std::string& name, bool is_likely);
-    // Adds the paths of the database's strays to strays_. Returns none if it has too many rows,
-    // which are then not read.
+    // Adds the paths of the database's strays to strays_. Returns none, and reads nothing, if the
+    // database may have more than `most_rows` rows.
     [[nodiscard]] std::optional<Strays> find_strays(StationDatabase& database,
                                                     const std::string& name,
                                                     std::int64_t most_rows);
     void look_for_admitted_stations() STORMCELLAR_REQUIRES(listed_mutex_);
-    // Records a trouble, or without an error that it is over.
+    // Records a trouble or, without an error, the end of a trouble.
     void note_outcome(const std::string& name, const Error* error,
                       std::chrono::steady_clock::time_point began);
     // Returns the trouble of a database that was tried seconds ago.
     [[nodiscard]] std::optional<Error> recent_trouble(const std::string& name) const;
     // Returns the same trouble, but only if the try took long, for example because another process
-    // has locked the database. Then files of its own station do not try again at once, either,
-    // because other stations would have to wait for the thread.
+    // has locked the database. Then files of the same station do not try again at once, because
+    // other stations would have to wait for their threads.
     [[nodiscard]] std::optional<Error> slow_trouble(const std::string& name) const;
 
+    // A trouble that has not ended.
     struct Standing {
         Error error;
         std::chrono::steady_clock::time_point began, tried;

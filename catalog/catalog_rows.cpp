@@ -1,5 +1,5 @@
-// Regular work of a writer on all rows: it marks those of missing files, and deletes old ones. If
-// one station's database cannot be used, it continues with the others (troubles()).
+// The regular work of a writer on all rows: marking rows of missing files, and deleting old rows.
+// If one station's database cannot be used (troubles()), the work continues with the others.
 #include <algorithm>
 #include <map>
 #include <span>
@@ -76,7 +76,7 @@ Result<int> CatalogWriter::mark_former_members(const fs::path& archive,
     return marked;
 }
 
-// Marks the missing ones among these files of one station.
+// Marks the rows of those paths that are missing, in one station's database.
 Result<int> CatalogWriter::mark_missing_of(const std::string& name, const fs::path& directory,
                                            const std::vector<fs::path>& paths) {
     std::vector<fs::path> gone;
@@ -143,8 +143,8 @@ Result<Rolled> CatalogWriter::roll(const std::function<void()>& step) {
         while (used[name] >= most && shrink(name)) {
         }
     }
-    // Rows of existing files are never deleted. To keep them from displacing the history of other
-    // stations, each station keeps a fair share.
+    // Rows of existing files are never deleted. Each database keeps a fair share, so that these
+    // rows do not displace the history of other stations.
     const std::uint64_t share = impl().options.most_bytes / std::max<std::size_t>(1, names->size());
     while (rolled.used_bytes > impl().options.most_bytes && !used.empty()) {
         const auto largest =

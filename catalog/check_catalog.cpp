@@ -128,7 +128,7 @@ Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view s
 
 namespace {
 
-// Counts its rows, if it is a sound database of this software.
+// Counts the rows of a database. Errors: also corrupt if it is damaged or not of this software.
 Result<ClearedDatabase> count_rows(const fs::path& database) {
     const auto check = check_station(database);
     if (!check) return pass_on(check);

@@ -1,7 +1,7 @@
 // catalog/drop_directory.h -- records the directory into which raw files are dropped, for readers
 // of the catalog. Used only inside the catalog room.
 //
-// CATALOG/drop-directory holds the absolute path and a newline. The file appears whole.
+// CATALOG/drop-directory holds the absolute path and a newline. It is replaced in one step.
 //
 // Threads   Functions without state.
 #pragma once

@@ -37,7 +37,7 @@ void OpenDatabases::give_back(Slot& slot) {
 }
 
 void OpenDatabases::drop_if_empty(Slot& slot) {
-    // A thread with a lease may be writing what the slot holds; without leases the mutex is free.
+    // Without leases the mutex is free. With leases, a thread may be changing the slot.
     if (slot.leases_ > 0 || slot.is_counted_ || !slot.mutex.try_lock()) return;
     const bool remembers = slot.file != FileIdentity{} || slot.strays != Strays::unknown;
     slot.mutex.unlock();
@@ -72,8 +72,9 @@ std::size_t OpenDatabases::close_idle(std::size_t count) {
     return closed;
 }
 
-// A checkpoint takes milliseconds, so the mutex of all databases is not held meanwhile. A thread
-// that wants this database waits for its slot's mutex and opens it again.
+// Closes the least recently used database that has no lease. Does not hold `mutex_` meanwhile,
+// because a checkpoint takes milliseconds. A thread that wants this database waits for its slot's
+// mutex and opens it again.
 bool OpenDatabases::close_one_idle() {
     Slot* victim = nullptr;
     {

@@ -1,13 +1,13 @@
 // catalog/open_databases.h -- the open databases of a catalog, a limited set that closes the least
 // recently used one first. Used only inside the catalog room.
 //
-// An open database takes three descriptors (itself, its WAL and the WAL's index). Whoever uses a
-// database holds a lease and its slot's mutex. Only a database without a lease is closed to make
-// room, so none is closed while it is in use. If all are leased, the bound is exceeded by as many
-// as threads work at once.
+// An open database takes three descriptors (itself, its WAL and the WAL's index). A thread that
+// uses a database holds a lease and its slot's mutex. Only databases without a lease are closed to
+// make room. If all are leased, the limit is exceeded, by at most one database for each working
+// thread.
 //
-// What a slot remembers about a closed database takes some 200 bytes. A slot that remembers nothing
-// is dropped with its last lease, so that asking for names leaves nothing behind.
+// The slot of a closed database takes some 200 bytes. A slot without information is dropped with
+// its last lease, so that requests for databases that do not exist leave nothing behind.
 //
 // Cost      A lease takes 0.1 microseconds. Closing a database that was written makes a checkpoint
 //           of its WAL, which is synced: 0.4 ms. Opening it again takes 0.5 ms (medians of 200,
@@ -32,7 +32,7 @@
 
 namespace stormcellar::catalog {
 
-// Distinguishes the files that a path has named.
+// Tells two files apart that had the same path.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;
@@ -41,19 +41,19 @@ struct FileIdentity {
     static FileIdentity of(const std::filesystem::path& path);
 };
 
-// True if a database has a row of a path whose guessed_home() is another database.
+// Strays of a database: rows of paths whose guessed_home() is another database.
 enum class Strays : std::uint8_t {
     unknown,
     none,
     some,
-    too_many_rows,  // too many to search while a file waits; mark_missing() does it
+    too_many_rows,  // not searched, because a file would wait for long; mark_missing() does it
 };
 
 // The place of one database.
 struct Slot {
     Mutex mutex;
     std::unique_ptr<StationDatabase> database STORMCELLAR_GUARDED_BY(mutex);
-    // The file that was opened last; none: not yet.
+    // The file that was opened last; zeros: none yet.
     FileIdentity file STORMCELLAR_GUARDED_BY(mutex);
     std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
 
@@ -70,7 +70,7 @@ class OpenDatabases {
   public:
     explicit OpenDatabases(std::size_t most_open) : most_open_(most_open) {}
 
-    // Keeps a slot, and its database open if it is, as long as this object lives.
+    // Keeps a slot while this object lives. Others do not close its database to make room.
     class Lease {
       public:
         Lease(OpenDatabases& all, Slot& slot) : all_(all), slot_(slot) {}
@@ -84,13 +84,14 @@ class OpenDatabases {
         OpenDatabases& all_;
         Slot& slot_;
     };
-    // Makes the slot the most recently used one.
+    // Leases the slot of a database, which becomes the most recently used one.
     [[nodiscard]] Lease lease(const std::string& name);
 
-    // Closes the least recently used databases, as far as the bound requires. Call it with a lease
-    // and the slot's mutex before the slot's database is opened.
+    // Counts the slot's database as open, and closes the least recently used databases beyond the
+    // limit. Call it with a lease and the slot's mutex, before the slot's database is opened.
     void make_room(Slot& slot) STORMCELLAR_REQUIRES(slot.mutex);
-    // Closes the slot's database, or undoes make_room(). Call it with a lease and the slot's mutex.
+    // Closes the slot's database, or undoes make_room() if it was not opened. Call it with a lease
+    // and the slot's mutex.
     void close(Slot& slot) STORMCELLAR_REQUIRES(slot.mutex);
     // Closes up to `count` databases without a lease, the least recently used first, and returns
     // how many were closed.
@@ -110,9 +111,9 @@ class OpenDatabases {
     std::list<Slot*> open_ STORMCELLAR_GUARDED_BY(mutex_);  // the most recently used first
 };
 
-// Returns true if this process can open no further database at the moment.
+// Returns true if this process has too few free descriptors to open a database.
 [[nodiscard]] bool is_out_of_descriptors();
-// Returns the error for that case: nobody is at fault, and another try may succeed.
+// Returns the error `exhausted` for that case, after which another try may succeed.
 [[nodiscard]] tl::unexpected<Error> no_descriptor(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

@@ -1,8 +1,9 @@
-// catalog/path_filter.h -- remembers which paths were added, in a fixed amount of memory. Used only
-// inside the catalog room.
+// catalog/path_filter.h -- remembers a set of paths in a fixed amount of memory. Used only inside
+// the catalog room.
 //
-// It is a Bloom filter of 2 MiB. An added path is always found. After a million additions, one in
-// 500 other paths is found too; after four million, one in 7. Nothing is ever removed.
+// A PathFilter is a Bloom filter of 2 MiB. It always finds a path that was added. After a million
+// additions, it also finds one in 500 other paths; after four million, one in 7. Nothing is ever
+// removed.
 //
 // Threads   Any thread.
 #pragma once
@@ -35,7 +36,7 @@ class PathFilter {
   private:
     static constexpr std::size_t word_bits = 64, all_bits = std::size_t{1} << 24U;
 
-    // Two halves of a hash give all four bits, by Kirsch and Mitzenmacher (2006).
+    // Derives four bits from the two halves of one hash, by Kirsch and Mitzenmacher (2006).
     static std::array<std::size_t, 4> bits_of(std::string_view path) {
         const std::uint64_t hash = xxh3_64(std::as_bytes(std::span{path}));
         const std::uint64_t step = hash >> 32U | 1U;

@@ -1,8 +1,9 @@
-// catalog/path_homes.h -- guesses which database has the row of a path and, for the paths that were
-// looked up last, remembers which one has it.
+// catalog/path_homes.h -- guesses which database has the row of a path, and remembers the database
+// for the paths that were used last.
 //
 // Each path is needed several times and should be looked up once. Two paths with the same 64-bit
-// hash would be confused: among 65,536 the odds are 1 in 9 billion. Used only by Catalog.
+// hash would be confused; among 65,536 paths the probability is 1 in 9 billion. Used only inside
+// the catalog room.
 //
 // Threads   Any thread.
 #pragma once
@@ -23,20 +24,21 @@
 
 namespace stormcellar::catalog {
 
-// Name of the database for files of unknown stations.
+// The name of the database for files of unknown stations.
 inline constexpr std::string_view unknown_station = "_unknown";
 
-// Returns the station to which a path seems to belong: by its name, by that of its directory
-// (KTLX/FILE) or of the one above (KTLX/123/CHUNK); else unknown_station. If a rule is given, names
-// that it does not know do not count, so that names of files alone create nothing. The view refers
-// to the bytes of the path or to unknown_station.
+// Returns the station with which the file's name begins, or else the name of its directory
+// (KTLX/FILE) or of the directory above (KTLX/123/CHUNK) if it is a station's name, or else
+// unknown_station. With a rule, only stations that it knows count, so that names of files create no
+// databases. The view refers to the bytes of the path or to unknown_station.
 [[nodiscard]] std::string_view guessed_home(std::string_view path,
                                             const StationRule* rule = nullptr);
 
 class PathHomes {
   public:
-    // Notes that from now on only this database has the path. Returns the earlier database, which
-    // the caller must handle. Call it after the row was written there.
+    // Notes that this database has the path. Call it after the row was written there. Returns the
+    // database that was noted before, in which the caller must delete the row; an empty text if no
+    // database had the path; none if that was unknown.
     std::optional<std::string> exchange(const std::filesystem::path& path,
                                         const std::string& name) {
         const MutexLock lock(mutex_);
@@ -46,7 +48,8 @@ class PathHomes {
         add(key_of(path), name);
         return before;
     }
-    // Does the same if no other database is known to have the path; else returns false.
+    // Notes that this database has the path, unless another one is known to have it. Returns false
+    // in that case.
     [[nodiscard]] bool set_if_free(const std::filesystem::path& path, const std::string& name) {
         const MutexLock lock(mutex_);
         const std::string* known = find(key_of(path));
@@ -59,13 +62,13 @@ class PathHomes {
         young_.erase(key_of(path));
         old_.erase(key_of(path));
     }
-    // Notes that no database had the path when all were asked. A database noted in the meantime
-    // takes precedence.
+    // Notes that no database has the path, unless a database was noted in the meantime.
     void set_none(const std::filesystem::path& path) {
         const MutexLock lock(mutex_);
         if (find(key_of(path)) == nullptr) add(key_of(path), {});
     }
-    // Returns an empty text if no database has the path; none if unknown.
+    // Returns the database that has the path; an empty text if no database has it; none if that is
+    // unknown.
     [[nodiscard]] std::optional<std::string> of(const std::filesystem::path& path) const {
         const MutexLock lock(mutex_);
         const std::string* name = find(key_of(path));

@@ -8,7 +8,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// Returns the entry of a file name; the newest one if several directories have it.
+// Returns the newest entry of a file with this name, in any directory.
 Result<CatalogEntry> entry_of(const CatalogReader& catalog, const std::string& station,
                               const std::string& name) {
     auto entries = catalog.list(station, Query{});

@@ -93,8 +93,8 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     if (Status sized = check_size(entry, static_cast<std::uint64_t>(facts.st_size)); !sized) {
         return pass_on(sized);
     }
-    // The check for links misses a hard link to a file that only the reader may read; only a hash
-    // can tell it apart.
+    // Only a hash can reveal a hard link to a file that only the reader may read. Without a hash,
+    // refuse every file with several names.
     if (!has_final_hash(entry) && facts.st_nlink > 1) {
         return fail(ErrorCode::corrupt,
                     "{}: may not be the file that was cataloged: it was still growing then and now "

@@ -84,8 +84,8 @@ bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
-// Returns the first free name. Without the ending .sqlite, the file is not a database of the
-// catalog.
+// Returns the first free name for a damaged database. It does not end in .sqlite, so the file no
+// longer counts as a database of the catalog.
 fs::path name_aside(const fs::path& path) {
     const std::string stem = path.native() + ".damaged-" + format_compact(now_utc());
     fs::path name = stem;
@@ -94,8 +94,8 @@ fs::path name_aside(const fs::path& path) {
     return name;
 }
 
-// Returns the path of the new database until it replaces the damaged one. It is complete once the
-// damaged one is gone.
+// Returns the path of the new database until it replaces the damaged one. If there is no damaged
+// database any more, the new one is complete.
 fs::path mending_of(const fs::path& path) {
     return path.native() + ".mending";
 }
@@ -120,7 +120,7 @@ Result<Examination> examine_database(const fs::path& path) {
 
 namespace {
 
-// Makes a database with the rows of files that are gone, at the path mending_of().
+// Makes the new database, with the rows of files that are gone, at mending_of(path).
 Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
     const fs::path mending = mending_of(path);
     for (const char* ending : {"", "-wal", "-shm"}) {  // remove leftovers of an interrupted repair
@@ -168,8 +168,8 @@ Status adopt_mended_database(const fs::path& path) {
     return disk.sync_directory(path.parent_path());
 }
 
-// Repairs a database. The new one is made first, so at any instant either the damaged or the
-// complete new one exists.
+// Makes the new database first, so that either the damaged or the complete new database exists at
+// any instant.
 Result<Repair> repair_database(const fs::path& path, const std::string& station,
                                const std::string& damage) {
     Repair repair;

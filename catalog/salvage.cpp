@@ -12,7 +12,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// A page of file rows holds some 30 rows. This many numbers in a row without a row end the search.
+// The search ends after this many successive numbers without a row. A page holds some 30 file rows.
 constexpr std::int64_t longest_gap = 20'000;
 
 constexpr const char* file_columns =
@@ -24,8 +24,7 @@ struct Row {
     SalvagedFile file;
 };
 
-// Returns none for a row whose content cannot be valid, because damage need not make a row
-// unreadable.
+// Returns none for a row with impossible contents, because a damaged row may still be readable.
 std::optional<Row> row_of(SQLite::Statement& rows) {
     Row row;
     FileFacts& facts = row.file.facts;
@@ -89,8 +88,8 @@ class Reader {
         }
     }
 
-    // Tries each number between two rows; without an end, until nothing was found for a long
-    // stretch.
+    // Tries each number between `low` and `end`. Without an end, stops after `longest_gap` numbers
+    // without a row.
     void probe(std::int64_t low, std::optional<std::int64_t> end) {
         std::int64_t found_at = low;
         for (std::int64_t id = low + 1; end ? id < *end : id <= found_at + longest_gap; ++id) {

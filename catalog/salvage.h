@@ -1,8 +1,9 @@
-// catalog/salvage.h -- reads the readable rows of a damaged database; used only by repair.h.
+// catalog/salvage.h -- reads the readable rows of a damaged database. Used only inside the catalog
+// room.
 //
-// It reads whatever SQLite can reach: rows before the damage, rows after it, and those in between
-// one by one. Rows on a damaged page are lost. The gaps in the numbers of file rows give an upper
-// bound of the loss; rows that had moved to another station leave gaps, too.
+// It reads the rows before and after the damage, and tries each row in between separately. Rows on
+// a damaged page are lost. The gaps in the numbers of file rows give an upper bound of the loss,
+// because rows that were moved to another station leave gaps, too.
 //
 // Threads   Functions without state. Nothing may write the database meanwhile.
 #pragma once
@@ -20,7 +21,7 @@ struct SalvagedVolume {
     int generation = 0;
 };
 
-// A row of the table `file` that makes sense, unchanged.
+// A plausible row of the table `file`, unchanged.
 struct SalvagedFile {
     FileFacts facts;  // without the volumes
     UtcTime registered_time;

@@ -35,7 +35,7 @@ LentStatement StationDatabase::prepared(const char* sql) {
 std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t content_hash,
                                            const VolumeFacts& facts) {
     const std::int64_t start = *milliseconds(facts.start_time);
-    // A volume is the same if it is in a file with the same content.
+    // A volume is the same if another file with the same contents holds it.
     LentStatement same = prepared(
         "SELECT v.id FROM volume v JOIN part p ON p.volume_id = v.id "
         "JOIN file f ON f.id = p.file_id "
@@ -80,9 +80,9 @@ void StationDatabase::insert_part(std::int64_t file_id, int ordinal, std::int64_
     part->exec();
 }
 
-// Chooses whether writes survive a power cut. Those of settled files do, because the file itself
-// may be gone later. But a sync takes milliseconds, and a growing file is registered with every
-// chunk.
+// Sets if later writes survive a power cut. Rows of settled files must survive, because the files
+// may be gone later. But a sync takes milliseconds, too long for a growing file, which is
+// registered with every chunk.
 void StationDatabase::set_durable(bool durable) {
     if (durable == is_durable_) return;
     database_.exec(durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");

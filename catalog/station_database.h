@@ -1,8 +1,8 @@
-// catalog/station_database.h -- one station's SQLite database. Used only by Catalog.
+// catalog/station_database.h -- one station's SQLite database. Used only inside the catalog room.
 //
-// Methods throw SQLite::Exception, which Catalog turns into errors.
+// Methods throw SQLite::Exception, which CatalogReader::Impl turns into errors.
 //
-// Threads   One thread at a time; Catalog holds a mutex for each database.
+// Threads   One thread at a time; each database has a mutex (catalog/open_databases.h).
 #pragma once
 
 #include <filesystem>
@@ -22,11 +22,11 @@
 
 namespace stormcellar::catalog {
 
-// Returns the error code of an SQLite failure. Every statement of this room is valid for a sound
-// database and violates no constraint, so a statement that fails this way was run on a damaged one.
+// Returns the error code of an SQLite failure. A statement that is invalid or violates a constraint
+// means `corrupt`, because all statements of this room succeed on a sound database.
 [[nodiscard]] ErrorCode code_of(const SQLite::Exception& error);
 
-// A prepared statement on loan. After its return it holds no lock and no values.
+// A prepared statement on loan. The destructor resets it, so that it holds no lock and no values.
 class LentStatement {
   public:
     explicit LentStatement(SQLite::Statement& statement) : statement_(statement) {}
@@ -58,12 +58,12 @@ class StationDatabase {
     static Result<std::unique_ptr<SQLite::Database>> open_connection(
         const std::filesystem::path& path);
 
-    // Returns true if this object does not see later writes, because it was opened as a file
-    // without a writer, or before its writer had made the tables.
+    // Returns true if this object does not see later writes, because no process had the database
+    // open for writing, or its writer had not yet made the tables.
     [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
 
-    // Sets a limit: from now on a new row is written only while the database takes less, or if
-    // deleting rows of files that are gone makes room.
+    // Sets a limit: a new row is only written while used_bytes() is less, or if deleting rows of
+    // files that are gone makes room.
     void set_most_bytes(std::uint64_t most_bytes) { most_bytes_ = most_bytes; }
     // Returns the bytes that rows and indices take, without free pages.
     std::uint64_t used_bytes();
@@ -71,15 +71,16 @@ class StationDatabase {
     Registered register_file(const FileFacts& facts);
     // Registers all files in one transaction. Returns the paths for which there was no room.
     std::vector<std::filesystem::path> register_files(const std::vector<FileFacts>& files);
-    // Inserts rows of files that are gone, unchanged except for their state, in one transaction.
-    // For a new database.
+    // Inserts the rows into a new database in one transaction, unchanged except that their state
+    // becomes `gone`.
     void restore_gone(const std::vector<SalvagedFile>& files);
-    // Marks these files as gone in one transaction. Returns how many rows were marked.
+    // Marks the rows of these files as gone in one transaction. Returns how many rows were marked.
     int mark_gone(const std::vector<std::filesystem::path>& paths);
     // Makes settled archives count as changed from now on.
     void read_archives_again();
-    // Returns the rows that are not gone and have a number above `after`, at most `most` at once,
-    // because a database may hold more paths than fit into memory.
+    // Reads at most `most` rows that are not gone, with numbers above `after`, and returns their
+    // paths that are below the directory. Rows are read in portions because a database may hold
+    // more paths than fit into memory.
     struct Paths {
         std::vector<std::filesystem::path> paths;
         std::int64_t last = 0;  // the number of the last row read
@@ -88,17 +89,19 @@ class StationDatabase {
     Paths paths_below(const std::filesystem::path& directory, std::int64_t after,
                       std::int64_t most);
     void forget(const std::filesystem::path& path);
-    // Returns the row numbers of files that are gone and were last registered before that time.
+    // Returns the numbers of rows that are gone and were made before `before`.
     std::vector<std::int64_t> gone_before(UtcTime before);
-    // Deletes those of these rows that still meet the condition, in one transaction. Returns how
-    // many.
+    // Deletes the rows among `rows` that still meet that condition, in one transaction. Returns how
+    // many were deleted.
     int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
-    // Deletes the oldest rows of files that are gone in one transaction. Returns how many.
+    // Deletes the oldest rows of files that are gone, at most `most`, in one transaction. Returns
+    // how many were deleted.
     std::int64_t forget_oldest_gone(std::int64_t most);
-    // Passes the paths of all rows, in any state, to `look`. Returns false, without reading any, if
+    // Calls `look` with the paths of all rows, in any state. Returns false, without reading any, if
     // there may be more than `most` rows.
     bool look_at_paths(const std::function<void(std::string_view)>& look, std::int64_t most);
-    // Returns none if the path has no row.
+    // Returns true if the path is settled with this size and modification time; none if it has no
+    // row.
     std::optional<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                                    std::int64_t modified_ns);
 
@@ -112,17 +115,17 @@ class StationDatabase {
 
   private:
     StationDatabase(const std::string& uri, int flags, std::string station);
-    // Returns what a reader sees of a database whose tables do not exist yet.
+    // Returns an empty database, for a reader of a database whose tables do not exist yet.
     static std::unique_ptr<StationDatabase> empty_snapshot(const std::string& station);
 
-    // Returns the statement for the text, which must live as long as the program.
+    // Returns the prepared statement of `sql`, which must live as long as the program.
     LentStatement prepared(const char* sql);
     void set_durable(bool durable);
     Registered register_row(const FileFacts& facts);
     // Returns true if a new row may be written. Call it inside a transaction.
     bool make_room();
     std::int64_t delete_oldest_gone(std::int64_t most);
-    // Returns the id of the file's row; is_same is set if the row already has these facts.
+    // Returns the id of the file's row, and sets `is_same` if the row already has these facts.
     std::optional<std::int64_t> find_file(const FileFacts& facts, bool& is_same);
     bool has_these_volumes(std::int64_t file_id, const std::vector<VolumeFacts>& volumes);
     std::int64_t write_file(const FileFacts& facts);
@@ -140,7 +143,7 @@ class StationDatabase {
     bool is_snapshot_ = false;
     bool is_durable_ = true;  // applies to the next transaction that may write
     std::uint64_t most_bytes_ = CatalogOptions::no_limit;
-    bool may_have_gone_ = true;  // false: there are no rows of files that are gone
+    bool may_have_gone_ = true;  // false: no rows are gone
 };
 
 }  // namespace stormcellar::catalog

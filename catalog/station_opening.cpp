@@ -1,4 +1,5 @@
-// Opens, makes and identifies a station's database; station_database.cpp works on its contents.
+// This file opens, creates and identifies a station's database; station_database.cpp works on its
+// contents.
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -18,19 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// how long a statement waits for another process's write
+// The longest time for which a statement waits for another process's write.
 constexpr int busy_timeout_ms = 10'000;
-// Pages of the write-ahead log at which it is transferred to the database; its file is then cut to
+// At this many pages, the write-ahead log is transferred to the database, and its file is cut to
 // this size. A registration writes some five pages.
 constexpr int most_log_pages = 128;
 constexpr int most_log_bytes = 512 << 10;
-// KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200 stations
-// would exceed all other memory. The kernel's cache holds the rest.
+// The KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200
+// stations would exceed all other memory, and the kernel caches the files anyway.
 constexpr int most_cached_kib = 128;
 // The same for a reader, which walks through lists.
 constexpr int most_cached_by_reader_kib = 256;
 
-// Returns a URI in which no character of the path is special; `query` is "" or begins with '?'.
+// Returns a URI of the path, with special characters escaped. `query` is empty or begins with '?'.
 std::string uri_of(const std::filesystem::path& path, std::string_view query) {
     std::string uri = "file:";
     for (const char c : path.native()) {
@@ -48,7 +49,7 @@ std::string uri_of(const std::filesystem::path& path, std::string_view query) {
 }
 
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
-    // If permission is missing, SQLite only says that a file cannot be opened.
+    // SQLite does not tell if a file cannot be opened because permission is missing.
     const bool is_unopened = error.getErrorCode() == SQLITE_CANTOPEN;
     if (is_unopened && ::access(path.c_str(), R_OK) != 0 && errno == EACCES) {
         return fail(ErrorCode::permission, "{}: {}", path.native(),
@@ -57,7 +58,8 @@ tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception
     return fail(code_of(error), "{}: {}", path.native(), error.what());
 }
 
-// Fails for anything but a regular file; SQLite would wait at a FIFO until a program writes to it.
+// Checks that the database and the files beside it are regular or missing. SQLite would wait at a
+// FIFO until a program writes to it.
 Status check_regular(const fs::path& path) {
     for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
         const fs::path file = path.native() + ending;
@@ -70,8 +72,8 @@ Status check_regular(const fs::path& path) {
 
 enum class Contents { none, ours };
 
-// Checks that the database is this software's, of a known version. One without tables is being
-// made.
+// Checks that the database was made by this software, in a known version. A database without tables
+// is still being made.
 Result<Contents> identify(SQLite::Database& database, const fs::path& path) {
     // Read in one snapshot, because another process may be making the tables.
     const SQLite::Transaction snapshot(database, SQLite::TransactionBehavior::DEFERRED);
@@ -100,7 +102,7 @@ Result<Contents> identify(SQLite::Database& database, const fs::path& path) {
     return Contents::ours;
 }
 
-// Switches to WAL. Unlike elsewhere, SQLite does not wait for other processes here.
+// Switches to WAL. Waits for other processes, which SQLite itself does not do for this statement.
 void enter_wal(SQLite::Database& database) {
     const auto limit =
         std::chrono::steady_clock::now() + std::chrono::milliseconds(busy_timeout_ms);
@@ -128,9 +130,9 @@ void migrate(SQLite::Database& database) {
     transaction.commit();
 }
 
-// Opens the database for reading in one of two ways. A reader without write permission cannot make
-// the index of the WAL. While a writer has the database open, the index exists; if there is no WAL,
-// no process writes, and the file alone is complete.
+// Opens the database for reading in one of two ways, because a reader without write permission
+// cannot make the index of the WAL. While a writer has the database open, the index exists. If
+// there is no WAL, no process writes, and the file alone is complete.
 template <class Open>
 auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{})) {
     if (Status regular = check_regular(path); !regular) return pass_on(regular);

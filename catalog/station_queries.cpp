@@ -1,4 +1,4 @@
-// Lists and counts the volumes of one station's database.
+// This file lists and counts the volumes in one station's database.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -12,19 +12,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Largest number of entries in a stretch, whatever the caller asks for.
+// The largest number of entries that a query with a limit returns.
 constexpr std::size_t most_listed = 1'000'000;
 
 constexpr const char* entry_columns =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, v.start_ms, v.end_ms, "
     "v.number, v.vcp, v.sweep_count, v.radial_count, v.complete, v.generation, f.modified_ns, "
     "f.content_hash, p.ordinal ";
-// CROSS JOIN fixes the order of the tables, so that the index of volumes finds the rows, gives
-// their order, and a query with a limit stops there. Left to itself, SQLite may read a whole table.
+// CROSS JOIN fixes the order of the tables, so that SQLite reads volumes in the order of their
+// index and stops at the limit of a query. Otherwise it may read a whole table.
 constexpr const char* entry_join =
     "FROM volume v CROSS JOIN part p ON p.volume_id = v.id CROSS JOIN file f ON f.id = p.file_id ";
-// True for paths that are not members of an archive: they have no member_mark, or nothing behind
-// it.
+// This SQL is true for paths that are not of members of an archive: they have no member_mark, or
+// nothing behind it.
 constexpr const char* is_no_member = "instr(f.path, x'21') IN (0, length(f.path)) ";
 constexpr const char* columns_without_volume =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, NULL, 0, "
@@ -114,7 +114,7 @@ std::optional<CatalogEntry> StationDatabase::first(bool latest) {
     static const std::string ascending = text("ORDER BY v.start_ms, v.generation, f.path");
     static const std::string descending =
         text("ORDER BY v.start_ms DESC, v.generation DESC, f.path DESC");
-    // A volume that claims to be from the future is the latest only if there is no other.
+    // A volume from the future is the latest one only if all volumes are from the future.
     for (const UtcTime until : {now_utc() + tolerated_future, UtcTime::max()}) {
         LentStatement rows = prepared((latest ? descending : ascending).c_str());
         rows->bind(1, milliseconds(until).value());
@@ -156,7 +156,8 @@ std::optional<UtcTime> StationDatabase::oldest_kept() {
         }
         if (tried < most_tried) return std::nullopt;
     }
-    // Owners who delete old files keep few, so read the table of files and look up their volumes.
+    // Most files were deleted, so read the table of files and look up the volumes of the few that
+    // are left.
     static const std::string of_all =
         "SELECT min(v.start_ms) FROM file f CROSS JOIN part p ON p.file_id = f.id "
         "CROSS JOIN volume v ON v.id = p.volume_id WHERE " +
@@ -170,8 +171,8 @@ std::vector<CatalogEntry> StationDatabase::files_with_prefix(std::string_view pr
                                                              std::size_t most) {
     static const std::string text = std::string{columns_without_volume} +
                                     "WHERE f.path >= ? AND f.path < ? ORDER BY f.path LIMIT ?";
-    // The bound above all paths with the prefix: UTF-8 never contains the byte 0xFF, and a name
-    // with this byte right behind the prefix is not a chunk's.
+    // All wanted paths are less than this: UTF-8 never contains the byte 0xFF, and a name with this
+    // byte right behind the prefix is not a chunk's.
     const std::string behind = std::string{prefix} + '\xFF';
     LentStatement rows = prepared(text.c_str());
     rows->bind(1, prefix.data(), static_cast<int>(prefix.size()));

@@ -1,4 +1,4 @@
-// Deletes rows of files that are gone, by their age and to make room.
+// This file deletes rows of files that are gone, if they are old or to make room.
 #include <vector>
 
 #include "catalog/station_database.h"
@@ -6,7 +6,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// Rows that are deleted at once to make room, so that searches are rare.
+// The number of rows that are deleted together to make room, so that searches are rare.
 constexpr std::int64_t rows_a_batch = 1000;
 constexpr int most_batches = 8;
 
@@ -54,7 +54,7 @@ std::uint64_t StationDatabase::used_bytes() {
 bool StationDatabase::make_room() {
     if (most_bytes_ == CatalogOptions::no_limit || used_bytes() < most_bytes_) return true;
     for (int batch = 0; batch < most_batches && may_have_gone_; ++batch) {
-        // Only this object marks rows as gone, and it then sets the flag again.
+        // This object sets the flag again when it marks rows as gone, and no other process does.
         may_have_gone_ = delete_oldest_gone(rows_a_batch) == rows_a_batch;
         if (used_bytes() < most_bytes_) return true;
     }

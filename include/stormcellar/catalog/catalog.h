@@ -1,10 +1,10 @@
 // stormcellar/catalog/catalog.h -- the catalog: one SQLite database for each station.
 //
 // DIRECTORY/KTLX.sqlite (WAL, user_version migrations) records which raw files exist, which volumes
-// they hold, and the results of ingesting them. It is an index that can always be rebuilt from the
-// files. Files whose station is unknown are recorded in _unknown.sqlite. Registering is idempotent:
-// the same path with the same size, modification time and content is the same row; a volume that is
-// sent again and differs gets the next generation.
+// they hold, and the results of ingesting them. The rows of existing files can always be made again
+// from the files. Files of unknown stations are recorded in _unknown.sqlite. Each path has one row;
+// registering the same facts again changes nothing. A volume that another file with other contents
+// already has gets the next generation.
 //
 // A catalog is opened in one of two roles. A CatalogReader answers questions and never creates or
 // changes anything. A CatalogWriter answers the same questions, and registers files.
@@ -12,15 +12,15 @@
 // Tables    file (one row for each raw file), volume (station, start, number, generation), part
 //           (which file holds which volume).
 // Damage    A writer that finds a damaged database sets it aside and continues with a new one,
-//           which has the rows of files that are gone (repair.h). take_repairs() reports it, and
-//           whoever feeds the catalog then offers it the files again. The same happens if a
-//           database was deleted while it was open.
-// Stations  A rule tells a writer which stations it knows. Only these have databases; rows of files
-//           of all other stations are stored with those of no known station. Databases of other
+//           which has the rows of files that are gone (repair.h). take_repairs() reports the
+//           repair, and its caller must then offer the files again. If a database was deleted while
+//           it was open, a new one is made and reported likewise.
+// Stations  A rule tells a writer which stations it knows. Only these have databases; files of all
+//           other stations are recorded among those of unknown stations. Databases of other
 //           stations, which an attack or an older configuration left, are neither opened nor
 //           changed.
-// Bounds    Only a limited number of databases is open at a time (catalog/open_databases.h), and
-//           the rows of each have a limit of bytes.
+// Bounds    The number of open databases, and the bytes of the rows of each database and of all,
+//           are limited.
 // Threads   Many threads may use one catalog (each database has a mutex). Many processes may read
 //           while one writes.
 // Errors    io, no_space, permission, busy (with SQLite's reason), corrupt (damaged; from a writer
@@ -61,14 +61,15 @@ enum class FileState {
 
 // Prefix of the reason in the row of an archive.
 inline constexpr std::string_view reason_of_archive = "an archive: ";
-// The modification time of a file that could not be read. Such a file is never settled, and is
-// tried again when it is next examined.
+// The modification time in the row of a file that could not be read. Such a file is never settled,
+// so it is tried again when it is next offered.
 inline constexpr std::int64_t never_read_ns = std::numeric_limits<std::int64_t>::min();
 
-// A file of an archive holds a handful. The limit keeps a forged file from filling the database.
+// The limit of the volumes in one file, which keeps a forged file from filling the database. Real
+// files hold a handful.
 inline constexpr std::size_t most_volumes_a_file = 1000;
 
-// A volume as the file holds it.
+// A volume in a file.
 struct VolumeFacts {
     std::optional<UtcTime> start_time;
     std::optional<UtcTime> end_time;
@@ -86,8 +87,8 @@ struct FileFacts {
     std::int64_t modified_ns = 0;  // since the epoch; never_read_ns: the contents are unknown
     std::uint64_t content_hash = 0;
     FileState state = FileState::seen;
-    std::string reason;  // why rejected or partial; one line
-    // in the order of the file; only the first most_volumes_a_file get rows
+    std::string reason;  // of the state `rejected` or `partial`, or a remark; one line
+    // In the order of the file. Only the first most_volumes_a_file get rows, if they have a start.
     std::vector<VolumeFacts> volumes;
 };
 
@@ -99,9 +100,9 @@ struct CatalogEntry {
     FileState state = FileState::seen;
     std::string reason;
     VolumeFacts volume;
-    int number_in_file = 1;   // index of the volume among those of its file
-    int generation = 0;       // 0 for the first; one more each time it is sent again and differs
-    UtcTime registered_time;  // when the row was written
+    int number_in_file = 1;   // of the volume, from 1
+    int generation = 0;       // 0 at first; one more each time it is sent with other contents
+    UtcTime registered_time;  // when the path got its row
     std::int64_t modified_ns = 0;
     std::uint64_t content_hash = 0;  // 0: unknown
 };
@@ -109,8 +110,8 @@ struct CatalogEntry {
 struct Query {
     std::optional<UtcTime> from;  // inclusive, on the volume's start time
     std::optional<UtcTime> to;    // inclusive
-    bool with_rejected = false;   // also files without a volume
-    // Return only this many of the newest volumes; the index makes this fast. None: all.
+    bool with_rejected = false;   // append all files without a volume, of any time
+    // Only this many of the newest volumes; the index makes this fast. None: all.
     std::optional<std::size_t> newest = std::nullopt;
 };
 
@@ -133,7 +134,7 @@ struct StationSummary {
 };
 
 // The result of registering. left_out: no row was written, because the database has reached its
-// limit and deleting rows of files that are gone could not make room.
+// limit of bytes, and deleting rows of files that are gone did not make room.
 enum class Registered { added, updated, unchanged, left_out };
 
 struct CatalogOptions {
@@ -142,10 +143,10 @@ struct CatalogOptions {
 
     // The stations that have a database; null: every ICAO.
     std::shared_ptr<StationRule> stations;
-    // Limit of the databases that are open at once; each takes three descriptors.
+    // The limit of open databases; each takes three descriptors.
     std::size_t most_open = 256;
-    // The directory into which raw files are dropped, canonical. It is recorded for programs that
-    // read the files later (stormcellar/catalog/read_cataloged.h). Empty: the recorded one stays.
+    // The canonical path of the drop directory. It is recorded for programs that read the files
+    // later (stormcellar/catalog/read_cataloged.h). Empty: the recorded path stays.
     std::filesystem::path drop;
     // Limits of the bytes of rows: for files of unknown stations, for one station, and for all.
     std::uint64_t most_unknown_bytes = std::uint64_t{64} << 20;
@@ -153,7 +154,8 @@ struct CatalogOptions {
     std::uint64_t most_bytes = no_limit;
 };
 
-// A problem with the database of a station; if `station` is empty, with that of unknown stations.
+// A problem with the database of a station or, if `station` is empty, with the database of unknown
+// stations.
 struct Trouble {
     std::string station;
     Error error;
@@ -170,13 +172,13 @@ struct Rolled {
     std::uint64_t used_bytes = 0;  // by the rows of all databases, after deleting
 };
 
-// If the rule is `any`, admits the stations that have a database in the directory; see
-// CatalogWriter::open().
+// If the rule is `any`, admits stations that have a database in the directory, as
+// CatalogWriter::open() does.
 Status admit_existing(const std::filesystem::path& directory, StationRule& rule);
 
 class CatalogReader {
   public:
-    // Errors: not_found if the directory does not exist.
+    // Opens a catalog. Errors: not_found if the directory does not exist.
     static Result<CatalogReader> open(std::filesystem::path directory,
                                       std::size_t most_open = CatalogOptions::most_open_of_reader);
     CatalogReader(CatalogReader&&) noexcept;
@@ -192,11 +194,11 @@ class CatalogReader {
     // Returns true if the catalog has the path, in any state.
     [[nodiscard]] Result<bool> is_known(const std::filesystem::path& path) const;
 
-    // Returns the known stations that have a database, sorted; "" for files without one comes
-    // first.
+    // Returns the known stations that have a database, sorted; an empty text for the database of
+    // unknown stations comes first.
     [[nodiscard]] Result<std::vector<std::string>> station_names() const;
-    // Returns which databases could not be used when last accessed, and why; sorted by station. An
-    // entry is added when its trouble begins, and removed when the database can be used again.
+    // Returns the databases that could not be used when they were last accessed, with the errors,
+    // sorted by station.
     [[nodiscard]] std::vector<Trouble> troubles() const;
     // Returns the directory into which raw files are dropped, as the writer recorded it. Errors:
     // not_found if no writer did.
@@ -206,6 +208,7 @@ class CatalogReader {
 
     // Returns a summary of each station whose database can be read.
     [[nodiscard]] Result<std::vector<StationSummary>> stations() const;
+    // Returns the station's volumes in any state, by start, number, generation and path.
     [[nodiscard]] Result<std::vector<CatalogEntry>> list(std::string_view station,
                                                          const Query& query) const;
     // Return the entry with the latest or oldest start; none if the station has no volume. An entry
@@ -215,16 +218,16 @@ class CatalogReader {
     // Returns the row of a file in the station's database, without a volume; none if it has no row.
     [[nodiscard]] Result<std::optional<CatalogEntry>> find_file(
         std::string_view station, const std::filesystem::path& path) const;
-    // Returns volumes by start time. It uses the index and stops at `most`, so its time depends
-    // only on the entries that it returns or skips, not on all entries of the station.
+    // Returns volumes by start time. Uses the index and stops at `most`, so its time depends only
+    // on the entries that it returns or skips, not on all entries of the station.
     [[nodiscard]] Result<std::vector<CatalogEntry>> list_stretch(std::string_view station,
                                                                  const Stretch& stretch) const;
-    // Returns the start of the oldest volume whose file exists and is not a member of an archive;
-    // none if there is none. If the oldest volumes have no such file, it reads the table of files
-    // once: 30 ms for 100,000.
+    // Returns the start of the oldest volume in a file that is neither gone nor a member of an
+    // archive; none if there is none. If the oldest 500 volumes have no such file, reads the table
+    // of files once: 30 ms for 100,000.
     [[nodiscard]] Result<std::optional<UtcTime>> oldest_kept(std::string_view station) const;
-    // Returns the rows of files, without a volume, whose paths begin with these bytes, in any
-    // state, by path. It uses the index.
+    // Returns the rows of at most `most` files, without a volume, whose paths begin with `prefix`,
+    // in any state, by path. Uses the index.
     [[nodiscard]] Result<std::vector<CatalogEntry>> files_with_prefix(std::string_view station,
                                                                       std::string_view prefix,
                                                                       std::size_t most) const;
@@ -238,11 +241,11 @@ class CatalogReader {
   protected:
     struct Impl;
     explicit CatalogReader(std::unique_ptr<Impl> impl);
-    // The catalog's state of its databases. Threads share it; it locks itself.
+    // Returns the state of the databases, which locks itself.
     [[nodiscard]] Impl& impl() const { return *impl_; }
 
   private:
-    // Returns whether the row of the path is settled; none if it has no row.
+    // Does the same as is_settled(), but returns none if the path has no row.
     [[nodiscard]] Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
                                                            std::uint64_t size_bytes,
                                                            std::int64_t modified_ns) const;
@@ -251,21 +254,22 @@ class CatalogReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// The old name, for programs that read. It will be removed in the next release. Programs that write
-// name their role.
+// The old name of CatalogReader, which the next release removes. Programs that write use the name
+// of their role.
 using Catalog [[deprecated("CatalogReader or CatalogWriter")]] = CatalogReader;
 
 class CatalogWriter : public CatalogReader {
   public:
-    // Creates the directory if it is missing. If the rule is `any`, the stations that have a
-    // database already are admitted, the newest database first, as far as the rule's limit allows.
+    // Opens a catalog, and creates the directory if it is missing. If the rule is `any`, admits the
+    // stations that have a database already, the one written last first, as far as the rule's limit
+    // allows.
     static Result<CatalogWriter> open(std::filesystem::path directory, CatalogOptions options = {});
 
     // Registers a file. On success a power cut does not undo it, except for the state `seen`, which
     // may be lost.
     Result<Registered> register_file(const FileFacts& facts);
-    // Registers a file as seen after is_known() said that it has no row. A row that was written in
-    // the meantime stays.
+    // Registers a file as `facts` describe it, unless it has a row. Call it after is_known() has
+    // returned false.
     Status note_file(const FileFacts& facts);
     // Registers several files of one station like register_file(), all of them or none. Rows that
     // find no room are left out.
@@ -273,35 +277,37 @@ class CatalogWriter : public CatalogReader {
     // Marks the rows of a raw file that no longer exists as gone. Returns how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 
-    // Does the same for every missing file below the directory: for files that vanished while no
-    // watcher ran, or that are now behind a symbolic link. `step` is called after each station and
-    // every 1,000 files, so that the caller can see progress.
+    // Marks the rows of all missing files below the directory as gone. These vanished while no
+    // watcher ran, or are now behind a symbolic link. `step` is called after each station and every
+    // 1,000 files, so that the caller can see progress.
     Result<int> mark_missing(const std::filesystem::path& directory,
                              const std::function<void()>& step = {});
 
-    // Marks the rows of an archive's members as gone, except these, because another archive has
+    // Marks the rows of an archive's members as gone, except `members`, because another archive has
     // taken its place. Returns how many were marked.
     Result<int> mark_former_members(const std::filesystem::path& archive,
                                     const std::set<std::filesystem::path>& members);
 
-    // Deletes the rows of files that are gone and were last registered before that time, and the
-    // volumes that no other file holds. Returns the number of files. A power cut may bring some
-    // back. `step` is called after each station and every 1,000 rows.
+    // Deletes the rows of files that are gone and got their rows before `before`, and the volumes
+    // that no other file holds. Returns the number of files. A power cut may bring some rows back.
+    // `step` is called after each station and every 1,000 rows.
     Result<int> forget_gone(UtcTime before, const std::function<void()>& step = {});
 
     // Deletes rows of files that are gone, the oldest first, if rows exceed their limits: first in
-    // each database beyond its own limit, then in the largest databases while the total exceeds its
-    // limit. Rows of existing files are never deleted. Call it now and then, like forget_gone().
+    // each database beyond its own limit, then in the largest database while the total exceeds its
+    // limit and that database its share of the total. Never deletes rows of existing files. Call it
+    // now and then, like forget_gone().
     Result<Rolled> roll(const std::function<void()>& step = {});
 
     // Returns the databases of stations that the rule does not know; they are not opened.
     [[nodiscard]] Result<LeftAlone> left_alone() const;
-    // Reads the whole database of a station ("": of files without one), and repairs it if it is
-    // damaged. Errors: those of a database that cannot be read or repaired.
+    // Reads the whole database of a station (empty: of unknown stations), and repairs it if it is
+    // damaged. Does nothing without a database. Errors: those of a database that cannot be read or
+    // repaired.
     Status examine(std::string_view station);
-    // Does the same for every station. Returns the last error, after all were examined.
+    // Examines the databases of all stations, and then returns the last error.
     Status examine_all();
-    // Returns the repairs since the last call. If there are any, archives are read again.
+    // Returns the repairs since the last call. If there are any, also calls read_archives_again().
     std::vector<Repair> take_repairs();
     // Makes settled archives count as changed from now on, because rows of their members may be
     // lost.

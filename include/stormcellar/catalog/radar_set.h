@@ -1,8 +1,7 @@
-// stormcellar/catalog/radar_set.h -- one object for each station that gives its files over time,
-// raw and decoded.
+// stormcellar/catalog/radar_set.h -- gives the files of a station, raw or decoded.
 //
-// The interface follows the storage-broker client of the 2008 paper, so that programs written for
-// it can be ported. A file is only returned if it is still the cataloged one
+// The interface follows the storage-broker client of the 2008 paper, so that programs that use that
+// client can be ported. A file is only returned if it is still the cataloged one
 // (stormcellar/catalog/read_cataloged.h).
 //
 // Threads   As CatalogReader: many threads may use one object.
@@ -24,22 +23,25 @@ namespace stormcellar::catalog {
 
 class RadarSet {
   public:
-    // Opens one for each station of a catalog directory whose database can be read, sorted by ICAO.
+    // Opens a set for each station of a catalog whose database can be read, sorted by ICAO.
     static Result<std::vector<RadarSet>> open_all(const std::filesystem::path& catalog_directory);
-    // Opens a station. Errors: not_found if the catalog has no such station.
+    // Opens a station. Errors: not_found if the catalog has no such station, bad_argument for a
+    // name that no station has.
     static Result<RadarSet> open(const std::filesystem::path& catalog_directory,
                                  const std::string& station);
 
     [[nodiscard]] const std::string& station() const { return station_; }
 
-    // Returns the names (without directories) of the files whose volumes start within [from, to],
-    // oldest first, each once.
+    // Returns the names (without directories) of the files with a volume that starts from `from` to
+    // `to`, oldest first, each once. Some of them may be gone.
     [[nodiscard]] Result<std::vector<std::string>> build_data_list(UtcTime from, UtcTime to) const;
-    // Return the name of the file. Errors: not_found if the station has no volume.
+    // Returns the name of the file with the oldest volume. Errors: not_found if the station has no
+    // volume.
     [[nodiscard]] Result<std::string> oldest_file_name() const;
     // Returns the raw bytes of a file that build_data_list() named. Errors: not_found if the
     // catalog or the disk no longer has it, and those of read_cataloged().
     [[nodiscard]] Result<std::vector<std::byte>> radar_file(const std::string& name) const;
+    // Decodes such a file. Errors: also those of level2::decode().
     [[nodiscard]] Result<level2::Decoded> read_radar(const std::string& name) const;
 
   private:

@@ -1,21 +1,22 @@
 // stormcellar/catalog/read_cataloged.h -- reads cataloged raw files again.
 //
-// A path in the catalog names what existed there when it was cataloged. Anyone who may write into
-// the drop directory may have put something else there since, such as a link to a file that only
-// the reader may read. So a file is opened beneath the drop directory, with no symbolic link on the
-// way down (base/beneath.h), and its size and hash are compared with its row.
+// A path in the catalog names the file that existed there when it was cataloged. Since then, anyone
+// who may write into the drop directory may have put something else there, such as a link to a file
+// that only the reader may read. So a file is opened beneath the drop directory, without following
+// symbolic links below it (base/beneath.h), and its size and hash are compared with its row.
 //
-// If the catalog does not record that directory (it was written before 2026-11-25), or the path of
-// a row is elsewhere (files were once dropped there), the file is opened from "/". Then no part of
-// the path may be a link; the paths of the catalog had none when they were written.
+// If the catalog has no record of the drop directory (it was written before 2026-11-25), or a row's
+// path is not below it (the drop directory was elsewhere then), the file is opened from "/". Then
+// no part of the path may be a link; there was none when the path was cataloged.
 //
-// A row of a file that was growing (`seen`) or could not be read has no final hash, so the contents
-// are not compared. The file must still be regular, have at least the cataloged size and have a
-// single name, because a hard link to another user's file would be readable, too.
+// The row of a file that was growing (`seen`) or could not be read has no final hash, so the
+// contents are not compared. But the file must be regular, have at least the cataloged size, and
+// have a single name, because a hard link to another user's file could be read, too.
 //
 // Threads   Functions without state; the catalog is only read.
-// Errors    not_found and not_a_file for links and everything else that is no file; corrupt if it
-//           is not the file that was cataloged; unsupported beyond 1 GiB; permission; io.
+// Errors    not_found or not_a_file if there is no regular file, or a link in the path; corrupt if
+//           it is not the file that was cataloged; unsupported beyond 1 GiB; permission; io; for a
+//           member, those of reading its archive.
 #pragma once
 
 #include <cstddef>
@@ -33,16 +34,17 @@ struct CatalogedBytes {
     bool is_compared = false;  // false: the row has no final hash, so any contents were accepted
 };
 
+// Reads the file of an entry, or the member of an archive.
 [[nodiscard]] Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog,
                                                     const CatalogEntry& entry);
 
-// Returns the directory beneath which the path must be opened.
+// Returns the directory beneath which the path must be opened: the drop directory or "/".
 [[nodiscard]] Result<std::filesystem::path> root_of(const CatalogReader& catalog,
                                                     const std::filesystem::path& path);
-// Returns true if the row has a size and a hash that its file must have.
+// Returns true if the file must have exactly the row's size and hash.
 [[nodiscard]] bool has_final_hash(const CatalogEntry& entry);
-// Checks a file that the caller read by other means. Errors: corrupt if a file of this size and
-// hash is not the cataloged one.
+// Checks a file that the caller has read by other means, by its size and hash. Errors: corrupt if
+// it is not the cataloged file.
 [[nodiscard]] Status check_cataloged(const CatalogEntry& entry, std::uint64_t size_bytes,
                                      std::uint64_t content_hash);
 

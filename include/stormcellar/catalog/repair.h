@@ -1,10 +1,11 @@
 // stormcellar/catalog/repair.h -- sets a damaged database aside, and makes a new one from the rows
 // that can be saved.
 //
-// KTLX.sqlite becomes KTLX.sqlite.damaged-YYYYMMDD_HHMMSS, with its -wal and -shm. Nothing reads it
-// any more, and the operator may delete it. The new database holds the rows of raw files that are
-// gone (or cannot be examined), as `gone`, because these rows could not be made again. Rows of
-// existing files are not taken over: reading the file again gives better rows than a damaged page.
+// KTLX.sqlite is renamed to KTLX.sqlite.damaged-YYYYMMDD_HHMMSS, and its -wal and -shm likewise.
+// Nothing reads these files any more, and the operator may delete them. The new database has the
+// rows of raw files that are gone (or cannot be examined), as `gone`, because these rows could not
+// be made again. Rows of existing files are not taken over, because reading the files again gives
+// better rows than a damaged page.
 //
 // Threads   Nothing else may have the database open, in this process or another.
 // Errors    See each function.
@@ -22,35 +23,36 @@ namespace stormcellar::catalog {
 struct Repair {
     std::string station;  // empty: the database of files without a station
     std::filesystem::path database;
-    std::filesystem::path set_aside;  // empty: it was deleted or replaced, so nothing was there
+    std::filesystem::path set_aside;  // empty: the database was deleted or replaced
     std::string damage;               // the findings, in one line
     std::int64_t kept_gone = 0;       // rows of files that are gone, taken over
     std::int64_t to_read_again = 0;   // rows of existing files, not taken over
     std::int64_t lost = 0;            // at most this many rows could not be read
 };
 
-// The result of examining a database: every fault, one line each; empty if it is sound. The
-// examination reads the whole database and never writes. "Is of a later version" and "is not a
-// catalog of this software" are listed too, though they are not damage. Errors: io if it cannot be
-// opened at all.
+// The result of examining a database: the faults (only the first few of a kind), one line each;
+// empty if it is sound. A later version, or a database of another program, is listed as a fault,
+// too, although it is not damage.
 struct Examination {
     std::vector<std::string> damage;
     bool foreign = false;  // of a later version or another program, so it must not be repaired
 };
+// Reads the whole database and never writes. Errors: the database cannot be opened or read, for
+// another reason than damage.
 [[nodiscard]] Result<Examination> examine_database(const std::filesystem::path& path);
 
 // Makes the new database, sets the damaged one aside and puts the new one in its place. Errors: io,
-// no_space and permission; the damaged database is then still there, or the new one waits to be
-// adopted. A crash at any instant leaves one of the two as well.
+// no_space and permission. After an error or a crash, either the damaged database is still in its
+// place, or adopt_mended_database() can complete the repair.
 [[nodiscard]] Result<Repair> repair_database(const std::filesystem::path& path,
                                              const std::string& station, const std::string& damage);
 
-// If there is no database, adopts the new one of a repair that was interrupted at its end. The
-// writer calls this before it opens or makes a database.
+// If there is no database, but the complete new one of an interrupted repair, puts that in its
+// place. The writer calls this before it opens or creates a database.
 [[nodiscard]] Status adopt_mended_database(const std::filesystem::path& path);
 
-// Returns a line for logs and people: "KTLX.sqlite: set aside as ...; 12 rows of files that are
-// gone kept, ...".
+// Returns a line for logs and people: "PATH: was damaged (...) and is set aside as ...; a new
+// database keeps 12 rows of files that are gone, ...".
 [[nodiscard]] std::string describe(const Repair& repair);
 
 }  // namespace stormcellar::catalog
