@@ -1,7 +1,7 @@
 // base/added_stations.h -- reads the [[station]] tables of a configuration, which add stations to
 // the station table. daemon/stormcellard.toml explains the keys.
 //
-// Threads   Pure: may be called from any thread.
+// Threads   Plain functions. One thread at a time reads a file's tables.
 #pragma once
 
 #include <string>
@@ -12,11 +12,13 @@
 
 namespace stormcellar {
 
-// Reads all [[station]] tables. Invalid ones are reported and left out.
+// Reads the [[station]] tables, at most 512. Complains about invalid values and records the keys as
+// read, so check TomlFile::finish(). Leaves out stations without a usable `icao`; a station with a
+// bad coordinate is returned with 0 in its place.
 [[nodiscard]] std::vector<AddedStation> read_added_stations(TomlTable& root);
 
-// Returns the message for a name that does not have a station's form: `"x" is not a station: give
-// ...`.
+// Returns the message about a name that does not have the form of a station's name: `"x" is not a
+// station: give ...`.
 [[nodiscard]] std::string no_station(const std::string& name);
 
 }  // namespace stormcellar

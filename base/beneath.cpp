@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Makes the error of a failed call. A link in place of a directory or a file counts as not found.
+// Returns the error of a failed call. A link in place of a directory or a file counts as not found.
 tl::unexpected<Error> failure(const fs::path& path, int error_number) {
     auto failed = system_failure(path.native(), error_number);
     if (error_number == ELOOP || error_number == ENAMETOOLONG)
@@ -24,7 +24,7 @@ tl::unexpected<Error> failure(const fs::path& path, int error_number) {
     return failed;
 }
 
-// The directory that holds a path, and the name in it.
+// The open directory of a path, and the last part of the path.
 struct Place {
     Descriptor directory{AT_FDCWD};
     fs::path name;
@@ -113,8 +113,8 @@ Result<struct stat> look_beneath(const fs::path& root, const fs::path& path) {
 Result<int> open_beneath(const fs::path& root, const fs::path& path) {
     const auto place = find_place(root, path);
     if (!place) return pass_on(place);
-    // Opening a device may already have an effect, so the kind of file is checked first. If it is
-    // replaced between the check and the opening, the flags and the second check catch it.
+    // Opening a device may already have an effect, so check the kind of file first. If the file is
+    // replaced after this check, the flags and the second check notice it.
     const int directory = place->directory.number();
     struct stat facts {};
     if (::fstatat(directory, place->name.c_str(), &facts, AT_SYMLINK_NOFOLLOW) != 0)

@@ -1,13 +1,13 @@
 // base/beneath.h -- reads files below a directory, and never anything outside it, even while other
 // programs change that directory.
 //
-// A path is opened part by part from `root` down, and no part below root may be a symbolic link, so
-// replacing a directory or a file by a link leads nowhere. The root itself may be reached through
-// links. Mounts below it are followed. Nothing blocks, and only regular files are opened for
-// reading. With an empty root, the directories of the path may be anywhere and may be links, but
-// the file itself may not be a link.
+// A path is opened part by part from `root` down. No part below the root may be a symbolic link, so
+// a program that replaces a directory or a file by a link gains nothing. The root itself may be
+// reached through links. Mounts below the root are followed. Nothing blocks, and only regular files
+// are opened for reading. With an empty root, the directories of the path may be anywhere and may
+// be links, but the file itself may not be a link.
 //
-// Threads   Pure functions, which read files.
+// Threads   Functions without state, which read files.
 // Errors    not_found (nothing there, a part that is not a directory or is a link, a path outside
 //           root), not_a_file (the message says what it is instead), permission, io; unsupported
 //           for more than `limit` bytes. Messages begin with the path.
@@ -27,12 +27,13 @@
 
 namespace stormcellar {
 
-// Returns the facts of what exists at the path. A symbolic link is not followed.
+// Returns the facts of the file, directory or link at the path. Does not follow a symbolic link.
 [[nodiscard]] Result<struct stat> look_beneath(const std::filesystem::path& root,
                                                const std::filesystem::path& path);
 // Returns a descriptor of a regular file for reading. The caller must close it.
 [[nodiscard]] Result<int> open_beneath(const std::filesystem::path& root,
                                        const std::filesystem::path& path);
+// Reads a regular file.
 [[nodiscard]] Result<std::vector<std::byte>> read_beneath(const std::filesystem::path& root,
                                                           const std::filesystem::path& path,
                                                           std::uint64_t limit = default_read_limit);

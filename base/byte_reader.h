@@ -1,7 +1,7 @@
 // base/byte_reader.h -- reads big-endian numbers from untrusted bytes.
 //
-// A read past the end sets failed() and gives zero, and the reader then stays failed. So a caller
-// may read a whole structure and check once. Nothing is ever read outside the span.
+// A read past the end returns zero and sets failed(), after which all reads return zero. So a
+// caller may read a whole structure and check once. Nothing is ever read outside the span.
 //
 // Threads   A reader is a plain value; do not share one between threads.
 #pragma once

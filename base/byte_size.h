@@ -17,7 +17,7 @@ namespace stormcellar {
 // 2^63 bytes or more.
 [[nodiscard]] Result<std::uint64_t> parse_byte_size(std::string_view text);
 
-// Writes "1.25 GB" with three or more digits, for people and not for parsing.
+// Writes a size for people, such as "12 B" or, with three digits, "1.25 GB".
 [[nodiscard]] std::string format_byte_size(std::uint64_t bytes);
 
 }  // namespace stormcellar

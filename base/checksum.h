@@ -10,8 +10,8 @@
 
 namespace stormcellar {
 
-// Returns XXH3, 64 bits, seed 0 (xxHash 0.8). It guards our own files and detects changed raw
-// files.
+// Returns the XXH3 hash of 64 bits with seed 0 (xxHash 0.8). It reveals damage in our own files,
+// and changed raw files.
 [[nodiscard]] std::uint64_t xxh3_64(std::span<const std::byte> bytes);
 
 // Computes the same hash for bytes that come in pieces of any size.
@@ -30,8 +30,8 @@ class Xxh3Stream {
     std::unique_ptr<State> state_;
 };
 
-// Returns the CRC-32 of zlib, continued from a previous value (start with 0). An empty span returns
-// the previous value.
+// Returns the CRC-32 of zlib, continued from `previous` (0 at the start). For an empty span,
+// returns `previous`.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous = 0);
 
 }  // namespace stormcellar

@@ -9,8 +9,8 @@
 
 namespace stormcellar {
 
-// Returns "1 file", "0 files" or "2 directories". `things` is the plural if it is not formed with
-// an s.
+// Returns "1 file", "0 files" or "2 directories". Give the plural as `things` unless it is `thing`
+// with an s.
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view thing,
                                   std::string_view things = {});
 

@@ -74,8 +74,8 @@ class RealFileSystem final : public FileSystem {
     }
 };
 
-// Returns a unique name: a counter distinguishes files of this process, the process id those of a
-// host's processes, and the host name those of hosts that share a directory.
+// Returns a unique name, which contains the host's name, the process id and a counter, because
+// several hosts may share a directory.
 std::filesystem::path temporary_name(const std::filesystem::path& final_path) {
     static std::atomic<std::uint64_t> counter{0};
     return final_path.parent_path() /
@@ -190,7 +190,7 @@ Result<AtomicFile> AtomicFile::create(FileSystem& file_system, std::filesystem::
     std::filesystem::path temporary_path = temporary_name(final_path);
     const Result<int> descriptor = file_system.create_exclusive(temporary_path);
     if (!descriptor) {
-        // The directory is at fault, but the message names the path that the caller knows.
+        // The directory is the cause, but the message must name the path that the caller knows.
         const std::string& message = descriptor.error().message;
         return fail(descriptor.error().code, "{}: cannot be created{}", final_path.native(),
                     message.substr(std::min(message.size(), message.rfind(": "))));
@@ -208,7 +208,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
 AtomicFile::~AtomicFile() {
     if (descriptor_ < 0) return;
     file_system_->close(descriptor_);
-    // best effort, because the failure that led here is what counts
+    // ignore an error, because only the failure that led here matters
     (void)file_system_->remove(temporary_path_);
 }
 

@@ -2,8 +2,8 @@
 //
 // A program may enable traps on invalid operations, division by zero and overflow (feenableexcept,
 // glibc). The rooms never divide by zero or compare NaN on purpose, so such a program works as
-// usual. A number that a caller may pass as NaN is tested with is_within(), and other libraries,
-// which ignore traps, are called under MaskedTraps.
+// usual. A number that may be NaN is tested with is_within(), and other libraries, which do not
+// care about traps, are called under MaskedTraps.
 //
 // Threads   Traps belong to a thread.
 #pragma once
@@ -13,14 +13,15 @@
 
 namespace stormcellar {
 
-// Returns false for NaN. An ordinary comparison with NaN is an invalid operation; this is not.
+// Returns true if the value is in the range, and false for NaN. Unlike an ordinary comparison with
+// NaN, this is not an invalid operation.
 template <class Real>
 [[nodiscard]] bool is_within(Real value, Real least, Real greatest) noexcept {
     return std::isgreaterequal(value, least) && std::islessequal(value, greatest);
 }
 
-// Disables the traps of this thread while it lives. Exceptions raised meanwhile are forgotten. If
-// no traps are enabled, testing for that costs one instruction.
+// Disables the traps of this thread while it lives, and then clears the flags of exceptions. If no
+// traps are enabled, it does nothing, which costs one instruction.
 class MaskedTraps {
   public:
     MaskedTraps() noexcept : traps_(fegetexcept()) {

@@ -17,7 +17,7 @@
 
 namespace stormcellar {
 
-// Returns the first format that has the ending of the name, or null.
+// Returns the first format with an ending that the name has, or null.
 template <class Format>
 [[nodiscard]] const Format* find_format(std::span<const Format> formats,
                                         std::string_view file_name) {
@@ -36,7 +36,7 @@ template <class Format>
     return all;
 }
 
-// Returns the formats as a user reads them: "PNG (.png) or JPEG (.jpg, .jpeg)".
+// Returns a text for users: "PNG (.png) or JPEG (.jpg, .jpeg)".
 template <class Format>
 [[nodiscard]] std::string formats_in(std::span<const Format> formats) {
     struct Named {

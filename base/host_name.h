@@ -1,4 +1,4 @@
-// base/host_name.h -- the name of this machine.
+// base/host_name.h -- returns the name of this machine.
 //
 // Threads   Any thread.
 #pragma once
@@ -7,8 +7,8 @@
 
 namespace stormcellar {
 
-// Returns the letters and digits (at most 32) of the host's name without its domain, so that it can
-// be part of a file's name. A host without a name is "host".
+// Returns the letters and digits of the host's name without its domain, at most 32, as a part of
+// file names. Returns "host" if there are none.
 [[nodiscard]] std::string host_name();
 
 }  // namespace stormcellar

@@ -1,5 +1,5 @@
-// base/load_module.h -- loads modules: libraries that few commands need and that would slow down
-// the start of all.
+// base/load_module.h -- loads modules, which are libraries that few commands need and that would
+// slow down the start of all commands.
 //
 // A module is loaded when it is first used, and stays loaded.
 //
@@ -12,11 +12,10 @@
 
 namespace stormcellar {
 
-// Returns the address of `entry` in the module FILE. It looks for the module where this program was
-// installed, even if it was moved since; in the build tree of the program, in the folder of the
-// module's room; and in the configured installation directory. It uses no search path of the
-// loader, because that would apply to every library of the program. Errors: unsupported, with the
-// reason.
+// Loads the module `file`, and returns the address of `entry` in it. Tries these places: the
+// installation of this program, even if it was moved; the module's room in the program's build
+// tree; and the configured installation directory. Does not use the loader's search path, because a
+// change of that would affect every library of the program. Errors: unsupported, with the reason.
 [[nodiscard]] Result<void*> load_module(const std::string& file, const char* entry,
                                         const std::string& room);
 

@@ -1,7 +1,7 @@
 // base/local_time.h -- converts UTC to local time.
 //
-// Zones are those of the system's IANA database (package tzdata), by name: "America/Chicago". Past
-// times follow the rules of their day.
+// The names of zones, such as "America/Chicago", are those of the system's IANA database (package
+// tzdata). A time is converted by the rules that applied then.
 //
 // Threads   Any thread may call. TZ and the machine's zone are read and never set.
 #pragma once
@@ -14,12 +14,13 @@
 
 namespace stormcellar {
 
-// Returns "1999-05-03 18:56:21 CDT", in whole seconds, rounded down. Zones without an abbreviation
-// give their offset, as in "-03". Errors: bad_argument for a name that is not a zone, unsupported
-// if the database is missing.
+// Returns "1999-05-03 18:56:21 CDT", rounded down to seconds. Zones without an abbreviation have
+// their offset instead, as in "-03". Errors: bad_argument for a name that is not a zone,
+// unsupported if the database is missing.
 [[nodiscard]] Result<std::string> format_local(UtcTime time, std::string_view zone);
 
-// Returns the zone that TZ names, else that of /etc/localtime; empty if neither names a zone.
+// Returns the zone in TZ or, if TZ is not set, the zone of /etc/localtime; empty if that is not the
+// name of a zone.
 [[nodiscard]] std::string machine_time_zone();
 
 }  // namespace stormcellar

@@ -1,4 +1,5 @@
-// base/name_list.h -- the names in a table: for help and messages, and to find a row.
+// base/name_list.h -- lists the names in a table for help and messages, and finds a row by its
+// name.
 //
 // Threads: pure functions.
 #pragma once
@@ -10,7 +11,7 @@
 
 namespace stormcellar {
 
-// Returns the `name` of each row: "a, b, c" or, with " or " before the last, "a, b or c".
+// Returns the names of all rows in one text: "a, b, c" or, if `before_last` is " or ", "a, b or c".
 template <class Rows>
 [[nodiscard]] std::string names_in(const Rows& rows, std::string_view between = ", ",
                                    std::string_view before_last = ", ") {
@@ -33,7 +34,8 @@ template <class Rows, class Row, class Key>
     return std::nullopt;
 }
 
-// Returns true if each row's `key` is its index in the table, so that an enumeration can index it.
+// Returns true if each row's `key` is its index in the table, so that values of an enumeration can
+// be used as indexes.
 template <class Rows, class Key>
 [[nodiscard]] constexpr bool is_in_order(const Rows& rows, Key key) {
     for (std::size_t i = 0; i < std::size(rows); ++i) {

@@ -9,8 +9,8 @@
 namespace stormcellar {
 namespace {
 
-// Longer words are not treated as misspellings; the time for a distance grows with the product of
-// both lengths.
+// Longer words do not count as misspellings, because the time for a distance grows with the product
+// of both lengths.
 constexpr std::size_t longest_word = 80;
 // A misspelling has at most one slip for this many letters of the name.
 constexpr std::size_t letters_per_slip = 3;

@@ -11,13 +11,13 @@
 
 namespace stormcellar {
 
-// Returns how many insertions, deletions, replacements and exchanges of two neighboring bytes turn
-// one text into the other, where no part is edited twice.
+// Returns the least number of edits that turn one text into the other, where no part is edited
+// twice. An edit inserts, deletes or replaces a byte, or exchanges two neighboring bytes.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// Returns the nearest of the names, ignoring case; the first one of equally near names. Returns
-// none if for each name more than a third of its letters, and more than one letter, would have to
-// change.
+// Returns the name with the least edit_distance() from the word, ignoring case; the first one if
+// several have it. Returns none if every name needs more than one edit and more than one for every
+// three of its bytes, or an edit for every byte; or if the word has more than 80 bytes.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,
                                                       std::span<const std::string> names);
 

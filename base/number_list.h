@@ -9,7 +9,8 @@
 
 namespace stormcellar {
 
-// Returns at least one number, all finite, or none if `text` holds anything else, even a space.
+// Returns the numbers in the text, at least one and all finite. Returns none if the text contains
+// anything else, even a space.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text,
                                                                char separator);
 

@@ -8,9 +8,9 @@
 namespace stormcellar {
 
 // Calls work(0) ... work(count - 1), each once, on up to `threads` threads, one of which is the
-// caller's. Returns when all are done. If the system has no more threads, fewer do the work. The
-// pieces must not depend on each other. If one throws, no further ones are begun, and the first
-// exception is thrown to the caller.
+// caller's. Returns when all calls have returned. If the system has no more threads, fewer threads
+// do the work. The calls must not depend on each other. If a call throws, no further calls begin,
+// and the first exception is thrown to the caller.
 void for_each_piece(int count, int threads, const std::function<void(int)>& work);
 
 }  // namespace stormcellar

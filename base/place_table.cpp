@@ -5,8 +5,7 @@
 #include <charconv>
 #include <vector>
 
-// The assembler includes the table, so the program needs no path to a file.
-// clang-format off
+// The assembler puts the table into the program, which so needs no path to a file. clang-format off
 asm(R"(
     .pushsection .rodata
     .hidden stormcellar_places_begin

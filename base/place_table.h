@@ -1,10 +1,10 @@
-// base/place_table.h -- finds towns by name.
+// base/place_table.h -- a table of towns, and the form in which their names are compared.
 //
 // The table has the incorporated places and the census-designated places of the United States and
-// Puerto Rico, the towns of New England and the townships of New Jersey, and the cities of the map
-// elsewhere.
+// Puerto Rico, the towns of New England, the townships of New Jersey, and the cities that the map
+// shows elsewhere.
 //
-// Units     Degrees on WGS84, of the middle of a place's area or of a city's center.
+// Units     Degrees on WGS84. A position is the middle of a place's area, or a city's center.
 // Threads   Any thread may call every function; the table is read at the first call.
 // Accuracy  0.001 degrees as published, and a place is some kilometers wide.
 // Source    docs/data-sources.md.
@@ -27,7 +27,8 @@ struct NamedPlace {
 [[nodiscard]] std::span<const NamedPlace> all_places();  // by name
 
 // Returns the name in the form for comparisons: in lower case, without accents, dots and
-// apostrophes, with single spaces for spaces and hyphens, and "st" for "saint".
+// apostrophes, with single spaces in place of spaces and hyphens, and with "st" in place of "saint"
+// as the first of several words.
 [[nodiscard]] std::string compared_name(std::string_view name);
 
 }  // namespace stormcellar

@@ -54,7 +54,7 @@ std::size_t utf8_length(std::string_view text) {
         length = 4;
     }
     if (length == 0 || length > text.size()) return 0;
-    // It must not be overlong, a surrogate, or beyond U+10FFFF (RFC 3629 section 4).
+    // The character must not be overlong, a surrogate, or beyond U+10FFFF (RFC 3629 section 4).
     if (length > 1) {
         const auto second = static_cast<unsigned char>(text[1]);
         if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||

@@ -9,14 +9,15 @@
 
 namespace stormcellar {
 
-// Returns the length of the well-formed UTF-8 character at the start of `text`; 0 if there is none.
+// Returns the length in bytes of the well-formed UTF-8 character at the start of `text`; 0 if there
+// is none.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
-// Writes control characters, characters that no glyph shows, and bytes that are not UTF-8 as \xNN,
-// byte by byte. U+202E, which reverses what follows it, becomes "\xe2\x80\xae". So a name is always
-// one line and hides nothing. This includes variation selectors, and the joiners of emoji and of
-// some scripts. Letters stay as they are, including those of scripts that run from right to left
-// and those that look alike in two alphabets.
+// Replaces control characters, invisible characters, and bytes that are not UTF-8 by \xNN for each
+// byte. For example, U+202E, which reverses the following text, becomes "\xe2\x80\xae". So the
+// result is always one line and hides nothing. Invisible characters include variation selectors,
+// and the joiners of emoji and of some scripts. Letters stay unchanged, even in scripts that run
+// from right to left and if they look like letters of another alphabet.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace stormcellar

@@ -11,15 +11,18 @@
 
 namespace stormcellar {
 
-// Lets `most` lines through in each period and counts the rest.
+// Lets `most` lines through in each period, and counts the others as held back. After a period with
+// lines held back, the next one begins only when take_held_back() has returned their number.
 class RateLimit {
   public:
     RateLimit(int most, std::chrono::seconds period) : most_(most), period_(period) {}
-    // Returns true if the line may be logged.
+    // Returns true if a line may be logged now; otherwise it counts as held back.
     bool allow(SteadyTime now);
-    // Returns how many lines were held back once their period is over, and starts again from zero.
+    // Returns how many lines were held back, once, after the period is over. Returns none before
+    // that, or if no lines were held back.
     std::optional<std::uint64_t> take_held_back(SteadyTime now);
-    // Returns true if it may be deleted: its period is over and it holds no lines back.
+    // Returns true if this object may be deleted: its period is over, and it has no lines to
+    // report.
     [[nodiscard]] bool is_idle(SteadyTime now) const {
         return held_back_ == 0 && now - began_ >= period_;
     }

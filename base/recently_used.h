@@ -1,9 +1,10 @@
 // base/recently_used.h -- keeps values by key within a budget, and drops the least recently used
 // ones first.
 //
-// A search takes logarithmic time if keys have an order, else it compares one key after another.
+// A search takes logarithmic time if keys have an order; otherwise it compares one key after
+// another.
 //
-// Units     A value has a weight, for example its bytes; a value of no special weight weighs 1.
+// Units     A value has a weight, for example its bytes; by default, 1.
 // Threads   One thread at a time: the mutex of the owner guards it.
 #pragma once
 
@@ -35,8 +36,8 @@ class RecentlyUsed {
         entries_.splice(entries_.begin(), entries_, entry);
         return &entry->value;
     }
-    // Keeps a value instead of any other with its key, and drops old ones. The new value itself
-    // stays, however much it weighs. Returns it.
+    // Keeps a value, which replaces any value with the same key, and drops old values beyond the
+    // budget. The new value stays even if it alone exceeds the budget. Returns the kept value.
     Value& keep(const Key& key, Value value, std::uint64_t weight = 1) {
         drop(key);
         entries_.push_front({key, std::move(value), weight});
@@ -57,7 +58,7 @@ class RecentlyUsed {
     void drop(const Key& key) {
         if (const auto entry = place_of(key); entry != entries_.end()) drop(entry);
     }
-    // Drops every value whose key the function is true for.
+    // Drops every value for whose key `predicate` returns true.
     template <class Predicate>
     void drop_if(Predicate predicate) {
         for (auto entry = entries_.begin(); entry != entries_.end();) {
@@ -96,7 +97,7 @@ class RecentlyUsed {
         entries_.erase(entry);
     }
 
-    // No member for keys without an order.
+    // The type of `places_` for keys without an order, which need none.
     struct NoPlaces {};
     template <class K>
     struct PlacesOf {

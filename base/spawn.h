@@ -1,8 +1,8 @@
 // base/spawn.h -- starts a program with chosen input and output.
 //
-// The program inherits only these three descriptors.
+// The program inherits only the three descriptors of its input, output and errors.
 //
-// Threads   Pure functions of the process.
+// Threads   Any thread may call.
 // Errors    not_found, permission or io if it could not be started.
 #pragma once
 
@@ -18,20 +18,20 @@
 namespace stormcellar {
 
 struct SpawnOptions {
-    // Descriptors that become its input, output and errors; negative: /dev/null.
+    // The descriptors that become the program's input, output and errors; negative: /dev/null.
     int in = -1, out = -1, err = -1;
-    // If true, the program has its own process group and default signals, so that Ctrl-C in a
-    // terminal ends only this program. If false, it shares them with this program.
+    // If true, the new program has its own process group and default handling of signals, so that
+    // Ctrl-C in a terminal does not reach it. If false, it inherits both.
     bool is_apart = true;
 };
 
-// Starts the program. Returns the process, which the caller must wait for.
+// Starts the program, and returns the id of its process. The caller must wait for the process.
 [[nodiscard]] Result<pid_t> spawn(const std::filesystem::path& program,
                                   const std::vector<std::string>& arguments,
                                   const SpawnOptions& options = {});
 
-// Returns the path of the program of this name: beside this program, else on PATH; empty if there
-// is none.
+// Returns the path of the program of this name in this program's directory, or else on PATH; empty
+// if there is none.
 [[nodiscard]] std::filesystem::path find_program(std::string_view name);
 
 }  // namespace stormcellar

@@ -1,4 +1,4 @@
-// base/split.h -- the items of a list in one text: "a,b".
+// base/split.h -- splits a list in one text: "a,b".
 //
 // Threads: pure functions.
 #pragma once

@@ -9,9 +9,9 @@
 namespace stormcellar {
 namespace {
 
-// The antenna altitude of a WSR-88D is the sum of ground, tower and feed horn. For a TDWR it is the
-// site height that the radar writes into message 31. docs/data-sources.md lists the source, check
-// and doubts of each figure. Keep the rows sorted.
+// The antenna altitude of a WSR-88D is the sum of the heights of ground, tower and feed horn. For a
+// TDWR, it is the site height that the radar writes into message 31. docs/data-sources.md lists the
+// sources, checks and doubts of the figures. Keep the rows sorted.
 constexpr auto stations = std::to_array<Station>({
     {"KABR", "Aberdeen", "SD", RadarKind::nexrad, 45.45583, -98.41333, 421.5},
     {"KABX", "Albuquerque", "NM", RadarKind::nexrad, 35.14972, -106.82388, 1813.9},
@@ -180,7 +180,8 @@ constexpr auto stations = std::to_array<Station>({
     {"PHMO", "Molokai", "HI", RadarKind::nexrad, 21.13278, -157.18027, 440.1},
     {"PHWA", "South Hawaii", "HI", RadarKind::nexrad, 19.09500, -155.56888, 445.3},
     {"RKJK", "Kunsan AB", "South Korea", RadarKind::nexrad, 35.92417, 126.62222, 58.5},
-    // On its hilltop since about 2007; before, 36 km away at 36.9597 127.0183.
+    // The radar is on this hilltop since about 2007. Before, it was 36 km away, at 36.9597
+    // 127.0183.
     {"RKSG", "Camp Humphreys", "South Korea", RadarKind::nexrad, 37.20757, 127.28556, 463.6},
     // Sources differ by 0.9 km.
     {"RODN", "Kadena AB", "Japan", RadarKind::nexrad, 26.30780, 127.90347, 125.6},
@@ -260,13 +261,14 @@ std::string_view without_number_of_ncei(std::string_view name) {
     return name;
 }
 
-// Returns the known station with which a text begins.
+// Returns the known station with whose name a text begins, or an empty text.
 std::string known_at_start(std::string_view text) {
     const auto icao = icao_of(text.substr(0, icao_letters));
     return icao && find_station(*icao) ? *icao : std::string{};
 }
 
-// Returns the known station that a word is, or with which it begins before a date.
+// Returns the known station whose name is the word, or begins the word before a digit; or an empty
+// text.
 std::string known_in_word(std::string_view word) {
     word = without_number_of_ncei(word);
     const bool goes_on = word.size() > icao_letters;

@@ -9,10 +9,12 @@
 
 namespace stormcellar {
 
-// Returns not_found, permission, no_space, exhausted or busy for the numbers that mean so, else io.
+// Returns not_found, permission, no_space, exhausted or busy for the numbers with that meaning, and
+// io for all others.
 [[nodiscard]] ErrorCode error_code_of(int error_number);
 
-// Returns an error with that code and the message "WHAT: REASON", with the system's reason.
+// Returns an error with the code of error_code_of() and the message "WHAT: REASON", with the
+// system's reason.
 [[nodiscard]] tl::unexpected<Error> system_failure(std::string_view what, int error_number);
 
 }  // namespace stormcellar

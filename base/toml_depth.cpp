@@ -10,8 +10,7 @@ bool is_quote(char c) {
     return c == '"' || c == '\'';
 }
 
-// Returns the position after the string that begins at `from`: behind its closing quotes, or at an
-// error.
+// Returns the position after the string that begins at `from`, or the position of an error in it.
 std::size_t end_of_string(std::string_view toml, std::size_t from) {
     const char quote = toml[from];
     const std::string three(3, quote);

@@ -117,8 +117,8 @@ struct TomlFile::Document {
         }
     }
 
-    // Returns the complaint to report. If a key seems missing, it may be present under a misspelled
-    // name, which is then reported instead.
+    // Returns the complaint to report. If a key is missing but is present under a misspelled name,
+    // returns the complaint about the latter.
     [[nodiscard]] const Complaint& first_complaint() const {
         const Complaint& first = complaints.begin()->second;
         if (first.about != About::absent_key) return first;

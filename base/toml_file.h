@@ -1,10 +1,11 @@
 // base/toml_file.h -- reads and checks a TOML file, such as a configuration or a scene.
 //
-// Every complaint names the file, the line and the key, as in "storm.toml:12: [storm.hook]
-// width_km: must be a number, is text". Reading continues after a complaint; finish() returns the
-// complaint with the earliest line. Instead of a missing key it reports an unknown key of the same
-// table with a similar name, if there is one. Keys and tables that no code has read are complaints
-// too, so that a misspelled key does not silently take its default.
+// Every complaint names the file, the line (if it has one) and the key, as in "storm.toml:12:
+// [storm.hook] width_km: must be a number, is text". Reading continues after a complaint; finish()
+// returns the complaint with the earliest line. If that is about a missing key, finish() returns
+// the complaint about an unknown key with a similar name instead, if there is one. Keys and tables
+// that no code has read are complaints too, so that a misspelled key does not silently leave a
+// default in place.
 //
 // Threads   One thread at a time.
 // Errors    not_found, io and others from reading the file; bad_argument for its content.
@@ -39,7 +40,7 @@ class TomlFile {
     ~TomlFile();
 
     [[nodiscard]] TomlTable root();
-    // Returns the complaint to fix first, unknown keys included.
+    // Returns the complaint to fix first, or ok. Call it after all keys were read.
     [[nodiscard]] Status finish();
 
   private:
@@ -49,11 +50,11 @@ class TomlFile {
     std::unique_ptr<Document> document_;
 };
 
-// One table of a file, which must outlive it.
+// One table of a file. The file must outlive the object.
 class TomlTable {
   public:
-    // Each of these returns none if the key is absent, or if its value has another type, which is
-    // recorded as a complaint.
+    // Each of these functions returns none (section() and tables(): an empty result) if the key is
+    // absent or, with a complaint, if its value has another type or is out of range.
     std::optional<std::string> text(std::string_view key);
     std::optional<bool> flag(std::string_view key);
     std::optional<double> number(std::string_view key, TomlRange range);
@@ -61,13 +62,14 @@ class TomlTable {
     std::optional<std::vector<double>> numbers(std::string_view key);
     std::optional<std::vector<std::string>> texts(std::string_view key);
     std::optional<TomlTable> table(std::string_view key);  // [key]
-    TomlTable section(std::string_view key);               // same; an absent one is empty
+    TomlTable section(std::string_view key);               // [key]; empty if absent
     std::vector<TomlTable> tables(std::string_view key);   // [[key]], in the order of the file
 
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] bool is_array(std::string_view key) const;
     [[nodiscard]] bool is_text(std::string_view key) const;
-    // Marks the key, and everything below it, as read, because another program checks it.
+    // Marks the key, and everything below it, as read, so that finish() does not complain about
+    // them.
     void leave(std::string_view key);
     // Records a complaint about the value of a key, or about the table if the key is absent.
     void complain(std::string_view key, std::string_view why);

@@ -1,7 +1,7 @@
-// base/unsynced_files.h -- a file system that does not wait for the disk, for files that can be
-// made or fetched again.
+// base/unsynced_files.h -- a file system that never syncs, for files that can be made or fetched
+// again.
 //
-// Threads   Those of the file system behind it.
+// Threads   As the inner file system.
 #pragma once
 
 #include <cstddef>

@@ -28,7 +28,7 @@ class Descriptor {
     }
     [[nodiscard]] int number() const { return number_; }
     [[nodiscard]] bool is_open() const { return number_ >= 0; }
-    // Gives the descriptor away: the caller must close it.
+    // Gives the descriptor to the caller, who must close it.
     [[nodiscard]] int release() { return std::exchange(number_, -1); }
 
   private:

@@ -1,9 +1,11 @@
-// stormcellar/base/file_system.h -- the one place through which files are created and replaced.
+// stormcellar/base/file_system.h -- creates and replaces files so that they are whole even after a
+// power cut.
 //
-// A file appears in these steps: create a temporary file in the same directory, write, fsync,
-// rename, fsync the directory. Once commit() has returned success the file survives a power cut;
-// before that, the final name is untouched. Tests replace FileSystem by a double that drops what
-// was not synced, fills up, or fails (tests/testing).
+// A file appears in these steps: create a temporary file in the same directory, write it, fsync it,
+// rename it, fsync the directory. When commit() has returned success, the file survives a power
+// cut. If it fails, the path has the old file or, if only the sync of the directory failed, the new
+// one, whole. Tests replace FileSystem by a double that loses data that were not synced, is full,
+// or fails (tests/testing).
 //
 // Units     Offsets and sizes are in bytes.
 // Threads   Many threads may use one FileSystem. An AtomicFile may be used by one thread at a time.
@@ -27,8 +29,8 @@ namespace stormcellar {
 
 class FileSystem : public Interface {
   public:
-    // Each function returns io, no_space, permission or not_found, with the path and the system's
-    // reason.
+    // Errors: those of error_code_of() (base/system_error.h), with the system's reason and, if the
+    // function knows it, the path.
     virtual Result<int> create_exclusive(const std::filesystem::path& path) = 0;
     virtual Status write_at(int descriptor, std::uint64_t offset,
                             std::span<const std::byte> bytes) = 0;
@@ -40,28 +42,27 @@ class FileSystem : public Interface {
     virtual Status remove(const std::filesystem::path& path) = 0;
 };
 
-// Returns the files of the operating system.
+// Returns the file system of the operating system.
 [[nodiscard]] FileSystem& real_file_system();
 
-// The names of our temporary files start with this prefix, so that sweeping up leftovers never
-// touches other files.
+// The prefix of the names of our temporary files, by which leftovers are found and no other files
+// are removed.
 inline constexpr std::string_view temporary_prefix = ".stormcellar-tmp-";
-// Returns the prefix of this process, which names the host too: writers on several hosts may share
-// a directory.
+// Returns the prefix of this process's temporary files. It contains the host's name, because
+// writers on several hosts may share a directory.
 [[nodiscard]] std::string own_temporary_prefix();
-// Removes every file of the directory whose name has the prefix: the leftovers of killed writers.
-// Call it only if no other process writes there. A directory that does not exist is not an error.
-// Errors: io, permission.
+// Removes the temporary files that killed writers left in the directory. Call it only if no other
+// process writes there. A directory that does not exist is not an error. Errors: io, permission.
 [[nodiscard]] Status remove_temporaries(FileSystem& file_system,
                                         const std::filesystem::path& directory);
 
-// Checks, before long work, whether a file can appear at this path: its directory exists and is
-// writable, and the path holds nothing, a regular file, or a link to one.
+// Checks, before long work, that a file can be created at this path: its directory exists and is
+// writable, and the path is free, a regular file, or a link to a regular file.
 [[nodiscard]] Status check_target(const std::filesystem::path& path);
 
-// A file that exists under its final name wholly or not at all. If it is destroyed without
-// commit(), it leaves nothing behind. A link is followed. create() returns not_a_file if the path
-// holds anything but a regular file.
+// A file that gets its final name only when it is whole. Without commit(), the destructor removes
+// the temporary file. If the final path is a link, the file that it leads to is replaced. create()
+// returns not_a_file if something other than a regular file is there.
 class AtomicFile {
   public:
     static Result<AtomicFile> create(FileSystem& file_system, std::filesystem::path final_path);
@@ -73,9 +74,9 @@ class AtomicFile {
 
     Status append(std::span<const std::byte> bytes);
     Status write_at(std::uint64_t offset, std::span<const std::byte> bytes);
-    // Gives the file exactly this size. Ranges that were never written read as zeros and take no
-    // space.
+    // Sets the size of the file. Ranges that were never written read as zeros and take no space.
     Status set_size(std::uint64_t size);
+    // Syncs the file, gives it its final name and syncs the directory.
     Status commit();
 
     [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_path_; }
@@ -91,13 +92,12 @@ class AtomicFile {
     std::uint64_t end_ = 0;
 };
 
-// Read and write whole files. read_file() returns an empty vector for an empty file, not_a_file for
-// a directory or anything else that is not a regular file (it never blocks on a FIFO), and
-// unsupported for a file of more than `limit` bytes.
+// Reads a whole file. Errors: not_a_file for anything but a regular file (it never blocks on a
+// FIFO), unsupported for a file of more than `limit` bytes.
 inline constexpr std::uint64_t default_read_limit = std::uint64_t{1} << 30;
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                                        std::uint64_t limit = default_read_limit);
-// Reads a file that is already open. The path is used in messages.
+// Reads a file that is already open. `path` is only for messages.
 [[nodiscard]] Result<std::vector<std::byte>> read_open_file(int descriptor,
                                                             const std::filesystem::path& path,
                                                             std::uint64_t limit);

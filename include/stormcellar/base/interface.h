@@ -1,7 +1,7 @@
-// stormcellar/base/interface.h -- the base of interfaces, whose objects are neither copied nor
+// stormcellar/base/interface.h -- the base class of interfaces. Objects are neither copied nor
 // moved.
 //
-// Threads   Has no state.
+// Threads   No state.
 #pragma once
 
 namespace stormcellar {

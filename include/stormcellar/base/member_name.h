@@ -1,8 +1,8 @@
-// stormcellar/base/member_name.h -- names of members of archives:
+// stormcellar/base/member_name.h -- paths that name members of archives, such as
 // "DIR/a.tar!KTLX20170101_030027_V06".
 //
-// A '!' in a path proves nothing, because names of files may hold it too. The caller must check
-// whether the archive exists.
+// A '!' in a path proves nothing, because names of files may contain it, too. The caller must check
+// that the archive exists.
 //
 // Threads   Pure functions.
 // Errors    None.
@@ -22,8 +22,8 @@ struct MemberName {
     std::string member;
 };
 
-// Returns all ways to split the path into an archive and a member, the shortest archive name first.
-// Returns nothing if the path has no mark.
+// Returns all ways to split the path at a '!' into an archive and a member, the shortest archive
+// first. Returns an empty list if there are none.
 [[nodiscard]] inline std::vector<MemberName> member_names_in(const std::filesystem::path& path) {
     std::vector<MemberName> names;
     const std::string& text = path.native();

@@ -1,13 +1,13 @@
-// stormcellar/base/mutex.h -- mutexes that say what they guard, so that clang checks each access.
+// stormcellar/base/mutex.h -- mutexes whose use clang can check.
 //
-// A shared member names its mutex:    int count_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
-// a function that is called with it:  void add() STORMCELLAR_REQUIRES(mutex_);
-// scripts/check-locks compiles with clang's -Wthread-safety and refuses an access to the member, or
-// a call of the function, without the lock. The analysis does not look into constructors and
-// destructors. It looks at a lambda alone, so a lambda that runs under the lock says REQUIRES too,
-// and a wait is a loop: while (!is_done_) changed_.wait(mutex_);
+// A shared member names its mutex: int count_ STORMCELLAR_GUARDED_BY(mutex_) = 0; a function that
+// is called with it: void add() STORMCELLAR_REQUIRES(mutex_); scripts/check-locks compiles with
+// clang's -Wthread-safety, which refuses an access to the member, or a call of the function,
+// without the lock. The analysis ignores constructors and destructors. It treats a lambda as a
+// separate function, so a lambda that runs under the lock needs REQUIRES, too, and a wait must be a
+// loop without a lambda: while (!is_done_) changed_.wait(mutex_);
 //
-// Cost      None: each call is the call of the standard library. With gcc the macros are empty.
+// Cost      None: each call is one call of the standard library. With gcc the macros are empty.
 // Threads   Any thread.
 // Errors    None.
 #pragma once
@@ -23,15 +23,17 @@
 #define STORMCELLAR_LOCK_ATTRIBUTE(...)
 #endif
 
-// A member that is used only with the mutex held, or what a pointer points to.
+// For a member that is used only with the mutex held; POINTEE: for the object to which a pointer
+// points.
 #define STORMCELLAR_GUARDED_BY(mutex) STORMCELLAR_LOCK_ATTRIBUTE(guarded_by(mutex))
 #define STORMCELLAR_POINTEE_GUARDED_BY(mutex) STORMCELLAR_LOCK_ATTRIBUTE(pt_guarded_by(mutex))
-// A function that is called with the mutex held, at least for reading, or not held.
+// For a function that is called with the mutex held; SHARED: at least for reading; EXCLUDES: not
+// held.
 #define STORMCELLAR_REQUIRES(...) STORMCELLAR_LOCK_ATTRIBUTE(requires_capability(__VA_ARGS__))
 #define STORMCELLAR_REQUIRES_SHARED(...) \
     STORMCELLAR_LOCK_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
 #define STORMCELLAR_EXCLUDES(...) STORMCELLAR_LOCK_ATTRIBUTE(locks_excluded(__VA_ARGS__))
-// A function that locks or unlocks: without an argument, its own object.
+// For a function that locks or unlocks the mutex or, without an argument, its own object.
 #define STORMCELLAR_ACQUIRE(...) STORMCELLAR_LOCK_ATTRIBUTE(acquire_capability(__VA_ARGS__))
 #define STORMCELLAR_ACQUIRE_SHARED(...) \
     STORMCELLAR_LOCK_ATTRIBUTE(acquire_shared_capability(__VA_ARGS__))
@@ -39,9 +41,9 @@
 #define STORMCELLAR_RELEASE_SHARED(...) \
     STORMCELLAR_LOCK_ATTRIBUTE(release_shared_capability(__VA_ARGS__))
 #define STORMCELLAR_TRY_ACQUIRE(...) STORMCELLAR_LOCK_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
-// A function that only says that the mutex is held, where the analysis cannot see it.
+// For a function that tells the analysis that the mutex is held.
 #define STORMCELLAR_ASSERT_HELD(mutex) STORMCELLAR_LOCK_ATTRIBUTE(assert_capability(mutex))
-// A function that the analysis cannot follow; a comment says why.
+// For a function that the analysis must ignore. A comment must give the reason.
 #define STORMCELLAR_NO_LOCK_ANALYSIS STORMCELLAR_LOCK_ATTRIBUTE(no_thread_safety_analysis)
 
 namespace stormcellar {
@@ -57,7 +59,7 @@ class STORMCELLAR_LOCK_ATTRIBUTE(capability("mutex")) Mutex {
     std::mutex native_;
 };
 
-// Many threads may hold it for reading at once, or one for writing.
+// Many threads at once may hold this mutex for reading, or one thread for writing.
 class STORMCELLAR_LOCK_ATTRIBUTE(capability("mutex")) SharedMutex {
   public:
     void lock() STORMCELLAR_ACQUIRE() { native_.lock(); }
@@ -69,7 +71,7 @@ class STORMCELLAR_LOCK_ATTRIBUTE(capability("mutex")) SharedMutex {
     std::shared_mutex native_;
 };
 
-// Holds a mutex while it lives, a SharedMutex for writing.
+// Holds a mutex while it lives; holds a SharedMutex for writing.
 template <class AnyMutex = Mutex>
 class STORMCELLAR_LOCK_ATTRIBUTE(scoped_lockable) [[nodiscard]] MutexLock {
   public:
@@ -98,7 +100,7 @@ class STORMCELLAR_LOCK_ATTRIBUTE(scoped_lockable) [[nodiscard]] SharedLock {
     SharedMutex& mutex_;
 };
 
-// Gives up a mutex that the thread holds, and locks it again when destroyed.
+// Unlocks a mutex that the thread holds, and locks it again when destroyed.
 class STORMCELLAR_LOCK_ATTRIBUTE(scoped_lockable) [[nodiscard]] MutexUnlock {
   public:
     explicit MutexUnlock(Mutex& mutex) STORMCELLAR_RELEASE(mutex) : mutex_(mutex) {
@@ -112,7 +114,8 @@ class STORMCELLAR_LOCK_ATTRIBUTE(scoped_lockable) [[nodiscard]] MutexUnlock {
     Mutex& mutex_;
 };
 
-// A wait gives up the mutex, sleeps until it is notified (or for no reason) and locks it again.
+// A wait unlocks the mutex, sleeps until a notification (or wakes up without one), and locks the
+// mutex again.
 class ConditionVariable {
   public:
     void notify_one() noexcept { native_.notify_one(); }
@@ -136,7 +139,8 @@ class ConditionVariable {
     }
 
   private:
-    // The caller's lock, in the form that a standard condition variable takes; the caller unlocks.
+    // The caller's lock, in the form that a standard condition variable needs. The caller still
+    // unlocks it.
     struct Adopted {
         explicit Adopted(Mutex& mutex) : native(mutex.native_, std::adopt_lock) {}
         ~Adopted() { native.release(); }

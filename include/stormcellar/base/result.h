@@ -16,7 +16,7 @@
 
 namespace stormcellar {
 
-// The kind of a failure, for a caller that acts on it. Empty, truncated, corrupt and unsupported
+// The kind of a failure, for a caller that reacts to it. Empty, truncated, corrupt and unsupported
 // input mean different things to a user, so each has its own code.
 enum class ErrorCode {
     bad_argument,  // the caller asked for something that makes no sense
@@ -32,7 +32,7 @@ enum class ErrorCode {
     busy,          // another process holds what is needed: a lock, a database, an address
     no_space,      // the file system is full
     over_budget,   // an allowance of disk or memory is used up, though the system may have more
-    unmet,         // no choice that is allowed keeps the error or the time that was asked for
+    unmet,         // no allowed choice meets the requested error or time
     permission,    // the file may not be read or written
     internal,      // a defect of this software
 };
@@ -41,11 +41,10 @@ enum class ErrorCode {
 enum class Cause {
     data,           // the writer of the input: another try reads the same bytes
     system,         // the machine or another process: another try may succeed
-    configuration,  // the caller or the configuration: something asked for is not allowed or not
-                    // possible
+    configuration,  // the caller or the configuration: a request is not allowed or not possible
 };
 
-// Returns the usual cause of a code; see Error::cause() for the cause of one error.
+// Returns the usual cause of a code. Error::cause() returns the cause of one error.
 [[nodiscard]] constexpr Cause cause_of(ErrorCode code) {
     switch (code) {
         case ErrorCode::empty:
@@ -71,8 +70,8 @@ enum class Cause {
     return Cause::system;
 }
 
-// Returns true if the system is short of a common resource: disk, memory, descriptors. If reading a
-// file fails for such a reason, the file is not to blame, however often it is tried.
+// Returns true if the system is short of disk space, memory or descriptors. If reading a file fails
+// for such a reason, the file is not to blame, however often it fails.
 [[nodiscard]] constexpr bool is_shortage(ErrorCode code) {
     return code == ErrorCode::no_space || code == ErrorCode::exhausted;
 }
@@ -80,13 +79,13 @@ enum class Cause {
 struct Error {
     ErrorCode code = ErrorCode::internal;
     std::string message;
-    // Set if the code does not tell the cause, by a function that knows more about its input.
+    // Set by a function that knows a better cause than cause_of() returns.
     std::optional<Cause> known_cause = std::nullopt;
 
     [[nodiscard]] Cause cause() const { return known_cause.value_or(cause_of(code)); }
 };
 
-// Returns the error with a cause that the caller knows better than cause_of() can.
+// Returns the error with this cause instead of the usual one.
 [[nodiscard]] inline Error caused_by(Cause cause, Error error) {
     error.known_cause = cause;
     return error;

@@ -11,9 +11,9 @@
 
 namespace stormcellar {
 
-// An array that holds zeros at first. From 32 MiB on it is a mapping of its own: pages that were
-// never written take no memory, and the system sets none aside for them. A smaller array comes from
-// malloc, which is faster for small sizes. Moving leaves the source empty.
+// An array that is all zeros at first. An array of 32 MiB or more is a mapping of its own, in which
+// pages that were never written neither take nor reserve memory. A smaller array comes from malloc,
+// which is faster for small sizes. Moving leaves the source empty.
 class SparseBytes {
   public:
     SparseBytes() = default;

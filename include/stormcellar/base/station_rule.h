@@ -1,13 +1,13 @@
 // stormcellar/base/station_rule.h -- decides which stations' data are accepted.
 //
 // A file may claim to be from any station, and each accepted station gets a database, a domain in
-// the cache and a share of the memory and of the queue. So a station must pass this rule before it
-// gets anything. There are three rules:
+// the cache and a share of the memory and of the queue. So only stations that pass this rule get
+// anything. There are three rules:
 //   known   the station table, and the stations added to it (set_added_stations())
 //   any     the same, and the first `most_further` other names that are admitted
 //   listed  only the listed stations
-// Data of all other stations are cataloged with those of unknown stations, and not gridded. A name
-// is four characters, [A-Z][A-Z0-9]{3}; anything else is never accepted.
+// Files of all other stations are cataloged among those of unknown stations, and not gridded. Every
+// rule accepts only names of four characters, [A-Z][A-Z0-9]{3}.
 //
 // Threads   Any thread may call every function.
 // Errors    None.
@@ -39,15 +39,15 @@ class StationRule {
     ~StationRule() = default;
 
     [[nodiscard]] Kind kind() const { return kind_; }
-    // Returns true if data of this station are accepted. Nothing is admitted.
+    // Returns true if data of this station are accepted. Does not admit a new name.
     [[nodiscard]] bool knows(std::string_view station) const;
-    // Does the same, but the rule `any` admits a new name while there is room, and keeps it
-    // admitted.
+    // Returns true if data of this station are accepted. The rule `any` admits a new name for good,
+    // as long as it has admitted fewer than `most_further`.
     [[nodiscard]] bool admits(std::string_view station);
     // Returns the further stations that `any` has admitted, sorted.
     [[nodiscard]] std::vector<std::string> further() const;
     [[nodiscard]] std::size_t most_further() const { return most_further_; }
-    // Returns true if the other rule has the same configuration, whatever either has admitted.
+    // Returns true if both rules have the same configuration. Admitted names do not count.
     bool operator==(const StationRule& other) const;
 
   private:

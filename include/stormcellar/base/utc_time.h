@@ -1,5 +1,5 @@
-// stormcellar/base/utc_time.h -- instants, always in UTC, to the millisecond (the resolution of
-// Level II data).
+// stormcellar/base/utc_time.h -- instants in UTC, to the millisecond (the resolution of Level II
+// data).
 //
 // Units     Milliseconds inside, seconds in seconds_between().
 // Threads   Pure functions; now_utc() reads the system's clock.
@@ -19,8 +19,8 @@ using UtcTime = std::chrono::sys_time<std::chrono::milliseconds>;
 
 [[nodiscard]] UtcTime now_utc();
 
-// Data whose time is further in the future than this are kept but never count as the newest,
-// because the clock of the radar, or of this machine, is wrong.
+// Data with a time further in the future are kept, but do not count as the newest, because the
+// clock of the radar, or of this machine, must be wrong.
 inline constexpr std::chrono::minutes tolerated_future{10};
 [[nodiscard]] inline bool is_believed(UtcTime time, UtcTime now) {
     return time <= now + tolerated_future;
@@ -32,14 +32,16 @@ inline constexpr std::chrono::minutes tolerated_future{10};
 }
 
 // Returns the instant of a NEXRAD "modified Julian date" (day 1 is 1970-01-01) and milliseconds
-// after midnight, as in ICD 2620010 section 3.2. Numbers beyond the range of a day carry over.
+// after midnight, as in ICD 2620010 section 3.2. More milliseconds than a day has carry over into
+// the next days.
 [[nodiscard]] UtcTime time_from_nexrad(std::uint32_t day, std::uint32_t milliseconds);
 
-// A day number and milliseconds, the inverse. Times before 1970 give day 0 and 0 ms.
+// A day number and milliseconds, as above.
 struct NexradTime {
     std::uint32_t day = 0;
     std::uint32_t milliseconds = 0;
 };
+// Does the inverse of time_from_nexrad(). Times before 1970 give day 0 and 0 ms.
 [[nodiscard]] NexradTime nexrad_from_time(UtcTime time);
 
 // Writes "2022-03-17T00:08:42.596Z"; leaves out the fraction if it is zero.
