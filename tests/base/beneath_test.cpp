@@ -32,7 +32,7 @@ class Beneath : public ::testing::Test {
         ASSERT_TRUE(write_file_atomically(real_file_system(), path,
                                           std::as_bytes(std::span{text.data(), text.size()})));
     }
-    // Returns the contents, or the kind of error.
+    // Returns the contents of the file, or the error.
     [[nodiscard]] std::string read(const fs::path& path) const {
         const auto bytes = read_beneath(root(), path);
         if (!bytes) {
@@ -140,7 +140,7 @@ TEST_F(Beneath, NamesAreThoseOfTheDirectory) {
     EXPECT_FALSE(names_beneath(root(), root() / "day/site/file"));
 }
 
-// Somebody who swaps names while we look never makes us read anything outside the root.
+// A program that swaps names while we read never makes us read a file outside the root.
 TEST_F(Beneath, LinksThatComeAndGoLeadNowhere) {
     fs::create_directory_symlink(outside(), root() / "link");
     const pid_t child = ::fork();

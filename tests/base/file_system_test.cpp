@@ -32,7 +32,7 @@ TEST(AtomicFile, AppearsWholeUnderItsName) {
     EXPECT_EQ(entries(directory.path()), 1);
 }
 
-// Several hosts may write into one directory, and their processes may have the same number.
+// Several hosts may write into one directory, and their processes may have the same id.
 TEST(AtomicFile, ItsTemporaryNameSaysHostAndProcess) {
     const TemporaryDirectory directory;
     const auto file = AtomicFile::create(real_file_system(), directory / "a");
@@ -63,8 +63,8 @@ TEST(AtomicFile, MissingDirectoryIsNotFoundAndNamed) {
     EXPECT_NE(status.error().message.find("/nonexistent-directory"), std::string::npos);
 }
 
-// At every operation of a replacement, a failure followed by a power cut leaves the old contents or
-// the new, whole.
+// A failure at any operation of a replacement, followed by a power cut, leaves the whole old or the
+// whole new contents.
 TEST(AtomicFile, PowerCutAtEveryOperationLeavesOldOrNew) {
     std::uint64_t operation = 0;
     for (bool finished = false; !finished; ++operation) {

@@ -13,8 +13,9 @@ std::string local(const char* utc, const char* zone) {
     return format_local(parse_compact(utc).value(), zone).value();
 }
 
-// Law and almanac: daylight saving time in the United States ran from the first Sunday of April
-// to the last of October up to 2006, from the second of March to the first of November since.
+// In the United States, daylight saving time ran from the first Sunday of April to the last Sunday
+// of October until 2006. Since 2007 it runs from the second Sunday of March to the first Sunday of
+// November.
 TEST(LocalTime, FollowsTheRulesOfItsDay) {
     EXPECT_EQ(local("19990503_235621", "America/Chicago"), "1999-05-03 18:56:21 CDT");
     EXPECT_EQ(local("20080109_141449", "America/New_York"), "2008-01-09 09:14:49 EST");

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t volume_bytes = std::size_t{16} << 20;
 
-// Counts the page faults of touching new arrays of the size of a volume, which are then freed.
+// Touches new arrays of the size of a volume, frees them, and returns the number of page faults.
 long faults_of_a_volume() {
     rusage before{}, after{};
     getrusage(RUSAGE_SELF, &before);
@@ -38,7 +38,7 @@ TEST(KeepFreedMemory, TheSecondVolumeCostsNoFaults) {
     EXPECT_LT(faults_of_a_volume(), 100);
 }
 
-// Every tenth of many small blocks stays, so that the free memory lies between them.
+// Every tenth of many small blocks is kept, so that the freed memory is between blocks in use.
 TEST(GiveBackFreedMemory, WhatIsFreeBetweenOtherThingsGoesBackToTheSystem) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
     GTEST_SKIP() << "another allocator";
@@ -76,7 +76,7 @@ TEST(LargePages, AnArrayIsAllZero) {
     }
 }
 
-// If the system has large pages, 32 MiB take few faults; if it has none, as many as before.
+// With large pages, touching 32 MiB causes few faults; without them, as many as usual.
 TEST(LargePages, AreAHintThatCostsNoMoreFaults) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
     GTEST_SKIP() << "another allocator";

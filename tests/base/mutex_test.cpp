@@ -1,5 +1,5 @@
-// Locks exclude, readers share, and a wait gives up its mutex and has it again afterwards.
-// scripts/check-locks is the test of the annotations.
+// Tests that locks exclude, that readers share, and that a wait unlocks its mutex and locks it
+// again. scripts/check-locks tests the annotations.
 #include "stormcellar/base/mutex.h"
 
 #include <chrono>
@@ -11,7 +11,7 @@
 namespace stormcellar {
 namespace {
 
-// Asks from another thread, because a thread must not try to lock what it holds.
+// Tries to lock in another thread, because a thread must not try to lock a mutex that it holds.
 bool is_free(Mutex& mutex) {
     bool was_free = false;
     std::thread([&] {
@@ -83,7 +83,7 @@ TEST(SharedMutex, ReadersMeetAndAWriterIsAlone) {
             const SharedLock lock(mutex);
             reading.add(1);
             const MutexLock together(reading.mutex);
-            while (reading.number < 2)  // for ever, if the other reader had to wait
+            while (reading.number < 2)  // endless if the other reader must wait
                 reading.changed.wait(reading.mutex);
         });
     }
@@ -109,7 +109,7 @@ TEST(ConditionVariable, AWaitGivesUpTheMutexUntilItIsNotified) {
     std::thread other;
     {
         const MutexLock lock(count.mutex);
-        other = std::thread([&] { count.add(1); });  // cannot begin before the wait
+        other = std::thread([&] { count.add(1); });  // waits for the mutex until the wait below
         while (count.number == 0)
             count.changed.wait(count.mutex);
         EXPECT_EQ(count.number, 1);

@@ -21,7 +21,7 @@ TEST(Printable, EscapesControlsAndBrokenUtf8) {
     EXPECT_EQ(printable("\x7F"), "\\x7f");
 }
 
-// Other programs refuse these, so they must not pass as text (RFC 3629).
+// RFC 3629 forbids these sequences and other programs refuse them, so they must not pass as text.
 TEST(Printable, EscapesSurrogatesOverlongFormsAndWhatIsBeyondUnicode) {
     EXPECT_EQ(printable("\xED\x9F\xBF"), "\xED\x9F\xBF");
     EXPECT_EQ(printable("\xED\xA0\x80"), "\\xed\\xa0\\x80");
@@ -32,7 +32,8 @@ TEST(Printable, EscapesSurrogatesOverlongFormsAndWhatIsBeyondUnicode) {
     EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
 }
 
-// 2026-11-25: these passed, and the name of a file could reverse or hide a part of its own line.
+// 2026-11-25: these characters passed, so the name of a file could reverse or hide a part of its
+// line.
 TEST(Printable, EscapesWhatTurnsTextAroundOrIsNotSeen) {
     EXPECT_EQ(printable("KTLX\u202Egz.exe"), "KTLX\\xe2\\x80\\xaegz.exe");
     for (const std::string_view unseen :
@@ -48,7 +49,8 @@ TEST(Printable, EscapesWhatTurnsTextAroundOrIsNotSeen) {
     }
 }
 
-// The neighbors of those characters are text: Hebrew and Arabic letters, dashes, signs, emoji.
+// The code points next to those characters are text: Hebrew and Arabic letters, dashes, signs,
+// emoji.
 TEST(Printable, LeavesTheirNeighborsAlone) {
     for (const std::string_view seen :
          {"\u00A0", "\u00AC", "\u00AE", "\u0350", "\u05D0", "\u061B",     "\u061D",

@@ -7,7 +7,7 @@
 namespace stormcellar {
 namespace {
 
-// A key that can be compared for equality alone.
+// A key without an order, which can only be compared for equality.
 struct Unordered {
     int number = 0;
     bool operator==(const Unordered&) const = default;

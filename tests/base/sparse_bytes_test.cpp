@@ -19,7 +19,7 @@ TEST(SparseBytes, AreZerosOfEverySize) {
     }
 }
 
-// It looks at what was moved from: NOLINTBEGIN(bugprone-use-after-move)
+// This test examines moved objects: NOLINTBEGIN(bugprone-use-after-move)
 TEST(SparseBytes, MovesLeaveTheSourceEmpty) {
     for (const std::size_t size : {std::size_t{100}, std::size_t{33} << 20}) {
         SparseBytes first(size);
@@ -36,7 +36,7 @@ TEST(SparseBytes, MovesLeaveTheSourceEmpty) {
 }
 // NOLINTEND(bugprone-use-after-move)
 
-// One page in a GiB of 64 GiB is written.
+// The test writes one page in each GiB of 64 GiB.
 TEST(SparseBytes, TakeMemoryOnlyWhereTheyAreWritten) {
     constexpr std::size_t gibibyte = std::size_t{1} << 30;
     SparseBytes made(64 * gibibyte);

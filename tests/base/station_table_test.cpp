@@ -30,13 +30,14 @@ TEST(StationTable, EveryFieldIsFilled) {
     }
 }
 
-// 159 WSR-88D in operation; KJAN, KLIX, KRMX and LPLA, which were; and KCRI and KOUN in Norman.
+// The WSR-88D are 159 in operation, the former KJAN, KLIX, KRMX and LPLA, and KCRI and KOUN in
+// Norman.
 TEST(StationTable, HoldsTheWholeNetwork) {
     EXPECT_EQ(count(RadarKind::nexrad), 165U);
     EXPECT_EQ(count(RadarKind::tdwr), 45U);
 }
 
-// Guam is the southernmost, Fairbanks the northernmost; KICX is the highest.
+// Guam is the southernmost site, Fairbanks the northernmost, and KICX the highest.
 TEST(StationTable, PositionsAreInBounds) {
     for (const Station& station : all_stations()) {
         EXPECT_GE(station.latitude_deg, 13.4) << station.icao;
@@ -44,12 +45,12 @@ TEST(StationTable, PositionsAreInBounds) {
         const bool far_east = station.longitude_deg > 126 && station.longitude_deg < 145;
         const bool american = station.longitude_deg > -166 && station.longitude_deg < -66;
         EXPECT_TRUE(far_east || american || station.icao == "LPLA") << station.icao;
-        EXPECT_GE(station.antenna_altitude_m, 25) << station.icao;  // on a tower by the sea
+        EXPECT_GE(station.antenna_altitude_m, 25) << station.icao;  // a tower near sea level
         EXPECT_LE(station.antenna_altitude_m, 3300) << station.icao;
     }
 }
 
-// All TDWR have a T name; so has one WSR-88D, TJUA in Puerto Rico.
+// The names of all TDWR begin with T, and so does the name of one WSR-88D, TJUA in Puerto Rico.
 TEST(StationTable, KindsFollowNames) {
     for (const Station& station : all_stations()) {
         const bool tdwr = station.icao.front() == 'T' && station.icao != "TJUA";
@@ -57,7 +58,7 @@ TEST(StationTable, KindsFollowNames) {
     }
 }
 
-// The first letters of an ICAO name give the region. This finds a lost sign and swapped fields.
+// The first letters of an ICAO name give the region, which reveals a lost sign and swapped fields.
 TEST(StationTable, NamesFollowPlaces) {
     for (const Station& station : all_stations()) {
         if (station.icao.front() == 'K') {
@@ -92,8 +93,8 @@ void expect_agreement(const Reported& reported, double position_tolerance_deg) {
     EXPECT_NEAR(station->antenna_altitude_m, reported.antenna_altitude_m, 1.3) << reported.icao;
 }
 
-// Positions that radars report in message 31 since 2013. The altitude is site + tower, both in
-// whole meters rounded down, and for the TDWR the site height alone.
+// These are positions that radars have reported in message 31 since 2013. The altitude is the sum
+// of site and tower, each rounded down to meters; for a TDWR it is the site height alone.
 TEST(StationTable, AgreesWithMessage31) {
     const Reported volumes[] = {
         {"KATX", 48.19461, -122.4957, 161 + 34},
@@ -115,8 +116,8 @@ TEST(StationTable, AgreesWithMessage31) {
         expect_agreement(volume, 0.0005);
 }
 
-// The same from another line of descent: the product description block of Level III products of
-// 2013 to 2023, which gives thousandths of a degree and feet.
+// These positions come from an independent source: the product description blocks of Level III
+// products of 2013 to 2023, which have thousandths of a degree and feet.
 TEST(StationTable, AgreesWithLevelIIIProducts) {
     constexpr double foot_m = 0.3048;
     const Reported products[] = {
@@ -133,9 +134,10 @@ TEST(StationTable, AgreesWithLevelIIIProducts) {
         expect_agreement(product, 0.0015);
 }
 
-// In September 2010 message 31 of two sites held meters taken for feet and converted again:
-// 4 + 9 m at KDOX, 171 + 9 m at KTYX. Beyond 30 m the table is believed instead, so it must differ
-// from both by more; that they are 0.3048 of its own figures shows what went wrong.
+// In September 2010, two sites converted their heights in meters from feet to meters once more:
+// message 31 had 4 + 9 m at KDOX and 171 + 9 m at KTYX. If the table differs by more than 30 m, it
+// is used instead, so it must differ by more. The reported heights are 0.3048 times those of the
+// table.
 TEST(StationTable, ContradictsHeightsConvertedTwice) {
     const auto dover = find_station("KDOX");
     const auto drum = find_station("KTYX");
@@ -175,7 +177,7 @@ TEST(IsIcao, TakesALetterAndThreeLettersOrDigits) {
     EXPECT_TRUE(is_icao("DAN1"));
     EXPECT_TRUE(is_icao("A000"));
     EXPECT_TRUE(is_icao("Z999"));
-    EXPECT_TRUE(is_icao("QQQQ"));  // a shape, not a listing
+    EXPECT_TRUE(is_icao("QQQQ"));  // only the form counts
 }
 
 TEST(IsIcao, RefusesOtherLengths) {
@@ -184,7 +186,7 @@ TEST(IsIcao, RefusesOtherLengths) {
     EXPECT_FALSE(is_icao("KTLXX"));
 }
 
-// One wrong byte in each place, over all byte values.
+// Each byte of a name is replaced by every wrong value.
 TEST(IsIcao, RefusesEveryOtherByte) {
     for (std::size_t place = 0; place < 4; ++place) {
         for (int value = 0; value < 256; ++value) {

@@ -43,7 +43,7 @@ TEST(TomlDepth, DotsOfNumbersStringsAndCommentsAreNone) {
     }
 }
 
-// If the two disagreed about the end of a string, a key could be hidden.
+// If we and the parser disagreed about the end of a string, a deep key could remain unnoticed.
 TEST(TomlDepth, StringsEndWhereTheParserEndsThem) {
     const std::string deep = "\n" + key_of(100) + " = 1\n";
     for (const std::string before :
@@ -55,7 +55,7 @@ TEST(TomlDepth, StringsEndWhereTheParserEndsThem) {
     }
 }
 
-// 2026-11-25: such a file ended the process, even if the key was followed by a mistake.
+// 2026-11-25: such a file crashed the process, even if a mistake followed the key.
 TEST(TomlDepth, AKeyThatWouldEndTheProcessIsRefused) {
     const std::string deep = key_of(400'000);
     for (const std::string& text :

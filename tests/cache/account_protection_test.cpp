@@ -1,5 +1,5 @@
-// Tests which grids are protected, up to what size, and in which order grids are evicted: the
-// promises of stormcellar/cache/budget.h.
+// Tests which grids are protected, up to which size, and the order of eviction, as promised in
+// stormcellar/cache/budget.h.
 #include <algorithm>
 #include <random>
 
@@ -49,7 +49,7 @@ TEST(IsKnownGroup, StationsOfTheTableAndAllThatHasNotAnIcaosForm) {
 
 TEST_F(AccountProtectionTest, TheNewestIsProtectedWhileItsFileIsYoung) {
     budgets_.protected_for = hours{12};
-    put("KTLX", -60 * 24 * 3650, 10, noon + hours{12} + minutes{1});  // a replayed one
+    put("KTLX", -60 * 24 * 3650, 10, noon + hours{12} + minutes{1});  // replayed old data
     put("KINX", 0, 10, noon + hours{12});
     put("northeast", 1, 10, noon + hours{12});
     put("northeast.KBOX", 2, 10, noon + hours{13});
@@ -114,7 +114,8 @@ TEST_F(AccountProtectionTest, PinnedGridsAreNotCountedAmongTheProtected) {
     EXPECT_THAT(all_that_may_go(20), IsEmpty());
 }
 
-// If a grid is larger than half of the budget, or pinned grids leave too little room.
+// This is the case if a grid is larger than half of the budget, or pinned grids leave too little
+// room.
 TEST_F(AccountProtectionTest, TheNewestOfAKnownStationTakesProtectedOnesAsALastResort) {
     put("KTLX", 0, 10);
     put("KINX", 1, 10);
@@ -141,7 +142,7 @@ TEST_F(AccountProtectionTest, OthersGoBeforeAnyHistoryThatIsKnown) {
     EXPECT_THAT(account_.down_to("", 30, 100),
                 ElementsAre(name("XAAA", 100), name("XAAA", 101), name("XAAA", 102)));
     EXPECT_THAT(account_.down_to("", 0, 100, {}, Reach::others).size(), 3U);
-    // Even for a grid that is older than theirs.
+    // They give room even to an older grid.
     EXPECT_THAT(*room(name("KTLX", 1), 10), ElementsAre(name("XAAA", 100)));
     EXPECT_TRUE(room(name("KTLX", -1), 10)) << "the others would go before it";
 }
@@ -175,7 +176,7 @@ TEST_F(AccountProtectionTest, OthersHoldATenthOfTheBudgetTogether) {
     account_.reserve("XCCC", 20);
     EXPECT_EQ(account_.used_by_others(), 120U);
     account_.release("XCCC", 20);
-    // For a budget in percent, it is a tenth of that share of the file system.
+    // With a budget in percent, others may hold a tenth of that share of the file system.
     budgets_.total.bytes.reset();
     EXPECT_EQ(account_.others_limit(budgets_), std::nullopt);
     budgets_.total.file_system_percent = 50;
@@ -191,7 +192,7 @@ TEST_F(AccountProtectionTest, OthersOutliveNobodysProtection) {
     budgets_.protected_for = hours{12};
     put("XAAA", 0, 10, noon + hours{12});
     put("XBBB", -60 * 24, 10, noon + hours{12} + minutes{1});
-    put("XCCC", 1, 10, noon + hours{24 * 365});  // written when a clock was wrong
+    put("XCCC", 1, 10, noon + hours{24 * 365});  // by a wrong clock
     account_.put(name("XDDD", 2), {10, noon, true});
     put("KTLX", 3, 10, noon);
     EXPECT_THAT(account_.outlived(budgets_, 100), ElementsAre(name("XAAA", 0), name("XCCC", 1)));
@@ -237,7 +238,7 @@ struct SlowGrid {
     bool newest = false;
 };
 
-// The choice as stormcellar/cache/budget.h describes it, made slowly.
+// Chooses grids by the words of stormcellar/cache/budget.h, in a slow and simple way.
 std::vector<GridName> slow_choice(const std::map<GridName, GridFacts>& grids, std::uint64_t target,
                                   std::uint64_t space) {
     std::vector<SlowGrid> going, protected_ones;

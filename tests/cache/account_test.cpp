@@ -49,8 +49,8 @@ TEST_F(AccountTest, TakesTheOldestOfAllForTheTotalAndOfTheGroupForItsOwn) {
     budgets_.domains["B"].bytes = 45;
     EXPECT_FALSE(account_.fits("B", 10, budgets_));
     EXPECT_TRUE(account_.fits("B", 0, budgets_));
-    // The group's own budget needs 5 bytes, the total one 10: what is evicted for one counts for
-    // the other.
+    // The group's own budget needs 5 bytes, and the total budget 10. A grid that is evicted for one
+    // counts for the other.
     EXPECT_THAT(*room(grid_named("B", 9), 10), ElementsAre(grid_named("B", 1)));
     EXPECT_THAT(*room(grid_named("B", 9), 20), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
     EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
@@ -80,7 +80,7 @@ TEST_F(AccountTest, MakesRoomForOldGridsOnlyFromOlderOnes) {
     EXPECT_FALSE(room(grid_named("A", 5), 10)) << "it would be the first to go";
     EXPECT_THAT(*room(grid_named("A", 15), 10), ElementsAre(grid_named("A", 10)));
     EXPECT_FALSE(room(grid_named("A", 15), 20));
-    // But the only grid of a domain is its newest one, however old.
+    // But the only grid of a domain is its newest grid, even if it is old.
     EXPECT_THAT(*room(grid_named("B", -500), 10), ElementsAre(grid_named("A", 10)));
 }
 
@@ -127,7 +127,7 @@ TEST_F(AccountTest, ReservedBytesCount) {
     EXPECT_EQ(account_.used(), 20U);
 }
 
-// Age counts from the newest volume of a domain, not from the clock.
+// Age counts from the newest grid of a group, not from the clock.
 TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     for (const int minute : {0, 30, 60, 90})
         put("A", minute);
@@ -148,7 +148,7 @@ TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     EXPECT_THAT(account_.expired("B", budgets_, 100), IsEmpty());
 }
 
-// Times more than 10 minutes in the future do not count.
+// Grids more than 10 minutes in the future do not make others old.
 TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     account_.set_now(noon);
     budgets_.total.age = minutes{60};
@@ -160,12 +160,12 @@ TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     account_.put(grid_named("A", 60 * 24 * 365), {10, noon + minutes{1}, false});
     EXPECT_EQ(account_.newest("A"), noon + minutes{10});
     EXPECT_THAT(account_.expired("A", budgets_, 100), IsEmpty());
-    // They are as old as their files, so they are evicted with the others and protect nothing.
+    // They count as old as their files, so they are evicted like the others.
     EXPECT_TRUE(account_.is_newest(grid_named("A", 10)));
     EXPECT_THAT(account_.down_to("A", 0, 100),
                 ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11),
                             grid_named("A", 60 * 24 * 365)));
-    // A minute later one of them is believed.
+    // A minute later, the time of one of them is believable.
     account_.set_now(noon + minutes{1});
     EXPECT_EQ(account_.newest("A"), noon + minutes{11});
     EXPECT_THAT(account_.down_to("A", 0, 100),
@@ -191,7 +191,7 @@ TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
     EXPECT_EQ(account_.newest("northeast"), noon + minutes{60});
     EXPECT_THAT(account_.down_to("northeast", 0, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0)));
-    // If a part fell silent, not even its newest grid outlives the age.
+    // If no more grids of a part come, even its newest grid expires.
     budgets_.domains["northeast"].age = minutes{30};
     EXPECT_THAT(account_.expired("northeast", budgets_, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0), grid_named("northeast.KOKX", 5)));
@@ -215,7 +215,7 @@ TEST_F(AccountTest, AFullDiskTakesTheOldestWhereABudgetLimitsSpace) {
         << "only what is older";
 }
 
-// A pinned grid that is written again does not compete with older ones: it stays anyway.
+// A pinned grid that is written again may take the room of newer grids, because it stays anyway.
 TEST_F(AccountTest, AGridToStayMayTakeTheRoomOfNewerOnes) {
     put("A", 0, 10, true);
     put("A", 1);
@@ -229,7 +229,7 @@ TEST_F(AccountTest, AGridToStayMayTakeTheRoomOfNewerOnes) {
     EXPECT_TRUE(account_.is_expired(grid_named("A", 1), budgets_));
 }
 
-// Compares sums and choices with an obvious implementation, over random changes.
+// After random changes, sums and choices agree with an obvious implementation.
 TEST_F(AccountTest, AgreesWithAListThatIsSortedEachTime) {
     std::mt19937 random(7);
     const auto draw = [&](int end) {

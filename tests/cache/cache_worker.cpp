@@ -1,8 +1,9 @@
-// A process of its own that works on a cache, for processes_test.cpp.
+// This program works on a cache, as a separate process of processes_test.cpp.
 //   cache_worker write CACHE BYTES SEED BEGUN
-//       commits, replaces and evicts until it is killed; BEGUN appears after the first commit
+//       commits, replaces and evicts until it is killed; creates BEGUN after the first commit
 //   cache_worker read CACHE STOP
-//       reads every grid again and again until STOP is there; status 1 when one was not whole
+//       reads all grids again and again until STOP exists; ends with status 1 if a grid is not
+//       whole
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>

@@ -1,4 +1,4 @@
-// A disk that is full although the budgets have room: others took it.
+// Tests a disk that is full although the budgets have room, because others took the space.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,8 +73,8 @@ TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
     EXPECT_EQ(testing::all_grids(store).size(), 1U) << "the newest stays";
 }
 
-// The daemon takes no file of any station while the disk is full, so that must not be said for
-// stations that nobody knows while those that are known would find room.
+// After no_space, the daemon ingests no files of any station. So a grid of an unknown station must
+// not give that error while known stations can still get room by eviction.
 TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     budgets_.total.bytes = 1'000'000'000;
     RollingStore store = open(budgets_);
@@ -92,7 +92,7 @@ TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     ASSERT_TRUE(commit(store, 9)) << "a known one takes the oldest's place";
 }
 
-// Its temporary file cannot even be removed again: it is counted, and removed when that works.
+// A file system that refuses to remove a temporary file, which is then counted, and removed later.
 class Unremovable final : public FileSystem {
   public:
     Result<int> create_exclusive(const fs::path& path) override {

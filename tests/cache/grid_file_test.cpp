@@ -99,7 +99,7 @@ TEST_F(GridFileTest, AWindowComesBackAndOldReadersAreTold) {
     EXPECT_EQ(header.offset_y_cells, 31.5);
 }
 
-// A file of version 1 also said when its source was modified: record 11.
+// Version 1 also had record 11, the modification time of the source.
 TEST_F(GridFileTest, TheVersionBeforeIsReadAndALaterOneRefused) {
     ASSERT_TRUE(write(real_file_system()));
     auto bytes = bytes_of(path_);
@@ -107,7 +107,7 @@ TEST_F(GridFileTest, TheVersionBeforeIsReadAndALaterOneRefused) {
     format::FileHeader header;
     std::memcpy(&header, bytes.data(), sizeof header);
     EXPECT_EQ(header.version, 2U);
-    // The first record is the name of the source, of 24 bytes; the new one takes its place.
+    // The first record, of 24 bytes, is the name of the source. Record 11 takes its place.
     const std::array<std::uint32_t, 6> record = {11, 8, 123'456'789, 7, 1, 0};
     std::memcpy(bytes.data() + header.description_offset, record.data(), sizeof record);
     const auto of_version = [&](std::uint32_t version) {
@@ -168,7 +168,7 @@ TEST_F(GridFileTest, AGridThatWasNotAuditedHasNoRows) {
     EXPECT_TRUE(file->description().provenance.audit.empty());
 }
 
-// A file with audit values that are impossible is written, but nobody opens it.
+// A file with impossible audit values can be written, but not opened.
 TEST_F(GridFileTest, AnImpossibleAuditIsCorrupt) {
     const auto opened_with = [&](auto change) {
         grid::Grid grid = testing::small_grid();
@@ -209,7 +209,8 @@ TEST_F(GridFileTest, SameGridGivesTheSameBytes) {
     EXPECT_EQ(bytes_of(path_), first);
 }
 
-// One bit of each byte before the codes: either the checksum or what it protects has changed.
+// Each byte before the codes gets one wrong bit, which changes either the checksum or protected
+// data.
 TEST_F(GridFileTest, EveryFlippedByteBeforeTheCodesIsRefused) {
     ASSERT_TRUE(write(real_file_system()));
     auto bytes = bytes_of(path_);

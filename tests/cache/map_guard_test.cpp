@@ -75,7 +75,7 @@ TEST_F(MapGuard, AFileThatHasItsSizeAgainWasCutAllTheSame) {
     EXPECT_FALSE(file->verify());
 }
 
-// More than fit into the registry's first block.
+// These are more maps than fit into the registry's first block.
 TEST_F(MapGuard, EachOfManyMapsIsGuarded) {
     install_map_guard();
     const fs::path kept = write("kept.scg");
@@ -118,7 +118,7 @@ TEST_F(MapGuard, ManyThreadsMeetCutFilesAtOnce) {
         thread.join();
 }
 
-// The child acts as another program that cuts the file at some moment while we read it.
+// The child process cuts the file at some moment while we read it.
 TEST_F(MapGuard, AnotherProcessCutsTheFileWhileItIsRead) {
     install_map_guard();
     const fs::path path = write("a.scg");
@@ -147,7 +147,7 @@ TEST_F(MapGuard, AnotherProcessCutsTheFileWhileItIsRead) {
     EXPECT_EQ(values_in(*file), 0U);
 }
 
-// Death tests run in a new process of their own.
+// Death tests run in a new process.
 class MapGuardDeathTest : public MapGuard {
   protected:
     void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }

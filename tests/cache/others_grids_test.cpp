@@ -1,4 +1,4 @@
-// Grids of stations that nobody knows, on real files: they displace nobody, and they do not stay.
+// Tests that grids of unknown stations displace no others and do not stay, with real files.
 #include <algorithm>
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using testing::noon;
 
-// XAAA, XAAB, ...: of the form of a station, and of no table.
+// Returns XAAA, XAAB, ...: the names of stations that no table has.
 std::string invented(int number) {
     std::string name = "XAAA";
     for (std::size_t at = 3; at > 0; --at, number /= 26)
@@ -57,7 +57,7 @@ class OthersGridsTest : public ::testing::Test {
             if (!is_known_group(entry.domain)) bytes += entry.bytes_on_disk;
         return bytes;
     }
-    // A cache as an older version left it: the newest grids of `count` invented stations.
+    // Leaves the newest grids of `count` invented stations in the cache, as an older version did.
     void leave_behind(int count) {
         auto store = *StoreWriter::open(real_file_system(), cache_, false);
         for (int site = 0; site < count; ++site)
@@ -70,8 +70,8 @@ class OthersGridsTest : public ::testing::Test {
     Budgets budgets_;
 };
 
-// Found by an audit on 2026-11-24: 200 invented stations filled a cache of 20 MB with "newest"
-// grids that nothing removed, real history went for them, and real grids were refused.
+// 2026-11-24: 200 invented stations filled a cache of 20 MB with "newest" grids, which were never
+// removed. Real grids were evicted for them, and new real grids were refused.
 TEST_F(OthersGridsTest, TwoHundredInventedStationsTakeNothingFromThoseThatAreKnown) {
     budgets_.total.bytes = 20'000'000;
     RollingStore attacked = open(cache_, budgets_);
@@ -107,7 +107,7 @@ TEST_F(OthersGridsTest, TwoHundredInventedStationsTakeNothingFromThoseThatAreKno
     EXPECT_THAT(grids_of(attacked, false), IsEmpty());
 }
 
-// The newest grids of all stations alone are more than the budget; all of them are of known ones.
+// The newest grids of known stations together exceed the budget.
 TEST_F(OthersGridsTest, KnownStationsFindRoomEvenWhereTheirNewestAloneExceedTheBudget) {
     budgets_.total.bytes = 1'500'000;
     RollingStore store = open(cache_, budgets_);
@@ -119,7 +119,7 @@ TEST_F(OthersGridsTest, KnownStationsFindRoomEvenWhereTheirNewestAloneExceedTheB
         }
         EXPECT_THAT(store.roll().problems, IsEmpty());
     }
-    // A large one, and one that fills nearly all of it.
+    // First the grid is large, and then it needs nearly the whole budget.
     ASSERT_TRUE(commit(store, "KTLX", 10, 8));
     ASSERT_TRUE(commit(store, "KTLX", 11, 8));
     Budgets small = budgets_;
@@ -158,7 +158,7 @@ TEST_F(OthersGridsTest, TheyGoByAgeWithoutAnyBudget) {
 TEST_F(OthersGridsTest, WhatAnAttackLeftIsBroughtDownToItsShareAtTheStart) {
     leave_behind(50);
     const std::uint64_t left = testing::allocated_bytes(cache_);
-    budgets_.total.bytes = left;  // full, as they left it
+    budgets_.total.bytes = left;  // the cache is full
     RollingStore store = open(cache_, budgets_);
     EXPECT_LE(bytes_of_others(store), left / 10);
     EXPECT_GT(bytes_of_others(store), 0U);
@@ -175,11 +175,12 @@ TEST_F(OthersGridsTest, AFullFileSystemTakesTheirsFirst) {
     const std::uint64_t of_known = testing::allocated_bytes(cache_);
     for (int site = 0; site < 5; ++site)
         ASSERT_TRUE(commit(store, invented(site), 100 + site));
-    // One grid too many: what is known would have to go down to the low mark with them.
+    // The cache holds one grid too many. Without the rule for others, known grids would be evicted
+    // down to the low mark, too.
     beside_ = capacity_ * 8 / 10 - testing::allocated_bytes(cache_) + 4096;
     EXPECT_EQ(store.roll().evicted, 5U);
     EXPECT_EQ(testing::allocated_bytes(cache_), of_known) << "no known history went for theirs";
-    // Where the known fill it themselves, half of what may be filled is protected at most.
+    // If known grids alone exceed the limit, at most half of the space is protected.
     ASSERT_TRUE(commit(store, "KINX", 0));
     beside_ = 0;
     capacity_ = of_known / 10 * 3;

@@ -40,7 +40,7 @@ TEST_P(PackedGridFile, HoldsTheSameCellsInLessSpace) {
 }
 INSTANTIATE_TEST_SUITE_P(CodeBytes, PackedGridFile, ::testing::Values(1, 2));
 
-// The bytes before the codes are guarded as in every file.
+// grid_file_test.cpp tests the bytes before the codes.
 TEST_F(PackedGridFile, EveryFlippedByteOfTheCodesIsRefused) {
     ASSERT_TRUE(pack(real_file_system()));
     const auto bytes = bytes_of(path_);
@@ -55,7 +55,7 @@ TEST_F(PackedGridFile, EveryFlippedByteOfTheCodesIsRefused) {
     }
 }
 
-// 2026-11-28: a file of 70 MB from another machine took 8 GiB as it was opened.
+// 2026-11-28: opening a file of 70 MB from another machine took 8 GiB.
 TEST_F(PackedGridFile, TakesNoMoreMemoryThanItsReaderAllows) {
     ASSERT_TRUE(pack(real_file_system()));
     const grid::BrickGrid made = bricks(1);

@@ -1,4 +1,4 @@
-// A power cut, or a disk that fails for good, at each single operation of a store that rolls.
+// Tests a power cut, or a lasting failure of the disk, at each operation of a RollingStore.
 #include <map>
 #include <optional>
 
@@ -28,11 +28,11 @@ Budgets budgets() {
 }
 
 struct Promises {
-    std::map<fs::path, std::string> grids;  // the notes of what commit() said stands, by path
+    std::map<fs::path, std::string> grids;  // notes of the grids that commit() returned, by path
     std::optional<fs::path> pinned;
 };
 
-// Fills the cache beyond its budget over two days, replaces a grid, pins one, rolls.
+// Commits grids of two days beyond the budget, replaces a grid, pins one, and rolls.
 void live(FileSystem& disk, const fs::path& cache, Promises& promised) {
     auto store = RollingStore::open(disk, cache, budgets());
     if (!store) return;
@@ -59,8 +59,9 @@ std::string note_of(const fs::path& path) {
     return file ? file->description().provenance.notes.at(0) : file.error().message;
 }
 
-// Every grid that is there is whole, the budget holds now and after the next start, and then
-// nothing is left over. The newest grid that was promised is there, as it was promised or later.
+// Expects that every grid is whole, that the cache is within its budget now and after the next
+// start, and that no temporary file remains then. The newest promised grid must exist, as it was
+// promised or replaced by a later one.
 void check(const fs::path& cache, const Promises& promised) {
     if (!fs::exists(cache)) return;
     EXPECT_LE(testing::allocated_bytes(cache), budget);
@@ -96,7 +97,8 @@ std::uint64_t operations_of_a_whole_life() {
 
 enum class Ending { failure, power_cut };
 
-// A life in which every operation from the `at`th on fails, and what it leaves.
+// Runs live() on a disk on which every operation from number `at` on fails, and checks what
+// remains.
 void live_until(std::uint64_t at, Ending ending) {
     SCOPED_TRACE(at);
     const testing::TemporaryDirectory directory;
@@ -108,8 +110,8 @@ void live_until(std::uint64_t at, Ending ending) {
     check(directory / "cache", promised);
 }
 
-// The room of a grid is used again only when its removal is on disk: else a cut would bring it back
-// beside what took its room.
+// The room of a grid is used again only when its removal was synced. Otherwise a power cut would
+// bring the grid back beside the grid that took its room.
 TEST(RollingPowerCut, LeavesWholeGridsAndTheBudgetAtEachOperation) {
     const std::uint64_t operations = operations_of_a_whole_life();
     ASSERT_GT(operations, 80U);

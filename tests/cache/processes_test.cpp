@@ -1,4 +1,4 @@
-// Readers beside a writer that evicts, and writers that are killed: in processes of their own.
+// Tests readers beside a writer that evicts, and writers that are killed, in separate processes.
 #include <atomic>
 #include <csignal>
 #include <fstream>
@@ -51,7 +51,8 @@ Budgets budgets() {
     return made;
 }
 
-// "Many readers while the daemon writes and evicts: a reader keeps the file it has open."
+// Many readers read while a writer commits and evicts. A reader can still read the file that it has
+// open.
 TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
     const testing::TemporaryDirectory directory;
     const fs::path cache = directory / "cache";
@@ -106,13 +107,13 @@ TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
     EXPECT_LE(disk.most(), budget);
 }
 
-// False when the file does not come within a minute.
+// Returns false if the file does not appear within a minute.
 bool wait_for_file(const fs::path& path) {
     return testing::eventually([&] { return fs::exists(path); });
 }
 
-// After each kill -9, at a random moment: whole grids, within the budget, and the next writer
-// starts.
+// After each kill -9 at a random moment, all grids are whole and within the budget, and the next
+// writer starts.
 TEST(CacheProcesses, AKilledWriterLeavesWholeGridsWithinTheBudget) {
     const testing::TemporaryDirectory directory;
     const fs::path cache = directory / "cache";
@@ -123,7 +124,7 @@ TEST(CacheProcesses, AKilledWriterLeavesWholeGridsWithinTheBudget) {
         const fs::path begun = directory / ("begun-" + std::to_string(round));
         const pid_t writer =
             start({"write", cache, std::to_string(budget), std::to_string(round), begun});
-        // Every third one dies early, perhaps while it starts.
+        // Every third writer is killed early, perhaps while it starts.
         if (round % 3 != 2) {
             EXPECT_TRUE(wait_for_file(begun));
         }

@@ -1,4 +1,5 @@
-// "The byte budget is never exceeded": weighed after every operation on the disk, whoever does it.
+// Tests that the budget of bytes is never exceeded, by adding up the files after every operation on
+// the disk.
 #include <atomic>
 #include <random>
 #include <thread>
@@ -23,7 +24,7 @@ using testing::noon;
 constexpr std::uint64_t total = 600'000;
 constexpr std::uint64_t of_b = 250'000;
 
-// STORMCELLAR_LONG=10 does ten times as much.
+// Returns 10 for STORMCELLAR_LONG=10, which makes the tests ten times as long.
 int times_longer() {
     const char* text = std::getenv("STORMCELLAR_LONG");
     return text == nullptr ? 1 : std::max(1, std::atoi(text));
@@ -33,8 +34,8 @@ struct Counts {
     std::atomic<int> committed{0}, not_kept{0}, refused{0};
 };
 
-// Commits of all sizes at times that mostly advance, replacements, late grids, pins, rolls and
-// evictions by hand.
+// Commits grids of all sizes at times that mostly advance, replaces grids, commits late ones, pins,
+// rolls and evicts on request.
 void live(RollingStore& store, FileSystem& disk, std::uint64_t seed, int steps, Counts& counts) {
     std::mt19937_64 random(seed);
     const auto draw = [&](int end) {
@@ -112,7 +113,7 @@ TEST_P(RollingBudgetTest, IsNeverExceededAtAnyInstant) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, RollingBudgetTest, ::testing::Values(1, 2, 4));
 
-// The bound that is reserved holds for every size, and is not far off.
+// The reserved bound holds for every size, and is close to the true size.
 TEST(MostBytesOnDisk, BoundsWhatAFileTakes) {
     const testing::TemporaryDirectory directory;
     for (int stored = 1; stored <= testing::most_bricks; ++stored) {

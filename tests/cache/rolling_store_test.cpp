@@ -1,4 +1,5 @@
-// Tests what a rolling store keeps and evicts, on real files. The test controls time and disk.
+// Tests the grids that a rolling store keeps and evicts, with real files. The test controls time
+// and disk.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -38,7 +39,7 @@ class RollingStoreTest : public ::testing::Test {
         EXPECT_TRUE(store) << store.error().message;
         return std::move(*store);
     }
-    // A budget for so many grids of the usual size, and the small print of a reservation.
+    // Returns a budget for `grids` grids of the usual size and the surplus of a reservation.
     [[nodiscard]] std::uint64_t room_for(int grids) const {
         return static_cast<std::uint64_t>(grids) * grid_bytes_ + 8 * 4096;
     }
@@ -84,7 +85,7 @@ TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheL
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
-// A watchdog goes by the steps.
+// A watchdog needs the calls of `step`.
 TEST_F(RollingStoreTest, ARollSaysThatItMovesOn) {
     budgets_.total.bytes = room_for(10);
     budgets_.low_watermark = 0.5;
@@ -244,7 +245,7 @@ TEST_F(RollingStoreTest, GivesWayWhenOthersFillTheDisk) {
     EXPECT_EQ(report.evicted, 6U);
     EXPECT_THAT(report.problems, IsEmpty());
     EXPECT_EQ(grids(store).front(), "A+6");
-    // Others fill it all: the newest stays, and the operator hears of it.
+    // Others fill the whole disk. The newest grid stays, and a problem is reported.
     others_ = capacity_;
     const RollReport last = store.roll();
     EXPECT_THAT(grids(store), ElementsAre("A+9"));
@@ -273,7 +274,8 @@ TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
     RollingStore store = open(budgets_);
     for (const int minute : {0, 1, 2})
         ASSERT_TRUE(commit(store, "A", minute));
-    // By another process: the store learns of it when it comes to take the grid.
+    // The pin comes as from another process, and the store notices it when it tries to evict the
+    // grid.
     ASSERT_TRUE(pin_grid(real_file_system(), path("A", 0)));
     EXPECT_TRUE(testing::all_grids(store).front().pinned);
     for (const int minute : {3, 4})
@@ -314,7 +316,7 @@ TEST_F(RollingStoreTest, AllThatIsHeldPinnedIsAnErrorForTheNewest) {
     ASSERT_FALSE(third);
     EXPECT_EQ(third.error().code, ErrorCode::over_budget);
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+1"));
-    // With one pin less the newest finds room, although nothing else may go.
+    // With one pin less, the newest grid finds room, although no other grid may be evicted.
     ASSERT_TRUE(*unpin_grid(real_file_system(), path("A", 1)));
     store.roll();
     ASSERT_TRUE(commit(store, "A", 2));
@@ -331,7 +333,7 @@ TEST_F(RollingStoreTest, CountsWhatOthersRemovedAndAdded) {
     store.roll();
     EXPECT_EQ(store.usage().grids, 2U);
     EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
-    // Nothing has to go for these two.
+    // No grid must be evicted for these two.
     for (const int minute : {4, 5})
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_EQ(store.usage().evicted, 0U);

@@ -95,7 +95,7 @@ TEST_F(StoreTest, SweepTakesOurLeftoversAndNothingElse) {
     EXPECT_TRUE(fs::exists(grid));
 }
 
-// A call that a role may not make does not compile.
+// A call that a role does not offer must not compile.
 template <class Store>
 concept Commits = requires(Store& store, const GridDescription& about, const grid::BrickView& view,
                            const StoreEntry& entry) {

@@ -1,5 +1,5 @@
-// The files of a catalog: databases that are opened, by several and by readers, and raw files that
-// went.
+// Tests opening databases, also by several processes and by readers, and raw files that were
+// deleted.
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
@@ -15,7 +15,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// Opens nothing for writing, as when descriptors run out or a disk fails.
+// Refuses to open files for writing, as if descriptors ran out or a disk failed.
 int open_for_reading_alone(const char* path, int flags, int mode) {
     if ((flags & O_ACCMODE) == O_RDONLY) return ::open(path, flags, mode);
     errno = EIO;
@@ -40,7 +40,8 @@ TEST_F(CatalogTest, WhatCouldOnlyBeOpenedForReadingIsOpenedAgain) {
     EXPECT_EQ(second.list("KTLX", {})->size(), 2U);
 }
 
-// 2026-11-27: a server that lists while a station's first file is registered answered with 500.
+// 2026-11-27: a server answered with 500 if it listed a station while the station's first file was
+// registered.
 TEST_F(CatalogTest, ToReadersADatabaseThatIsJustBeingMadeIsEmptyAndFullSoonAfter) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
     const CatalogReader reader = *CatalogReader::open(directory_ / "catalog");
@@ -96,7 +97,7 @@ TEST_F(CatalogTest, RowsOfFilesThatWentLongAgoAreDeletedWithWhatNoOtherFileHolds
     EXPECT_FALSE(*catalog_.is_known("/d/unknown"));
     EXPECT_TRUE(catalog_.examine_all());
     EXPECT_TRUE(catalog_.take_repairs().empty()) << "sound";
-    // One that comes again is new.
+    // A file that comes again gets a new row.
     EXPECT_EQ(*catalog_.register_file(file("/d/gone", {first})), Registered::added);
 }
 
@@ -158,7 +159,8 @@ TEST_F(CatalogTest, LaterSchemaAndForeignDatabaseAreRefused) {
     EXPECT_TRUE(fresh.take_repairs().empty()) << "they are not ours to mend";
 }
 
-// Two catalogs on one directory, as two processes would have, many threads, the same files.
+// Many threads register the same files through two catalogs in one directory, as two processes
+// would.
 TEST_F(CatalogTest, ConcurrentWritersRegisterEachFileOnce) {
     auto other = *CatalogWriter::open(directory_ / "catalog");
     constexpr int files = 40;
@@ -205,7 +207,7 @@ TEST_F(CatalogTest, AMisspeltStationIsNamedAndIsNotTheUnknownOnes) {
     EXPECT_EQ(catalog_.list("", {{}, {}, true})->size(), 1U);
 }
 
-// A watchdog goes by the steps: one a station at least, and no more than 1,000 files between two.
+// A watchdog needs a call of `step` for each station, and after at most 1,000 files.
 TEST_F(CatalogTest, LookingForFilesThatWentSaysThatItMovesOn) {
     const fs::path drop = directory_ / "drop";
     ASSERT_TRUE(catalog_.register_file(file(drop / "a", {volume("2022-03-17T00:00")})));
@@ -240,7 +242,7 @@ TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {
     }
 }
 
-// A file behind a link is none of the raw files, whatever its name.
+// A file behind a link is not a raw file, even if it has a raw file's name.
 TEST_F(CatalogTest, FilesBehindADirectoryThatBecameALinkAreGone) {
     const testing::TemporaryDirectory place;
     const fs::path drop = place / "drop";

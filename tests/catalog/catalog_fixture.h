@@ -1,4 +1,4 @@
-// tests/catalog/catalog_fixture.h -- an empty catalog, and what it may be told.
+// tests/catalog/catalog_fixture.h -- an empty catalog, and facts of files to register.
 #pragma once
 
 #include <chrono>

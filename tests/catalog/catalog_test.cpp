@@ -131,7 +131,7 @@ TEST_F(CatalogTest, SettledMeansSameSizeAndTimeAndDecodedToItsEnd) {
     EXPECT_FALSE(*catalog_.is_settled(facts.path, 1000, 43));
 }
 
-// Wherever a file stood before, in this program's time or another's, it has one row.
+// A file has one row, even if this or an earlier catalog object registered it for another station.
 TEST_F(CatalogTest, AFileHasOneRowWhateverItsStationWas) {
     const auto rows = [&] {
         std::string found;
@@ -170,7 +170,7 @@ TEST_F(CatalogTest, AFileHasOneRowWhateverItsStationWas) {
     }
 }
 
-// A note of an unread file never undoes what reading it found, in whichever database that is.
+// note_file() never replaces the row of a file that was read, in any database.
 TEST_F(CatalogTest, ANoteGivesWayToWhatIsKnown) {
     FileFacts note = file("/d/a", {}, "");
     note.state = FileState::seen;
@@ -200,7 +200,7 @@ TEST_F(CatalogTest, AFileThatWasNowhereWhileItIsWrittenIsFoundAfterwards) {
     EXPECT_EQ(*catalog_.mark_gone("/d/b"), 1);
 }
 
-// Any byte but NUL and the slash may stand in a file name.
+// The name of a file may contain any byte but NUL and the slash.
 TEST_F(CatalogTest, OddFileNamesComeBackAsTheyWere) {
     const std::vector<std::string> names = {"/d/new\nline", "/d/quo'te\"", "/d/\xFF\xFE",
                                             "/d/caf\xC3\xA9", "/d/" + std::string(255, 'x')};

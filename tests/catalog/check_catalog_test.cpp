@@ -13,7 +13,7 @@ namespace {
 
 class CheckCatalog : public ::testing::Test {
   protected:
-    // A file on disk and its row, as the daemon leaves them.
+    // Makes a file on disk and its row, as the daemon does.
     fs::path put(const std::string& name, const std::string& station = "KTLX") {
         fs::path path = directory_ / name;
         std::ofstream(path) << "contents";
@@ -62,7 +62,7 @@ TEST_F(CheckCatalog, FilesThatWentOrChangedAreNamedAndGoneOnesAreNot) {
     EXPECT_EQ(check->stations[0].changed, std::vector<fs::path>{changed});
 }
 
-// 2026-11-29: files that nobody could look at were passed over, and the catalog was sound.
+// 2026-11-29: files that could not be examined were ignored, and the catalog counted as sound.
 TEST_F(CheckCatalog, FilesThatCannotBeLookedAtAreNamed) {
     fs::create_directory(directory_ / "drop");
     const fs::path unseen = put("drop/a");
@@ -93,7 +93,8 @@ TEST_F(CheckCatalog, DamageIsNamedAndNothingIsWritten) {
     EXPECT_EQ(mended->set_aside.size(), 1U);
 }
 
-// 2026-11-24: what an attack with invented names had left could only be removed by hand.
+// 2026-11-24: the databases that an attack with invented names had left could only be removed by
+// hand.
 TEST_F(CheckCatalog, DatabasesOfUnknownStationsAreNamedAndCleared) {
     const fs::path real = put("real"), there = put("there", "XAAA"), went = put("went", "XBBB");
     put("nameless", "");

@@ -1,4 +1,5 @@
-// Databases that another program or the disk has damaged: set aside, and what can be had is kept.
+// Tests that databases which another program or the disk has damaged are set aside, and that
+// readable rows are kept.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -25,7 +26,7 @@ FileFacts facts_of(int number, const fs::path& directory = "/gone") {
     facts.size_bytes = 1000U + static_cast<unsigned>(number);
     facts.modified_ns = number;
     facts.content_hash = static_cast<std::uint64_t>(number);
-    facts.state = FileState::seen;  // which is not synced: these tests need many rows
+    facts.state = FileState::seen;  // such rows are not synced, which saves time
     facts.reason = fmt::format("reason {}", number);
     VolumeFacts volume;
     volume.start_time = UtcTime{std::chrono::minutes{number}};
@@ -46,7 +47,7 @@ class DamagedDatabase : public ::testing::Test {
     void overwrite(const std::vector<std::byte>& changed) {
         testing::write_bytes(database_, changed);
     }
-    // The pages of the table `file` that hold this file's row; indices have its path, too.
+    // Damages the pages of the table `file` that contain the text, but not the pages of indices.
     void damage_page_with(const std::string& text) {
         auto changed = bytes();
         for (std::size_t at = page; at + page <= changed.size(); at += page) {
@@ -59,7 +60,7 @@ class DamagedDatabase : public ::testing::Test {
         }
         overwrite(changed);
     }
-    // All that is set aside in the catalog's directory, without WALs.
+    // Returns the databases that were set aside in the catalog's directory.
     std::vector<fs::path> set_aside() {
         std::vector<fs::path> found;
         for (const auto& entry : fs::directory_iterator(catalog_)) {
@@ -86,7 +87,7 @@ class DamagedDatabase : public ::testing::Test {
         return entries.size();
     }
 
-    testing::PowerCutVfs without_syncs_;  // which take most of the time
+    testing::PowerCutVfs without_syncs_;  // avoids real syncs, which take most of the time
     testing::TemporaryDirectory directory_;
     fs::path catalog_ = directory_ / "catalog";
     fs::path database_ = catalog_ / "KTLX.sqlite";
@@ -143,7 +144,7 @@ TEST_F(DamagedDatabase, RowsOfFilesThatAreThereAreLeftToBeReadAgain) {
     EXPECT_EQ(*catalog.register_file(again), Registered::added);
 }
 
-// The bytes change while the database is open, behind SQLite's back.
+// The bytes change while the database is open, without SQLite's knowledge.
 TEST_F(DamagedDatabase, DamageAtRunTimeDoesNotStopTheStation) {
     fill(0, 200);
     auto catalog = *CatalogWriter::open(catalog_);
@@ -158,8 +159,8 @@ TEST_F(DamagedDatabase, DamageAtRunTimeDoesNotStopTheStation) {
     EXPECT_EQ(set_aside().size(), 1U);
 }
 
-// Every page in turn: nothing crashes, and the station goes on. STORMCELLAR_CRASHES=1: in each of
-// three ways, not in turns.
+// Damages each page, in one of three ways in turn, and expects that the station can still be used.
+// STORMCELLAR_CRASHES=1 damages each page in all three ways.
 TEST_F(DamagedDatabase, DamageOfAnyPageIsMended) {
     const bool all_ways = std::getenv("STORMCELLAR_CRASHES") != nullptr;
     fill(0, 90);
@@ -230,19 +231,19 @@ TEST_F(DamagedDatabase, ADatabaseThatIsDeletedUnderTheWriterIsMadeAgain) {
     EXPECT_EQ(reader.list("KTLX", {})->size(), 1U);
 }
 
-// A repair writes the new database first; at each step of its end one of the two is there.
+// A repair writes the new database first, so that after each further step one of the two exists.
 TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
     fill(0, 200);
     damage_page_with(facts_of(100).path);
     const fs::path mending = database_.native() + ".mending";
-    std::ofstream(mending) << "half";  // it was being written
+    std::ofstream(mending) << "half";  // an unfinished new database
     {
         auto catalog = *CatalogWriter::open(catalog_);
         ASSERT_TRUE(catalog.examine("KTLX"));
         EXPECT_GT(expect_true_rows(catalog), 100U);
     }
     EXPECT_FALSE(fs::exists(mending));
-    // The damaged one is away and its WAL not yet; the new one has not taken its place.
+    // The damaged database was set aside, but not its WAL, and the new one is not yet in its place.
     fs::rename(database_, mending);
     std::ofstream(database_.native() + "-wal") << "the damaged one's";
     auto catalog = *CatalogWriter::open(catalog_);

@@ -1,5 +1,5 @@
-// The catalog through power cuts and kill -9: it opens, it is sound, and every registration that
-// was answered is there (but for a file that was only seen).
+// Tests that after power cuts and kill -9 the catalog can be opened, is sound, and has every
+// registration that returned success, except for files that were only seen.
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -37,10 +37,10 @@ FileFacts facts_of(int number, FileState state, const std::string& station = "KT
     return facts;
 }
 
-// The requests that were answered, and the one that was not.
+// The requests that returned success, and the one that did not return.
 struct Progress {
     std::map<fs::path, FileState> answered;
-    std::optional<std::pair<fs::path, FileState>> asked;  // and not answered: may be there or not
+    std::optional<std::pair<fs::path, FileState>> asked;  // did not return; the row may exist
 };
 
 bool ask(CatalogWriter& catalog, const FileFacts& facts, Progress& progress) {
@@ -59,7 +59,8 @@ bool ask_gone(CatalogWriter& catalog, const fs::path& path, Progress& progress) 
     return true;
 }
 
-// Two runs of a daemon, as far as the disk lets them; each closes its databases at its end.
+// Does the work of two runs of a daemon, each with its own catalog object. Returns false after a
+// failure of the disk.
 bool write_all(const fs::path& directory, Progress& progress) {
     for (const int first : {0, 3}) {
         auto catalog = CatalogWriter::open(directory);
@@ -110,7 +111,7 @@ void expect_sound(const fs::path& directory, const Progress& progress) {
     }
 }
 
-// Cuts the power at an operation; gives false when there was no such operation any more.
+// Cuts the power at an operation. Returns false if there were fewer operations.
 bool cut_at(std::uint64_t operation, Kept kept, unsigned seed) {
     const testing::TemporaryDirectory directory;
     fs::create_directory(directory / "catalog");
@@ -128,7 +129,8 @@ bool cut_at(std::uint64_t operation, Kept kept, unsigned seed) {
     return !ran_through;
 }
 
-// STORMCELLAR_CRASHES=N: every operation, N random remains of what was not synced at each.
+// STORMCELLAR_CRASHES=N tests every operation, each with N random remains of data that were not
+// synced.
 TEST(CatalogDurability, PowerCutAtEveryOperation) {
     const char* wanted = std::getenv("STORMCELLAR_CRASHES");
     const unsigned random_ones = wanted != nullptr ? static_cast<unsigned>(std::atoi(wanted)) : 1;
@@ -148,7 +150,7 @@ TEST(CatalogDurability, PowerCutAtEveryOperation) {
     EXPECT_GT(points, 8U / testing::slow_down);
 }
 
-// The double itself: what is not synced is lost, so that the test above can fail.
+// Tests the double: data that were not synced are lost. Otherwise the test above could not fail.
 TEST(CatalogDurability, TheDoubleForgetsWhatWasNotSynced) {
     const testing::TemporaryDirectory directory;
     testing::PowerCutVfs disk;
@@ -163,7 +165,7 @@ TEST(CatalogDurability, TheDoubleForgetsWhatWasNotSynced) {
     EXPECT_EQ(rows_in(catalog).size(), 1U);
 }
 
-// A child registers and says each that was answered; it is killed at some moment.
+// A child process registers files, reports each success, and is killed at some moment.
 TEST(CatalogDurability, KilledAtAnyMoment) {
     std::minstd_rand random(1);
     int kills = 0;

@@ -1,4 +1,5 @@
-// Names that files invent: they get no database, and what an attack left stays closed.
+// Tests that invented stations get no database, and that databases which an attack left stay
+// closed.
 #include <chrono>
 #include <fstream>
 #include <set>
@@ -18,7 +19,7 @@ class KnownStations : public ::testing::Test {
         options.stations = rule_ = std::make_shared<StationRule>(std::move(rule));
         return *CatalogWriter::open(catalog_, options);
     }
-    // Leaves a database as an older configuration did, which believed every name.
+    // Leaves a database, as an older configuration did that accepted every name.
     void put(const std::string& station, std::chrono::minutes age = {}) {
         {
             auto catalog = *CatalogWriter::open(catalog_);
@@ -39,7 +40,7 @@ class KnownStations : public ::testing::Test {
     std::shared_ptr<StationRule> rule_;
 };
 
-// 2026-11-24: 1,356 files with invented names took a database each, until no descriptor was left.
+// 2026-11-24: 1,356 files with invented names got a database each, until no descriptor was left.
 TEST_F(KnownStations, FilesOfInventedStationsStandTogether) {
     auto catalog = open();
     for (int k = 0; k < 50; ++k) {
@@ -81,7 +82,7 @@ TEST_F(KnownStations, DatabasesOfOtherStationsAreLeftAlone) {
     EXPECT_EQ(left->some, (std::vector<std::string>{"X000", "X001", "X002", "X003", "X004"}));
     EXPECT_EQ(databases().size(), 11U) << "they are there as before";
     EXPECT_EQ(open(StationRule::listed({"X001"})).left_alone()->count, 10U);
-    // A reader sees all.
+    // A reader without a rule sees all stations.
     EXPECT_EQ(CatalogReader::open(catalog_)->stations()->size(), 10U);
 }
 
@@ -97,11 +98,12 @@ TEST_F(KnownStations, AnyAdmitsFirstWhatHasADatabaseAndTheNewestFirst) {
     EXPECT_EQ(catalog.list("", {{}, {}, true})->size(), 1U);
 }
 
-// A file that was noted before its station was admitted is not forgotten among the unknown ones.
+// A file that was noted before its station was admitted is still found among the files of unknown
+// stations.
 TEST_F(KnownStations, AStationThatIsAdmittedLaterFindsItsFiles) {
     auto catalog = open(StationRule::any(2));
     ASSERT_TRUE(catalog.register_file(file("/d/XABC_a", {}, "XABC")));
-    for (int path = 0; path < 70'000; ++path)  // more than are remembered
+    for (int path = 0; path < 70'000; ++path)  // more paths than are remembered
         ASSERT_FALSE(*catalog.is_known("/other/" + std::to_string(path)));
     ASSERT_TRUE(rule_->admits("XABC"));
     EXPECT_TRUE(*catalog.is_settled("/d/XABC_a", 1000, 42));

@@ -1,4 +1,5 @@
-// Tests that questions about a few volumes take time for these, and not for all that a station has.
+// Tests that the time of a question about a few volumes does not depend on the number of all
+// volumes.
 #include <algorithm>
 #include <chrono>
 
@@ -24,7 +25,7 @@ class LongCatalogTest : public CatalogTest {
         }
         EXPECT_TRUE(catalog_.register_files("KTLX", files));
     }
-    // The least of several tries, in seconds.
+    // Returns the least time of several tries, in seconds.
     template <class Question>
     static double time_of(Question question) {
         double least = 1e9;
@@ -38,8 +39,8 @@ class LongCatalogTest : public CatalogTest {
     }
 };
 
-// 2026-11-27: SQLite read the whole table of parts for the newest volume and for a day's list, so
-// that the data server took more than a second to start over a million rows.
+// 2026-11-27: SQLite read the whole table of parts for the newest volume and for the list of a day,
+// so that the data server took more than a second to start with a million rows.
 TEST_F(LongCatalogTest, AFewVolumesTakeNoTimeForTheOthers) {
     const auto reader = CatalogReader::open(directory_ / "catalog");
     ASSERT_TRUE(reader);

@@ -1,4 +1,4 @@
-// A database that cannot be opened is the trouble of its own station alone.
+// Tests that a database that cannot be opened affects only its own station.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -17,7 +17,8 @@ class Neighbors : public ::testing::Test {
         ASSERT_TRUE(catalog.register_file(file("/d/KTLX_a", {volume("2022-03-17T00:00")})));
         ASSERT_TRUE(catalog.register_file(file("/d/KFWS_a", {volume("2022-03-17T00:00")}, "KFWS")));
     }
-    // All that one does with files of KFWS and of no station while KTLX cannot be used.
+    // Expects all requests for files of KFWS and of no station to succeed while the database of
+    // KTLX cannot be used.
     void expect_that_others_go_on(CatalogWriter& catalog, ErrorCode code) {
         EXPECT_FALSE(*catalog.is_known("/d/KFWS_b"));
         ASSERT_TRUE(catalog.note_file(file("/d/KFWS_b", {}, "KFWS")));
@@ -48,7 +49,7 @@ class Neighbors : public ::testing::Test {
         EXPECT_TRUE(catalog.troubles().empty());
         EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 2U);
     }
-    // Does the same once the database that was set aside is back in its place.
+    // Puts the database back in its place, and expects requests for its station to succeed.
     void expect_that_it_is_over_with_its_own(CatalogWriter& catalog) {
         fs::remove(database_);
         fs::rename(directory_ / "aside", database_);
@@ -59,7 +60,7 @@ class Neighbors : public ::testing::Test {
     fs::path database_ = catalog_ / "KTLX.sqlite";
 };
 
-// 2026-11-24: a FIFO in the place of a database. A reader waited for ever.
+// 2026-11-24: a reader waited forever at a FIFO in the place of a database.
 TEST_F(Neighbors, AFifoInPlaceOfADatabaseHoldsNobodyUp) {
     fs::rename(database_, directory_ / "aside");
     ASSERT_EQ(::mkfifo(database_.c_str(), 0600), 0);
@@ -93,8 +94,8 @@ TEST_F(Neighbors, ADirectoryInPlaceOfADatabaseHoldsNobodyUp) {
     expect_that_it_is_over_with_its_own(catalog);
 }
 
-// 2026-11-24: a database of root's, as `sudo stormcellar catalog rebuild` left it, stopped the new
-// files of all other stations. In a process of a user who may not read it.
+// 2026-11-24: `sudo stormcellar catalog rebuild` left a database of root, which stopped new files
+// of all other stations. The test needs a process of a user who may not read the database.
 TEST_F(Neighbors, ADatabaseWithoutPermissionHoldsNobodyUp) {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can become a user without rights";
     fs::permissions(directory_.path(), fs::perms::all);
@@ -115,7 +116,7 @@ TEST_F(Neighbors, ADatabaseWithoutPermissionHoldsNobodyUp) {
     EXPECT_EQ(status, 0) << "see above";
 }
 
-// One that cannot be mended, either.
+// Another program's database cannot be repaired, either.
 TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
     fs::rename(database_, directory_ / "aside");
     {
@@ -127,7 +128,7 @@ TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
     expect_that_it_is_over_with_its_own(catalog);
 }
 
-// A worker that waits for a lock serves no other station meanwhile.
+// While a worker waits for a lock, it serves no other station.
 TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAndThen) {
     auto catalog = *CatalogWriter::open(catalog_);
     const auto expect_that_nobody_waits = [&](const std::string& odd, const std::string& known) {
@@ -144,12 +145,12 @@ TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAn
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::busy);
     expect_that_nobody_waits("/d/odd", "/d/KFWS_b");
-    // Now a try would succeed and end the trouble, so none is made.
+    // A try would now succeed and end the trouble, but none is made.
     other.exec("ROLLBACK");
     expect_that_nobody_waits("/d/odd2", "/d/KFWS_c");
 }
 
-// A file has one row: where the old one cannot be deleted, the file waits, and it alone.
+// A file has one row. If its old row cannot be deleted, only this file waits.
 TEST_F(Neighbors, AFileWhoseRowStandsInADatabaseThatCannotBeUsedWaits) {
     auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.register_file(file("/d/odd", {}, "KTLX")));
@@ -164,7 +165,7 @@ TEST_F(Neighbors, AFileWhoseRowStandsInADatabaseThatCannotBeUsedWaits) {
     EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
 }
 
-// Files whose names do not say their station are looked for among the unknown ones first.
+// A file without a station in its name is first searched among the files of unknown stations.
 TEST_F(Neighbors, TheDatabaseOfUnknownFilesHoldsNobodyUp) {
     fs::create_directory(catalog_ / "_unknown.sqlite");
     auto catalog = *CatalogWriter::open(catalog_);

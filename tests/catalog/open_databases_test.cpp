@@ -1,4 +1,5 @@
-// Open databases are a bounded set, and none is closed under somebody's hands.
+// Tests that the number of open databases is limited, and that no database is closed while it is in
+// use.
 #include "catalog/open_databases.h"
 
 #include <algorithm>
@@ -129,7 +130,7 @@ TEST_F(OpenDatabasesTest, ManyThreadsUseMoreDatabasesThanMayBeOpen) {
     EXPECT_EQ(rows, 4U * files);
 }
 
-// 2026-11-24: without a descriptor left, no station could register anything any more.
+// 2026-11-24: when no descriptors were left, no station could register files any more.
 TEST_F(OpenDatabasesTest, WhereDescriptorsRunOutDatabasesAreClosed) {
 #if defined(STORMCELLAR_SANITIZED)
     GTEST_SKIP()
@@ -166,8 +167,8 @@ TEST_F(OpenDatabasesTest, ADatabaseThatIsDeletedWhileItIsClosedIsMadeAgainAndSai
     EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
 }
 
-// 2026-11-29, under ThreadSanitizer: a thread that gave its lease back read the file of the slot
-// while another one, which had a lease too, wrote it.
+// 2026-11-29, by ThreadSanitizer: a thread that gave its lease back read the slot's `file` while
+// another thread with a lease wrote it.
 TEST(OpenDatabases, GivingBackALeaseReadsNothingThatAnotherThreadWrites) {
     OpenDatabases databases(1);
     {

@@ -1,4 +1,4 @@
-// Where a file's row is looked for: in few databases, and never in too few.
+// Tests that a file's row is searched in few databases, but in all that may have it.
 #include "catalog/path_homes.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(GuessedHome, IsTheStationOfTheNameOrOfTheTwoDirectoriesAbove) {
     EXPECT_EQ(guessed_home(""), unknown_station);
 }
 
-// More paths than are remembered, so that what is known of the ones before is forgotten.
+// Asks for more paths than are remembered, so that earlier ones are forgotten.
 void forget_homes(const CatalogReader& catalog) {
     for (int path = 0; path < 70'000; ++path)
         ASSERT_FALSE(*catalog.is_known("/other/" + std::to_string(path)));
@@ -36,7 +36,8 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     for (const char* path : {"/d/KOUN_a", "/d/KTLX_a", "/d/KOUN_b", "/d/KOUN_c"})
         EXPECT_TRUE(*catalog_.is_settled(path, 1000, 42)) << path;
 
-    // Rewritten as a file of the station that it is named like, it leaves the other's database.
+    // When the path gets a file of the station in its name, its row in the other database is
+    // deleted.
     catalog_ = *CatalogWriter::open(directory_ / "catalog");
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KOUN")));
     EXPECT_EQ(catalog_.list("KTLX", {{}, {}, true})->size(), 2U);
@@ -45,7 +46,7 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_c"), 1);
 }
 
-// To ask all of them took most of the time of each file that came.
+// Asking all databases took most of the time of each new file.
 TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KOUN")));
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
@@ -53,7 +54,7 @@ TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
         SCOPED_TRACE(is_opened_again);
         if (is_opened_again) catalog_ = *CatalogWriter::open(directory_ / "catalog");
         EXPECT_FALSE(*catalog_.is_known("/d/KOUN_c"));
-        // Whoever asks a database notes that its file is another.
+        // A request to this database would notice that its file was replaced.
         const fs::path database = directory_ / "catalog/KTLX.sqlite";
         fs::copy_file(database, directory_ / "copy");
         fs::rename(directory_ / "copy", database);
@@ -73,7 +74,7 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundAfterARestart) {
     EXPECT_FALSE(*catalog_.is_known("/d/KOUN_d"));
 }
 
-// One of so many rows is looked through with mark_missing() alone.
+// Only mark_missing() searches a database with this many rows for strays.
 TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundInALargeDatabase) {
     std::vector<FileFacts> files;
     for (int k = 0; k < 10'001; ++k)
@@ -101,7 +102,8 @@ TEST_F(CatalogTest, AStationThatIsNewSinceTheDatabasesWereListedIsAsked) {
     EXPECT_TRUE(*catalog_.is_known("/d/KOUN_a"));
 }
 
-// The same volume twice with the same contents is one volume, as long as any file holds it.
+// A volume that two files hold with the same contents has one row, as long as one of the files
+// holds it.
 TEST_F(CatalogTest, AVolumeStaysWhileAnotherFileHoldsIt) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
     ASSERT_TRUE(catalog_.register_file(file("/d/b", {volume("2022-03-17T00:00")})));

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t sector = 512;
 
-// Our file, followed in memory by SQLite's own.
+// Our part of an open file. SQLite's own part follows it in memory.
 struct OpenFile {
     sqlite3_file base;
     PowerCutVfs* disk;
@@ -95,7 +95,7 @@ int check_lock(sqlite3_file* file, int* out) {
 }
 int control(sqlite3_file* file, int operation, void* argument) {
     if (operation == SQLITE_FCNTL_SIZE_HINT || operation == SQLITE_FCNTL_CHUNK_SIZE) {
-        return SQLITE_OK;  // ignores hints that would change the file without our knowledge
+        return SQLITE_OK;  // ignore hints that would change the file without our knowledge
     }
     return methods(file).xFileControl(real(file), operation, argument);
 }
@@ -134,7 +134,7 @@ namespace {
 PowerCutVfs& disk_of(sqlite3_vfs* vfs) {
     return *static_cast<PowerCutVfs*>(vfs->pAppData);
 }
-// SQLite's own VFS comes after ours in the list of all.
+// Returns SQLite's own VFS, on which ours is based.
 sqlite3_vfs* below(sqlite3_vfs* vfs) {
     return vfs->pNext;
 }
@@ -146,7 +146,7 @@ int open_file(sqlite3_vfs* vfs, const char* path, sqlite3_file* file, int flags,
     if (is_new && (flags & SQLITE_OPEN_CREATE) != 0 && !opened->disk->may_go_on()) {
         return SQLITE_CANTOPEN;
     }
-    if (path != nullptr) opened->disk->file(path);  // records it as it was before
+    if (path != nullptr) opened->disk->file(path);  // records its state before opening
     const int result = below(vfs)->xOpen(below(vfs), path, real(file), flags, out_flags);
     if (result != SQLITE_OK) return result;
     opened->base.pMethods = &our_methods;
@@ -156,7 +156,7 @@ int open_file(sqlite3_vfs* vfs, const char* path, sqlite3_file* file, int flags,
     if (is_new) {
         PowerCutVfs::File& made = opened->disk->file(path);
         if (!made.exists && !made.name_synced) {
-            made.changes = {{0, {}, 0}};  // the disk still has the deleted one
+            made.changes = {{0, {}, 0}};  // the deleted file is still on the disk
             made.name_synced = true;
         } else if (!made.exists) {
             made = {{}, {}, true, false};
@@ -256,7 +256,7 @@ void PowerCutVfs::power_cut(Kept kept, unsigned seed) {
             fs::remove(path);
             continue;
         }
-        // If the deletion was not kept, the file has its synced contents.
+        // If the disk lost the deletion, the file has its synced contents.
         const std::vector<std::byte> bytes =
             file.exists ? after_cut(file, kept, random) : file.synced;
         testing::write_bytes(path, bytes);

@@ -1,12 +1,11 @@
-// tests/catalog/power_cut_vfs.h -- SQLite on a disk that forgets what was not synced.
+// tests/catalog/power_cut_vfs.h -- lets SQLite work on a disk that loses data that were not synced.
 //
-// It is a VFS on top of SQLite's own and works on real files. For each file it remembers the
-// contents at the last sync, every write since, and which names were created or removed since the
-// directory was last synced. power_cut() then gives the files contents that a crash may leave. A
-// partial write is cut at sectors of 512 bytes; SQLite relies on no more than that (and on bytes
-// beside a sector being unchanged, as its own VFS for Unix states). Directories are synced when
-// SQLite's VFS for Unix syncs them: with the first sync of a new journal or WAL, and at deletions
-// that ask for it.
+// PowerCutVfs is a VFS on top of SQLite's own, and works on real files. For each file it remembers
+// the contents at the last sync, every write since then, and the names that were created or removed
+// since the last sync of the directory. power_cut() then gives the files contents that a crash may
+// leave. A partial write ends at a sector of 512 bytes and leaves the bytes beside it unchanged;
+// SQLite relies on no more than that. Directories are synced when SQLite's VFS for Unix syncs them:
+// with the first sync of a new journal or WAL, and at deletions that ask for it.
 //
 // Threads   For tests of one thread.
 #pragma once
@@ -23,7 +22,7 @@
 
 namespace stormcellar::testing {
 
-enum class Kept { nothing, everything, some };  // what is kept of the data that was not synced
+enum class Kept { nothing, everything, some };  // the data that were not synced and are kept
 
 class PowerCutVfs {
   public:
@@ -32,11 +31,11 @@ class PowerCutVfs {
     PowerCutVfs& operator=(const PowerCutVfs&) = delete;
     ~PowerCutVfs();
 
-    // The operation of this number and all later ones fail (writes, cuts, syncs, deletions and new
-    // files are counted, from 0).
+    // Lets the operation of this number and all later ones fail. Writes, cuts, syncs, deletions and
+    // new files are counted, from 0.
     void fail_from(std::uint64_t operation) { fail_from_ = operation; }
     [[nodiscard]] std::uint64_t operation_count() const { return operations_; }
-    // Call it when every database is closed: puts the disk into the state after the crash. Later
+    // Puts the disk into a state after a crash. Call it when every database is closed. Later
     // operations succeed.
     void power_cut(Kept kept, unsigned seed);
 
@@ -50,7 +49,7 @@ class PowerCutVfs {
         std::vector<std::byte> synced;
         std::vector<Change> changes;  // since the last sync
         bool exists = true;           // now
-        bool name_synced = true;      // whether the synced directory agrees with `exists`
+        bool name_synced = true;      // the synced directory agrees with `exists`
     };
     bool may_go_on();  // counts an operation; false if it must fail
     File& file(const std::string& path);

@@ -12,7 +12,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// The five real volumes of one site, registered in the wrong order.
+// Five real volumes of one site, which are registered in the wrong order.
 class RadarSetTest : public CatalogTest {
   protected:
     void SetUp() override {
@@ -60,7 +60,7 @@ TEST_F(RadarSetTest, GivesRawBytesAndTheDecodedVolume) {
     EXPECT_EQ(decoded->volume.sweeps.size(), 11U);  // golden: n_sweeps
 }
 
-// 2026-11-24: a link in a file's place was followed, and what it leads to was given as the file.
+// 2026-11-24: a link in the place of a file was followed, and its target was returned as the file.
 TEST_F(RadarSetTest, WhatIsNotTheCatalogedFileIsNotGiven) {
     const auto set = RadarSet::open(directory_ / "catalog", "KBGM");
     ASSERT_TRUE(set);
@@ -86,7 +86,8 @@ TEST_F(RadarSetTest, UnknownNamesAndStationsAreNotFound) {
     EXPECT_EQ(set->radar_file("KBGM20050822_999999.gz").error().code, ErrorCode::not_found);
     EXPECT_EQ(RadarSet::open(directory_ / "catalog", "KTLX").error().code, ErrorCode::not_found);
     EXPECT_EQ(RadarSet::open_all(directory_ / "catalog")->size(), 1U);
-    // A station whose database cannot be opened is no other's trouble, and is not called unknown.
+    // A station whose database cannot be opened does not affect others, and does not count as
+    // unknown.
     fs::create_directory(directory_ / "catalog/KOUN.sqlite");
     EXPECT_EQ(RadarSet::open_all(directory_ / "catalog")->size(), 1U);
     EXPECT_TRUE(RadarSet::open(directory_ / "catalog", "KBGM"));

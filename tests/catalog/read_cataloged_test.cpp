@@ -1,4 +1,4 @@
-// A raw file is read again only where it is the one that was cataloged.
+// Tests that a raw file is read again only if it is the cataloged one.
 #include "stormcellar/catalog/read_cataloged.h"
 
 #include <fstream>

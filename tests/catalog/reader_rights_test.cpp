@@ -1,4 +1,4 @@
-// A process that may only read can query while another one writes.
+// Tests that a process that may only read can query while another process writes.
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,7 +14,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// A call that a reader may not make does not compile.
+// A call that a reader does not offer must not compile.
 template <class Catalog>
 concept Registers = requires(Catalog& catalog, const FileFacts& facts) {
     catalog.register_file(facts);
@@ -35,8 +35,8 @@ FileFacts volume_facts(int number) {
     return facts;
 }
 
-// A process of a user who may write nothing here; asks the catalog when told to. Must be made
-// before this process opens a database: SQLite's own records of open files must not be inherited.
+// A process of a user who may not write here, which queries the catalog on request. Make it before
+// this process opens a database, because it must not inherit SQLite's records of open files.
 class Reader {
   public:
     explicit Reader(const fs::path& directory) {
@@ -51,7 +51,8 @@ class Reader {
         ::waitpid(child_, nullptr, 0);
     }
 
-    // Returns the number of volumes that it sees; -1 if it cannot read. The error goes to stderr.
+    // Returns the number of volumes that the process sees; -1 if it cannot read the catalog. It
+    // writes the error to stderr.
     int count() {
         int answer = -2;
         if (::write(orders_[1], "?", 1) != 1) return -3;
@@ -141,7 +142,7 @@ TEST_F(ReaderRights, AReaderSeesWhatAKilledWriterLeft) {
     EXPECT_EQ(reader.count(), 1);
 }
 
-// After a power cut the WAL may be there without its index, which a reader may not make.
+// After a power cut, the WAL may exist without its index, which a reader may not make.
 TEST_F(ReaderRights, AWalWithoutItsIndexIsAnErrorUntilAWriterCame) {
     Reader reader(directory_ / "catalog");
     const pid_t writer = ::fork();

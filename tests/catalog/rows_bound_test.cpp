@@ -1,4 +1,4 @@
-// Tests the bounds of rows: rows of files that are gone make room, and else new ones are left out.
+// Tests the limits of rows: rows of files that are gone make room; otherwise new rows are left out.
 #include <gtest/gtest.h>
 
 #include "tests/catalog/catalog_fixture.h"
@@ -10,7 +10,8 @@ class RowsBound : public ::testing::Test {
   protected:
     CatalogWriter open() { return *CatalogWriter::open(directory_ / "catalog", options_); }
     static std::string path(int k) { return fmt::format("/d/{:06}", k); }
-    // Describes a file of an attack, which is only seen, so that its row is not synced.
+    // Describes a file of an attack. Its state is `seen`, so that its row is not synced, which
+    // saves time.
     static FileFacts unknown(int k) {
         FileFacts facts = file(path(k), {}, "");
         facts.state = FileState::seen;
@@ -23,7 +24,7 @@ class RowsBound : public ::testing::Test {
     CatalogOptions options_;
 };
 
-// 2026-11-24: each file with a new name took some 300 bytes of disk, for ever.
+// 2026-11-24: each file with a new name took some 300 bytes of disk forever.
 TEST_F(RowsBound, AtItsBoundTheDatabaseOfUnknownFilesLeavesNewOnesOut) {
     options_.most_unknown_bytes = 200'000;
     auto catalog = open();
@@ -115,7 +116,7 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
     EXPECT_TRUE(catalog.examine_all());
     EXPECT_TRUE(catalog.take_repairs().empty());
 
-    // Rows of files that are there stay, whatever they take.
+    // Rows of existing files stay, even beyond the limit.
     options_.most_bytes = 1;
     catalog = open();
     ASSERT_TRUE(catalog.register_file(file("/d/there", {})));
@@ -124,7 +125,8 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
     EXPECT_FALSE(*catalog.is_known(path(5999)));
 }
 
-// 2026-11-25: rubbish under one station's name took the rows of another station's files that went.
+// 2026-11-25: for junk files with one station's name, rows of another station's deleted files were
+// removed.
 TEST_F(RowsBound, RowsThatStandTakeNoOtherStationsHistory) {
     {
         auto catalog = open();
@@ -157,7 +159,7 @@ TEST_F(RowsBound, OfAFileWithVeryManyVolumesTheFirstGetRows) {
     EXPECT_EQ(entries.back().volume.start_time, facts.volumes[999].start_time);
 }
 
-// A database from before there were bounds.
+// The database was written before there were limits.
 TEST_F(RowsBound, RollingBringsADatabaseBelowItsOwnBound) {
     {
         auto catalog = open();

@@ -1,4 +1,5 @@
-// Grids of an archive: the daemon's own, made once, and of what can be read.
+// Tests that the grids of an archive equal the daemon's, are made once, and leave out files that
+// cannot be read.
 #include "pipeline/care/archive_fill.h"
 
 #include <fstream>
@@ -95,7 +96,7 @@ TEST_F(ArchiveFillTest, FramesHaveTheCellsAndPartsOfTheDaemons) {
     mosaic.domain = small_domain();
     const FillReport report = fill(filled, mosaic);
     EXPECT_EQ(report.grids_made, 3U);
-    ASSERT_THAT(report.frames, SizeIs(2));  // between the middles of the first and the last
+    ASSERT_THAT(report.frames, SizeIs(2));  // between the middles of the first volume and the last
     EXPECT_EQ(report.frames_made, 2U);
     EXPECT_THAT(*filled.list("KBGM", level2::Moment::ref, {}, {}), IsEmpty());
 
@@ -129,7 +130,7 @@ TEST_F(ArchiveFillTest, ASecondCallMakesOnlyWhatIsNotThere) {
     EXPECT_EQ(again.frames_made, 0U);
     EXPECT_EQ(again.frames_found, 2U);
 
-    // Without one of the volumes' grids that one is made again; the frames are what they were.
+    // A removed partial is made again, and the frames stay.
     const auto partials = filled.list("north.KBGM", level2::Moment::ref, {}, {});
     ASSERT_TRUE(filled.remove(partials->at(1)));
     const FillReport third = fill(filled, mosaic);
@@ -163,7 +164,7 @@ TEST_F(ArchiveFillTest, FramesAreTheSameByAnyNumberOfWorkersAndHoweverOftenTheyA
     ASSERT_GT(alone.frames_made, 8U);  // more than two turns of a worker
     mosaic.threads = 3;
     ASSERT_EQ(fill(three, mosaic).frames, alone.frames);
-    // A frame of other rules stands in its place first.
+    // First, the cache has a frame that was made by other rules.
     Domain nearest = *mosaic.domain;
     nearest.time = grid::TimeMethod::nearest;
     FillReport ignored;
@@ -189,11 +190,11 @@ TEST_F(ArchiveFillTest, WhatCannotBeReadIsNamedAndLeftOut) {
     EXPECT_EQ(report.left_out[1].reason, "is gone");
 }
 
-// 2026-11-24: whatever stood in the place of a cataloged file was gridded.
+// 2026-11-24: any file in the place of a cataloged file was gridded.
 TEST_F(ArchiveFillTest, WhatIsNotTheFileThatWasCatalogedIsNamedAndLeftOut) {
     fs::rename(raw(sequence[0]), directory_ / "elsewhere");
     fs::create_symlink(directory_ / "elsewhere", raw(sequence[0]));
-    // Another volume, which is as good, of the same size.
+    // The file is replaced by another valid volume of the same size.
     const auto size = fs::file_size(raw(sequence[1]));
     fs::copy_file(testing::real_file("sequence-kbgm/KBGM20050822_030830.gz"), raw(sequence[1]),
                   fs::copy_options::overwrite_existing);

@@ -1,4 +1,4 @@
-// Frames between grids, against echoes that are known at any instant.
+// Compares frames between grids with synthetic echoes, which are known at any instant.
 #include "pipeline/mosaic/between_grids.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ constexpr UtcTime noon{std::chrono::sys_days{std::chrono::year{2024} / 6 / 1} +
                        std::chrono::hours{12}};
 constexpr auto moment = level2::Moment::ref;
 
-// Echo that goes east at 20 m/s and north at 10.
+// Echo that moves east at 20 m/s and north at 10 m/s.
 const std::vector<grid::Blob> storm = {{-30, -20, 15, 50, 20, 10}, {25, 10, 12, 45, 20, 10}};
 
 grid::GridSpec small_spec() {
@@ -34,7 +34,7 @@ grid::GridSpec small_spec() {
 
 class BetweenGridsTest : public ::testing::Test {
   protected:
-    // Commits the scene as it is so many seconds after noon, all seen at once.
+    // Commits the scene `seconds` after noon, as if seen in an instant.
     void commit(double seconds, double seen_km = 1e9) {
         grid::Grid grid = grid::blob_grid(small_spec(), storm, seconds, seen_km);
         grid.time = grid.start_time = grid.end_time = at(seconds);
@@ -57,7 +57,8 @@ class BetweenGridsTest : public ::testing::Test {
         EXPECT_EQ((*frame)->description.time, at(seconds));
         return grid::to_dense((*frame)->mosaic.cells.view());
     }
-    // RMS of dB where the scene at that time has more than 5 dBZ; no value counts as 0 dBZ.
+    // Returns the RMS error in dB where the scene at that time has more than 5 dBZ; a cell without
+    // a value counts as 0 dBZ.
     static double rms_error(const grid::Grid& grid, double seconds) {
         const grid::Grid truth = grid::blob_grid(small_spec(), storm, seconds);
         double sum = 0;
@@ -103,10 +104,10 @@ TEST_F(BetweenGridsTest, HalfWayTheEchoIsHalfWay) {
     BetweenGrids blend = open({grid::TimeMethod::blend, {}, {}, 1});
     BetweenGrids nearest = open({grid::TimeMethod::nearest, {}, {}, 1});
     const double moved = rms_error(made(advected, 150), 150);
-    EXPECT_LT(moved, 1);  // of a field that falls by 0.7 dB a kilometre and more
+    EXPECT_LT(moved, 1);  // the field falls by 0.7 dB or more in a kilometer
     EXPECT_LT(moved, 0.6 * rms_error(made(blend, 150), 150));
     EXPECT_LT(moved, 0.4 * rms_error(made(nearest, 150), 150));
-    EXPECT_LT(rms_error(made(advected, 60), 60), 1);  // of the same pair, by the same motion
+    EXPECT_LT(rms_error(made(advected, 60), 60), 1);  // uses the motion of the same pair
 }
 
 TEST_F(BetweenGridsTest, WhatOneEndHasNotSeenIsTheOthers) {
@@ -184,7 +185,7 @@ TEST_F(BetweenGridsTest, AGridThatDoesNotVerifyIsAnErrorOfItsFrames) {
     EXPECT_THAT(problems, SizeIs(1));
 }
 
-// Makes grids between the frames of a domain that is kept as volumes come.
+// Tests frames between the frames of a domain that MosaicMaker keeps up to date.
 class BetweenMosaics : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }

@@ -1,4 +1,4 @@
-// Volumes of one file a chunk where nothing is followed: no living grids, no cache at all.
+// Tests volumes of chunks without living grids, and without a cache.
 #include <atomic>
 #include <fstream>
 
@@ -36,7 +36,8 @@ class ChunkFiles : public ::testing::Test {
         std::sort(paths_.begin(), paths_.end());
         ASSERT_EQ(paths_.size(), 55U);
     }
-    // One volume, whole, in the first chunk's row, and every other chunk settled beside it.
+    // Expects that the first chunk's row describes one complete volume, and that the rows of all
+    // other chunks are settled.
     void expect_one_volume(const CatalogReader& catalog) {
         const auto volumes = catalog.list("KLOT", {});
         ASSERT_TRUE(volumes);
@@ -99,7 +100,7 @@ TEST_F(ChunkFiles, ARebuiltCatalogHasTheVolumeAndNotItsParts) {
     EXPECT_EQ(again->unchanged, paths_.size());
 }
 
-// 2026-11-24: chunks were joined as they lay there, whatever had taken their places.
+// 2026-11-24: chunks were joined even if other files had replaced them.
 TEST_F(ChunkFiles, AVolumeIsReadAgainFromTheChunksThatWereCataloged) {
     const CatalogReader catalog = rebuilt();
     const auto entry = catalog.latest("KLOT")->value();
@@ -132,8 +133,8 @@ TEST_F(ChunkFiles, AVolumeIsReadAgainFromTheChunksThatWereCataloged) {
     EXPECT_EQ(changed.error().message.find(paths_[5].native() + ": is not the file"), 0U);
 }
 
-// 2026-11-28: after a crash, pqact appended every chunk to its file again. The volume then had a
-// row of one sweep and one of 31, and its raw file had twice the size.
+// 2026-11-28: after a crash, pqact appended every chunk to its file again. The volume then had one
+// row with one sweep and another with 31, and its joined file had twice the size.
 TEST_F(ChunkFiles, AChunkThatItsFileHoldsTwiceIsReadOnce) {
     CatalogWriter catalog = *CatalogWriter::open(directory_ / "catalog");
     auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
@@ -160,7 +161,7 @@ TEST_F(ChunkFiles, AChunkThatItsFileHoldsTwiceIsReadOnce) {
     EXPECT_TRUE(again->bytes == whole->bytes);
 }
 
-// An archive's grids are made only of files that were cataloged, also if these are chunks.
+// Grids of an archive are made only from cataloged files, also if these are chunks.
 TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
     const CatalogReader catalog = rebuilt();
     const auto start = *catalog.latest("KLOT")->value().volume.start_time;

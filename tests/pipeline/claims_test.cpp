@@ -1,4 +1,4 @@
-// Tests what a file may claim about itself: its station, its time, and how much it holds.
+// Tests files that make false claims about their station, their time or their size.
 #include <algorithm>
 #include <fstream>
 
@@ -17,7 +17,7 @@ namespace {
 namespace wire = level2::wire;
 using catalog::FileState;
 
-// Every mention of the wire's own station becomes the other.
+// Returns the messages with another station in place of the synthetic one.
 wire::Bytes said_by(wire::Bytes messages, std::string_view station) {
     constexpr std::string_view usual = "KTLX";
     const auto as_byte = [](char c) { return static_cast<std::byte>(c); };
@@ -37,7 +37,8 @@ wire::Bytes volume_of(std::string_view station, unsigned sweeps = 2) {
         {wire::archive_header("AR2V0006.116", station), wire::ldm_record(messages, true)});
 }
 
-// One sweep that never ends, a megabyte of gates in each of its records, which pack to a kilobyte.
+// Returns a sweep that never ends. Each record has a megabyte of gates, which is packed to a
+// kilobyte.
 wire::Bytes endless_sweep(std::string_view station, std::size_t records) {
     wire::Bytes messages;
     for (unsigned i = 0; i < 50; ++i) {
@@ -123,7 +124,7 @@ TEST_F(Claims, AnyTakesSoManyFurtherStations) {
     EXPECT_EQ(store_.domains(), (std::vector<std::string>{"KTLX", "XAAA", "XBBB"}));
 }
 
-// It would be read again and again as it grows, for nothing.
+// Reading the file again and again while it grows would be useless.
 TEST_F(Claims, AGrowingFileOfAnotherStationIsReadWhenItIsQuiet) {
     Ingestor& ingestor = with(std::make_shared<StationRule>());
     const fs::path path = put("KTLX_a", endless_sweep("XAAA", 2));
@@ -135,7 +136,7 @@ TEST_F(Claims, AGrowingFileOfAnotherStationIsReadWhenItIsQuiet) {
     EXPECT_EQ(ingestor.ingest(path, true)->result(), IngestResult::other_station);
 }
 
-// 2026-11-25: a volume without any time was gridded at 1970-01-01.
+// 2026-11-25: a volume without a time was gridded at 1970-01-01.
 TEST_F(Claims, AVolumeWithoutATimeIsNotGridded) {
     Ingestor& ingestor = with(nullptr);
     wire::Bytes header = wire::archive_header();
@@ -154,7 +155,8 @@ TEST_F(Claims, AVolumeWithoutATimeIsNotGridded) {
     EXPECT_EQ(store_.domains()->size(), 0U);
 }
 
-// If we cannot store a file, it is tried again, and in the end rejected with the reason.
+// If the results of a file cannot be stored, the file is tried again and, at the last try, rejected
+// with the reason.
 TEST_F(Claims, TheLastTryRejectsWhatCannotBeStored) {
     Ingestor& ingestor = with(nullptr);
     std::ofstream(directory_ / "cache/KTLX") << "something else stands where its grids should";
@@ -168,7 +170,7 @@ TEST_F(Claims, TheLastTryRejectsWhatCannotBeStored) {
     EXPECT_EQ(last->result(), IngestResult::rejected);
     EXPECT_TRUE(last->reason.starts_with("given up: ")) << last->reason;
     EXPECT_EQ(rows("KTLX").at(0).state, FileState::rejected);
-    // When it is offered once more, as after a restart, it is tried again.
+    // A file that is offered again, as after a restart, is tried again.
     fs::remove(directory_ / "cache/KTLX");
     EXPECT_EQ(ingestor.ingest(path, false)->result(), IngestResult::gridded);
     EXPECT_EQ(rows("KTLX").size(), 1U);
@@ -189,7 +191,7 @@ class LivingMemory : public Claims {
         {{level2::Moment::ref}, {}}, {level2::Moment::ref}, {}, directory_.path()};
 };
 
-// 2026-11-25: an open sweep counted as nothing, and a hundred such files took 5 GiB.
+// 2026-11-25: an open sweep did not count, and a hundred such files took 5 GiB.
 TEST_F(LivingMemory, AnOpenSweepCounts) {
     FollowedFiles files(options_, GrowingLimits{.station_held_bytes = std::uint64_t{64} << 20});
     const fs::path path = put("KTLX_a", endless_sweep("KTLX", 25));
@@ -212,7 +214,7 @@ TEST_F(LivingMemory, AnUnfinishedRecordCounts) {
     EXPECT_GE(file->growth().held_bytes, 4'000'000U);
 }
 
-// All of it comes in one stretch: some kilobytes.
+// The whole sweep comes in one stretch of some kilobytes.
 TEST_F(LivingMemory, AnOpenSweepIsReadNoFurtherThanItsBound) {
     options_.open_sweep_limit_bytes = 6'000'000;
     FollowedFiles files(options_);
@@ -261,7 +263,7 @@ TEST_F(LivingMemory, BeyondTheBoundOfAllWhatNoStationClaimsGoesFirst) {
     EXPECT_TRUE(files.find(a) && files.find(c));
 }
 
-// It had no place, and what says that it is over is its last radial alone.
+// There was no place to follow the file, and only its last radial shows that the volume has ended.
 TEST_F(LivingMemory, AFileThatIsNotFollowedIsReadAtItsEnd) {
     Ingestor& ingestor = with(std::make_shared<StationRule>());
     const wire::Bytes messages = wire::radial_messages(2, 360);
@@ -276,7 +278,7 @@ TEST_F(LivingMemory, AFileThatIsNotFollowedIsReadAtItsEnd) {
     EXPECT_EQ(ingestor.ingest(drop() / "KTLX_a", false)->result(), IngestResult::gridded);
 }
 
-// The whole file has a bound of its own, far above that of any volume.
+// A file that is read whole has a separate limit, far above the size of any volume.
 TEST_F(LivingMemory, AVolumeWithoutEndIsRefusedWhenItIsReadWhole) {
     Ingestor& ingestor = with(nullptr);
     wire::Bytes bytes = endless_sweep("KTLX", 70);

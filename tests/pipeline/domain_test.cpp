@@ -1,4 +1,4 @@
-// Tests [[domain]] tables: what they mean, and which errors are reported.
+// Tests the meaning of [[domain]] tables, and the errors that are reported.
 #include "pipeline/options/domain.h"
 
 #include <gmock/gmock.h>
@@ -95,7 +95,7 @@ TEST(Domain, BoundsAcrossTheAntimeridianGoTheShortWay) {
     EXPECT_EQ(std::abs(all.domains.at(0).spec.center_longitude_deg), 180);
 }
 
-// Every point of the bounds is in the grid, which is no wider than necessary.
+// The grid contains all points of the bounds, and is no wider than necessary.
 TEST(Domain, BoundsOfAPlaneAreWithinTheGrid) {
     for (const std::string projection : {"azimuthal_equidistant", "lambert_conformal"}) {
         const Read all = read(

@@ -31,7 +31,7 @@ class FileKindTest : public ::testing::Test {
         context_.emplace(*catalog_, &*store_, options);
     }
     [[nodiscard]] fs::path at(const std::string& name) const { return directory_ / "drop" / name; }
-    // Nothing but the header of a volume: it must grow.
+    // Writes only the header of a volume, so the file must be growing.
     fs::path put(const std::string& name, std::size_t more_bytes = 0) {
         fs::create_directories(at(name).parent_path());
         const level2::wire::Bytes header = level2::wire::archive_header();

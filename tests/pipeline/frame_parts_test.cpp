@@ -1,5 +1,5 @@
-// Frames that are brought up to date must be the same to the bit as those made whole: real volumes
-// of three sites, in every order of arrival.
+// Tests that updated frames equal frames that are merged whole, bit for bit, with real volumes of
+// three sites in every order of arrival.
 #include "pipeline/mosaic/frame_parts.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ MadePartial make(const Source& source, GeometryCache& geometries) {
     const auto antenna = level2::antenna_position(decoded->volume);
     PartialOptions options;
     options.quantization = grid::default_quantization(level2::Moment::ref);
-    options.reach_m = 200'000;  // so that KTYX and KDOX have no common brick
+    options.reach_m = 200'000;  // KTYX and KDOX then have no common brick
     auto made = make_partial(
         decoded->volume,
         {source.icao, antenna->latitude_deg, antenna->longitude_deg, antenna->altitude_m}, domain(),
@@ -120,9 +120,9 @@ class FrameParts : public ::testing::Test {
     static inline std::vector<MadePartial>* partials_ = nullptr;
 };
 
-// Each new volume changes the frame made before: 120 orders of five volumes.
+// Each new volume updates the earlier frame, in all 120 orders of five volumes.
 TEST_F(FrameParts, AFrameBroughtUpToDateHasTheBytesOfOneMadeWhole) {
-    // by the volumes that it is made of
+    // The bytes of whole frames, by their volumes.
     std::map<std::vector<std::size_t>, std::vector<std::byte>> whole;
     const auto whole_of = [&](std::vector<std::size_t> which) -> const std::vector<std::byte>& {
         std::sort(which.begin(), which.end());
@@ -154,7 +154,8 @@ TEST_F(FrameParts, AFrameBroughtUpToDateHasTheBytesOfOneMadeWhole) {
     EXPECT_EQ(whole.size(), 31U) << "every set of volumes was seen";
 }
 
-// Altering codes without changing the table shows that nobody reads them.
+// The test alters codes without changing the table. If the frames stay the same, the codes were not
+// read.
 TEST_F(FrameParts, ASitesGridForAnInstantIsMadeOnce) {
     InstantCache instants(std::size_t{64} << 20U);
     const MosaicFrame made = frame({0, 1, 2, 3, 4}, nullptr, {}, &instants);
@@ -242,7 +243,7 @@ TEST_F(FrameParts, AFingerprintIsOfAllThatCountsAndOfNothingElse) {
     EXPECT_NE(fingerprint_of({stands.description, altered}), fingerprint);
 }
 
-// A partial in a file has the same fingerprint as in memory: cache and command line agree.
+// A partial in a file has the same fingerprint as in memory, so cache and command line agree.
 TEST_F(FrameParts, AFileHasTheFingerprintOfWhatWasWritten) {
     const testing::TemporaryDirectory directory;
     for (const auto packing : {cache::Packing::none, cache::Packing::lz4}) {

@@ -38,7 +38,7 @@ class GrowingSetTest : public ::testing::Test {
     bool grow(const std::string& key, const std::string& station, const Growth& growth) {
         return set_.grew(key, set_.find(key).get(), station, growth, now_);
     }
-    // Shows that a thing goes on: a sweep has closed, and more came later.
+    // Lets a member show that it continues: a sweep has closed, and more data came later.
     void let_go_on(const std::string& key, const std::string& station) {
         now_ += seconds{2};
         ASSERT_TRUE(grow(key, station, {.has_sweeps = true}));
@@ -83,7 +83,8 @@ TEST_F(GrowingSetTest, AtTheBoundOfAllTheStationThatHasMostGivesAPlace) {
     ASSERT_TRUE(add("d", "KFWS"));
     EXPECT_TRUE(add("e", "KINX"));
     EXPECT_THAT(set_.take_given_up(), ElementsAre("a"));
-    // Now two, one and one: one that has none yet may not bring another down to none more than it.
+    // The stations now have two, one and one members. A new station may take a place from the
+    // first, but not from a station with one member.
     EXPECT_TRUE(add("f", "KVNX"));
     EXPECT_THAT(set_.take_given_up(), ElementsAre("b"));
     EXPECT_FALSE(add("g", "KAMA"));
@@ -121,7 +122,7 @@ TEST_F(GrowingSetTest, AtTheBoundOfAllMemoryWhatNobodyKnowsGivesWayFirst) {
     EXPECT_LE(set_.held_bytes(), limits().held_bytes);
 }
 
-// Sweeps that never end leave three quarters to the volumes that go on.
+// Sweeps that never end leave three quarters of the memory to volumes that continue.
 TEST_F(GrowingSetTest, WhatHasClosedNoSweepHasABoundOfItsOwn) {
     GrowingLimits limits = GrowingSetTest::limits();
     limits.beginnings_held_bytes = 3 * mib;

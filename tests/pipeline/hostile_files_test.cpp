@@ -1,4 +1,5 @@
-// Files that mean harm: links to elsewhere, names that are swapped, sizes beyond all volumes.
+// Tests malicious files: links to other places, names that are swapped, and sizes beyond those of
+// all volumes.
 #include <array>
 #include <fstream>
 
@@ -40,7 +41,7 @@ class Hostile : public ::testing::Test {
         made.living.chunk_grace = std::chrono::seconds{0};
         return made;
     }
-    // "rejected: REASON" and so on.
+    // Ingests a file and returns its result, such as "rejected: REASON".
     std::string take(const fs::path& path, bool finish_as_is = true) {
         const auto outcome = ingestor_.ingest(path, finish_as_is);
         if (!outcome) return "error: " + outcome.error().message;
@@ -75,7 +76,7 @@ TEST_F(Hostile, AnOrdinaryFileIsTaken) {
     EXPECT_EQ(take(put(drop() / "day/KTLX_a", wire::ldm_volume(2, 360))), "gridded");
 }
 
-// The names stay, what they lead to does not.
+// The names stay the same, but now lead to other files.
 TEST_F(Hostile, ADirectoryThatBecomesALinkLeadsNowhere) {
     const auto bytes = wire::ldm_volume(2, 360);
     put(outside() / "KTLX_a", bytes);
@@ -103,7 +104,7 @@ TEST_F(Hostile, AGrowingFileBehindALinkIsNotFollowed) {
     EXPECT_FALSE(FollowedFile::growing(drop() / "day/KTLX_a", drop()));
 }
 
-// Two sweeps, a record each; the first does not end the volume.
+// Returns two records with one sweep each. The first one does not end the volume.
 std::array<wire::Bytes, 2> two_records() {
     const auto messages = wire::radial_messages(2, 360);
     const std::span all{messages};
@@ -111,7 +112,7 @@ std::array<wire::Bytes, 2> two_records() {
             wire::ldm_record(all.subspan(all.size() / 2), true)};
 }
 
-// Chunks beside the first one are found by their names; links among them are none of them.
+// The other chunks of a volume are found by their names, but links are never chunks.
 TEST_F(Hostile, LinksAmongChunksAreNotRead) {
     const auto [first, last] = two_records();
     put(drop() / "KTLX/1/20220317-000842-001-S", wire::join({wire::archive_header(), first}));
@@ -124,7 +125,7 @@ TEST_F(Hostile, LinksAmongChunksAreNotRead) {
 
 constexpr std::uintmax_t tebibyte = std::uintmax_t{1} << 40U;
 
-// Refused by their size, whatever they look like; nobody reads a tebibyte of zeros.
+// Such files are rejected by their size, so that nobody reads a tebibyte of zeros.
 TEST_F(Hostile, HugeSparseFilesAreRefusedUnread) {
     const std::string why =
         "rejected: has 1099511627776 bytes, more than the 268435456 that a raw file may have; it "
@@ -139,7 +140,7 @@ TEST_F(Hostile, HugeSparseFilesAreRefusedUnread) {
     }
 }
 
-// 2026-11-25: 61 kB were 16,389 volumes, and one job of a minute.
+// 2026-11-25: a file of 61 kB had 16,389 volumes and took a minute.
 TEST_F(Hostile, AFileOfManyVolumesIsRefused) {
     const wire::Bytes one = wire::ldm_volume(1, 4);
     wire::Bytes many;
@@ -151,7 +152,7 @@ TEST_F(Hostile, AFileOfManyVolumesIsRefused) {
     EXPECT_EQ(take(put(drop() / "KTLX_fewer", many)), "gridded");
 }
 
-// 2026-11-25: 3,000 volumes of one station took nearly all grids of the others.
+// 2026-11-25: 3,000 volumes of one station displaced nearly all grids of the other stations.
 TEST_F(Hostile, AStationHasNoMoreGridsOfAnHourThanARadarMakes) {
     wire::Bytes bytes = wire::ldm_volume(1, 4);
     const auto set_second = [&](std::uint32_t second) {
@@ -169,7 +170,7 @@ TEST_F(Hostile, AStationHasNoMoreGridsOfAnHourThanARadarMakes) {
         << "those that were written first have gone";
 }
 
-// 2026-11-25: all of what it had become was read at once, 1 GiB of zeros, and twice as it grew.
+// 2026-11-25: when a followed file had grown to 1 GiB of zeros, all of it was read at once, twice.
 TEST_F(Hostile, AFollowedFileThatGrowsAsItEndsIsReadNoFurther) {
     const wire::Bytes whole = wire::ldm_volume(3, 360);
     const fs::path path = put(drop() / "KTLX_grows", whole);
@@ -193,7 +194,7 @@ TEST_F(Hostile, AFollowedFileThatBecomesHugeIsGivenUp) {
     EXPECT_TRUE(take(path, false).starts_with("rejected: has 1099511627776 bytes"));
 }
 
-// Each of 90 bytes unpacks to 45 MB.
+// Returns a file in which each of the records, of 90 bytes, unpacks to 45 MB.
 wire::Bytes bomb(unsigned records) {
     const auto messages = wire::radial_messages(1, 1);
     wire::Bytes stream = wire::bzip2(wire::Bytes(45'000'000));

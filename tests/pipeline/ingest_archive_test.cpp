@@ -1,4 +1,4 @@
-// Archives in the drop directory: each member is taken in as a file of its own.
+// Tests archives in the drop directory, whose members are ingested like single files.
 #include <fstream>
 
 #include <fcntl.h>
@@ -78,7 +78,7 @@ TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
     const auto again = ingestor_.ingest_again(volumes()[1].path);
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(again->result(), IngestResult::gridded);
-    // Another member in its place is not what was cataloged.
+    // Another member in the place of the cataloged one is refused.
     auto others = two_volumes();
     others[2].bytes = real("KBGM20050822_024414.gz");
     put("order.zip", archive::make_archive(archive::Kind::zip, others));
@@ -87,7 +87,8 @@ TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
     EXPECT_EQ(changed.error().code, ErrorCode::corrupt);
 }
 
-// 2026-11-28: the second was no longer in the archive, as the larger first one was not counted.
+// 2026-11-28: the second member was not found, because the larger first one was skipped without
+// being counted.
 TEST_F(IngestArchiveTest, TheSecondMemberOfANameIsReadAgain) {
     const auto larger = real("KBGM20050822_024414.gz"), smaller = real("KBGM20050822_025549.gz");
     ASSERT_GT(larger.size(), smaller.size());
@@ -100,7 +101,7 @@ TEST_F(IngestArchiveTest, TheSecondMemberOfANameIsReadAgain) {
     EXPECT_TRUE(raw->bytes == smaller);
 }
 
-// 2026-11-29: each member was missing.
+// 2026-11-29: the check reported each member as missing.
 TEST_F(IngestArchiveTest, ACatalogWithMembersIsSound) {
     const fs::path path = put_two_volumes();
     ASSERT_TRUE(ingestor_.ingest(path, false));
@@ -111,7 +112,7 @@ TEST_F(IngestArchiveTest, ACatalogWithMembersIsSound) {
     EXPECT_FALSE(catalog::check_catalog(directory_ / "catalog", "")->is_sound());
 }
 
-// 2026-11-29: rows of members that another archive of this name does not have stayed complete.
+// 2026-11-29: the rows of members of the former archive stayed `complete`.
 TEST_F(IngestArchiveTest, MembersOfAnArchiveThatWasReplacedAreGone) {
     auto members = two_volumes();
     ASSERT_TRUE(ingestor_.ingest(
@@ -124,7 +125,7 @@ TEST_F(IngestArchiveTest, MembersOfAnArchiveThatWasReplacedAreGone) {
     EXPECT_EQ(volumes().at(1).state, FileState::complete);
 }
 
-// 2026-11-29: the archive was settled, so the rows of its members were lost for good.
+// 2026-11-29: because the archive was settled, lost rows of its members were never made again.
 TEST_F(IngestArchiveTest, RowsOfMembersThatWereLostAreMadeAgain) {
     const fs::path path = put_two_volumes();
     ASSERT_TRUE(ingestor_.ingest(path, false));
@@ -137,7 +138,7 @@ TEST_F(IngestArchiveTest, RowsOfMembersThatWereLostAreMadeAgain) {
     EXPECT_EQ(volumes().size(), 2U);
 }
 
-// 2026-11-28: the log said that the raw file is gone or has changed.
+// 2026-11-28: the log said that the raw file was gone or had changed.
 TEST_F(IngestArchiveTest, AGridOfAMemberIsNotMadeAgain) {
     ASSERT_TRUE(ingestor_.ingest(put_two_volumes(), false));
     const auto grid = grids("KBGM").at(0);
@@ -185,7 +186,7 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::unchanged);
 }
 
-// 2026-11-29: the members behind a read error, which passed, were lost for good.
+// 2026-11-29: after a temporary read error, the remaining members were never ingested.
 TEST_F(IngestArchiveTest, OneThatCannotBeReadForNowIsNotSettled) {
     Ingestor by_turns(catalog_, store_, one_member_a_turn());
     const fs::path path = put_two_volumes();
@@ -207,7 +208,8 @@ TEST_F(IngestArchiveTest, OneThatCannotBeReadForNowIsNotSettled) {
     EXPECT_EQ(grid_count(), 2U);
 }
 
-// 2026-11-28: of five that waited, each was closed before its next turn, and none came further.
+// 2026-11-28: of five waiting archives, each was closed before its next turn, so none of them made
+// progress.
 TEST_F(IngestArchiveTest, ManyLongOnesComeToTheirEnds) {
     Ingestor by_turns(catalog_, store_, one_member_a_turn());
     std::vector<fs::path> waiting;

@@ -1,4 +1,4 @@
-// Real files through the whole pipeline: what the catalog says, what stands in the cache.
+// Tests the catalog and the cache after real files went through the whole pipeline.
 #include "pipeline/ingest/ingest.h"
 
 #include <fstream>
@@ -84,7 +84,7 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     EXPECT_EQ(only_entry("KBGM").state, FileState::gone);
 }
 
-// Message 2 of these files says so.
+// Message 2 of these files has these troubles.
 TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
     STORMCELLAR_NEED_DATA();
     const auto troubles_of = [&](const std::string& name, const std::string& station) {
@@ -121,7 +121,7 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
               IngestResult::unchanged);
 }
 
-// golden: 4 volumes in one file
+// golden: this file has 4 volumes.
 TEST_F(IngestTest, FileOfSeveralVolumesGivesAGridForEach) {
     STORMCELLAR_NEED_DATA();
     const auto outcome =
@@ -187,7 +187,7 @@ TEST_F(IngestTest, OddThingsAreRejectedAndNeverFollowed) {
     EXPECT_EQ(std::get<ended::Rejected>(outcome->ending).with, ErrorCode::not_a_file);
 }
 
-// A cut copy must not take a whole grid's place.
+// The grid of a truncated copy must not replace the grid of the complete volume.
 TEST_F(IngestTest, AWholeGridIsNotReplacedByAPartOfIt) {
     const auto whole = level2::wire::ldm_volume(3, 360);
     const auto cut = std::span(whole).first(whole.size() * 2 / 3);
@@ -211,8 +211,8 @@ TEST_F(IngestTest, APartIsReplacedByTheWholeVolume) {
     EXPECT_FALSE(only_grid("KTLX").provenance.partial);
 }
 
-// Two whole files of one volume give the same grid in whatever order they come, and whatever their
-// times say; a file that is alone counts as it is.
+// Two complete files of one volume give the same grid, in any order and with any modification
+// times. A single file always counts.
 TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheSameOneCountsInAnyOrder) {
     const auto write_file = [&](const std::string& name, int sweeps) {
         return put(name, level2::wire::ldm_volume(sweeps, 360));
@@ -239,7 +239,7 @@ TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheSameOneCountsInAnyOrder) {
     EXPECT_EQ(again(kept), counts);
 }
 
-// Each volume of a file is judged by itself: here the first broke off.
+// Each volume of a file is judged separately. Here, only the first volume is incomplete.
 TEST_F(IngestTest, OfTwoVolumesOnlyTheOneThatBrokeOffIsPartial) {
     const auto second = level2::wire::ldm_volume(2, 360);
     auto messages = level2::wire::radial_messages(3, 360);
@@ -259,7 +259,7 @@ TEST_F(IngestTest, OfTwoVolumesOnlyTheOneThatBrokeOffIsPartial) {
     EXPECT_FALSE(partial(outcome->grids[1]));
 }
 
-// A retry cannot help where the file itself is to blame.
+// A retry cannot help if the file itself is to blame.
 TEST_F(IngestTest, ImpossibleDatesAreNoReasonToTryForEver) {
     auto header_only = level2::wire::ldm_volume(2, 360);
     level2::wire::overwrite_u32(header_only, 12, 0x10000000);

@@ -7,7 +7,7 @@ namespace {
 
 using Key = InstantCache::Key;
 
-// One stored brick of 4,096 bytes, and a table of 24.
+// Returns a grid of one stored brick of 4,096 bytes and a table of 24 bytes.
 std::shared_ptr<const grid::BrickGrid> one_brick() {
     grid::Grid made;
     made.spec = grid::default_spec(40, -100);

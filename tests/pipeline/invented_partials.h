@@ -1,4 +1,5 @@
-// tests/pipeline/invented_partials.h -- partials of the small domain that took no volume to make.
+// tests/pipeline/invented_partials.h -- partials of the small domain, which are made without a
+// volume.
 #pragma once
 
 #include <string>
@@ -16,8 +17,8 @@ inline UtcTime minute(int minutes) {
     return *parse_utc("2005-08-22T02:00:00Z", UtcTime{}) + std::chrono::minutes{minutes};
 }
 
-// A station that sees 32 x 32 columns of the small domain, if nothing else is said, from
-// the minute on for four minutes, so that its middle is two minutes later.
+// The partial of a station that sees 32 x 32 columns of the small domain, unless set otherwise. The
+// volume begins at the minute and takes four minutes, so its middle is two minutes later.
 struct InventedPartial {
     std::string station = "KBGM";
     int minute = 0;
@@ -58,7 +59,7 @@ inline std::filesystem::path commit(cache::StoreWriter& store, const std::string
     return path ? *path : std::filesystem::path{};
 }
 
-// Returns the path of the partial "north.STATION".
+// Commits the partial "north.STATION", and returns its path.
 inline std::filesystem::path commit(cache::StoreWriter& store, const InventedPartial& wanted) {
     return commit(store, wanted.station, grid_of(wanted), wanted.has_other_codes);
 }

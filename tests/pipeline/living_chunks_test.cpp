@@ -1,4 +1,5 @@
-// Volumes that come as one file a chunk: in any order, some of them lost, from several workers.
+// Tests volumes of chunks that come in any order, are lost in part, and are ingested by several
+// workers.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -36,7 +37,7 @@ TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
         EXPECT_EQ(take(house_, i, true).result(), IngestResult::unchanged) << i;
 }
 
-// 2026-11-26: nobody could list or read a volume of chunks before it had ended.
+// 2026-11-26: a volume of chunks could not be listed or read before it had ended.
 TEST_F(LivingChunks, TheRowOfTheFirstDescribesTheVolumeWhileItGrows) {
     const auto rows = [&] { return *house_.catalog->list("KLOT", {}); };
     const auto whole = whole_.catalog->list("KLOT", {})->at(0).volume;
@@ -67,8 +68,8 @@ TEST_F(LivingChunks, TheRowOfTheFirstDescribesTheVolumeWhileItGrows) {
     EXPECT_EQ(rows().at(0).state, catalog::FileState::complete);
 }
 
-// 2026-11-28: while the grid was made, the row told of the whole volume, and others read all of its
-// chunks but the last.
+// 2026-11-28: while the volume was gridded, its row described the complete volume, but the last
+// chunk had no row, so readers left that chunk out.
 TEST_F(LivingChunks, TheRowTellsOfTheWholeVolumeWhenAllHaveRows) {
     for (std::size_t i = 0; i + 1 < names_.size(); ++i)
         take(house_, i);
@@ -125,7 +126,8 @@ TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
     expect_the_whole_volume_once();
 }
 
-// 2026-11-23: a volume is named by its first radial until its header comes, and stayed under both.
+// 2026-11-23: the first radial names a volume until its header comes, and then grids with both
+// names stayed.
 TEST_F(LivingChunks, TheBeginningThatComesLateLeavesNoOtherGrid) {
     constexpr std::size_t late = 10;
     for (std::size_t i = late; i < names_.size(); ++i)
@@ -133,7 +135,7 @@ TEST_F(LivingChunks, TheBeginningThatComesLateLeavesNoOtherGrid) {
     ASSERT_EQ(take(house_, names_.size() - 1, true).result(), IngestResult::gridded);
     ASSERT_EQ(house_.grids("KLOT").size(), 1U);
     const UtcTime first_radial = house_.grids("KLOT")[0].time;
-    // One that holds another volume stays.
+    // A grid of another volume stays.
     const fs::path beside =
         house_.grids("KLOT")[0].path.parent_path() / "KLOT_REF_20220317_000500_000.scg";
     fs::copy_file(whole_.grids("KLOT")[0].path, beside);
@@ -176,8 +178,8 @@ TEST_F(LivingChunks, AnEndThatIsCutDoesNotKeepTheVolumeWaiting) {
     EXPECT_EQ(take(house_, names_.size() - 2, true).result(), IngestResult::incomplete);
 }
 
-// 2026-11-22: who waits in the name of all was deleted before the volume was due, and nobody asked
-// again before the next start.
+// 2026-11-22: the representative of a volume was deleted before the volume was due, and the volume
+// was not polled again before the next start.
 TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i != 20) take(house_, i);
@@ -223,7 +225,8 @@ TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
     expect_same_cells(house_);
 }
 
-// 2026-11-25: a hundred siblings that were none kept a worker for minutes, and more than once.
+// 2026-11-25: a hundred files with the names of chunks kept a worker busy for minutes, several
+// times.
 TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
     const fs::path directory = directory_ / "others";
     fs::create_directories(directory);
@@ -243,13 +246,13 @@ TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
     EXPECT_EQ(volume->add(later, stamp_of(later.path).value()).value(), ChunkVolume::Added::added)
         << "it comes in its own name";
     const auto refused = ChunkPath::of(directory / names_[1]).value();
-    fs::permissions(refused.path, fs::perms::none);  // for whoever is not root
+    fs::permissions(refused.path, fs::perms::none);  // has no effect for root
     EXPECT_EQ(volume->add(refused, stamp_of(refused.path).value()).value(),
               ChunkVolume::Added::not_ours)
         << "without reading it again";
 }
 
-// 2026-11-22: what was put aside of chunks had no bound on disk.
+// 2026-11-22: the shelved sweeps of chunks had no limit on disk.
 TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     const auto grow = [&](ChunkVolumes& volumes, const std::string& site) {
         const auto directory = directory_ / "others" / site;
@@ -302,7 +305,7 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     EXPECT_TRUE(each.find(given_up, "A", ChunkVolumes::Expected::nothing)) << "it is quiet";
 }
 
-// 2026-11-25: its grid waited until the volume had been quiet.
+// 2026-11-25: such a volume was only gridded after it had been quiet.
 TEST_F(LivingChunks, AVolumeThatWasGivenUpIsGriddedWhenItsEndComes) {
     begin_again_with(4'000'000);
     std::uint64_t given_up = 0;
@@ -337,8 +340,8 @@ TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
     EXPECT_EQ(house_.catalog->list("KLOT", {})->size(), 1U);
 }
 
-// 2026-11-22: the volume was forgotten before it was finished, so that one who came meanwhile made
-// another, and what failed of the one undid rows of the other.
+// 2026-11-22: the volume was forgotten before it was finished, so that a job that came meanwhile
+// made a second object of it. The failure of one object then overwrote rows of the other.
 TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
     for (std::size_t i = 0; i + 1 < names_.size(); ++i)
         take(house_, i);
@@ -360,8 +363,8 @@ TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
     expect_the_whole_volume_once();
 }
 
-// 2026-11-22: a chunk that could not be read counted as none, and what lay beside the first one as
-// not there: the volume was finished without them.
+// 2026-11-22: a chunk that could not be read counted as no chunk, and the other chunks in the
+// directory as missing, so the volume was finished without them.
 TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
 #if defined(STORMCELLAR_SANITIZED)
     GTEST_SKIP()
@@ -389,14 +392,14 @@ TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
     expect_the_whole_volume_once();
 }
 
-// After a power cut: the newest chunk is empty and is the first that is looked at.
+// After a power cut, the newest chunk is empty, and it is offered first.
 TEST_F(LivingChunks, OneThatIsNotWholeIsNoneToWaitFor) {
     for (std::size_t i = 0; i + 2 < names_.size(); ++i)
         append_to(drop_ / names_[i], parts_[i]);
     const fs::path empty = drop_ / names_[names_.size() - 2];
     std::ofstream{empty};
     ASSERT_EQ(house_.ingestor->ingest(empty, false)->result(), IngestResult::incomplete);
-    // The next that is asked is waited for in its place.
+    // The next chunk that is offered becomes the representative instead.
     EXPECT_EQ(take(house_, 3).result(), IngestResult::incomplete);
     EXPECT_EQ(take(house_, 4).result(), IngestResult::registered);
 }

@@ -1,4 +1,5 @@
-// A catalog, a cache and an Ingestor that makes living grids, and volumes that come piece by piece.
+// tests/pipeline/living_house.h -- a catalog, a cache and an Ingestor that makes living grids, and
+// volumes that come piece by piece.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +30,8 @@
 namespace stormcellar::pipeline {
 
 inline constexpr const char* busy = "volumes/KLOT20220317_000842_V06";
-// A day number for all files, so that grids made at different times are the same to the byte.
+// The modification time of all files, so that grids made at different times are the same to the
+// byte.
 inline constexpr std::int64_t file_time_s = 1'650'000'000;
 
 inline std::vector<std::byte> real_bytes(const std::string& name) {
@@ -69,7 +71,7 @@ struct House {
 class Living : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
-    // Appends each record and has it taken in.
+    // Appends the records one by one, and ingests the file after each.
     std::vector<IngestOutcome> grow(House& house, const fs::path& path,
                                     std::span<const std::byte> bytes, std::size_t most = 1000) {
         std::vector<IngestOutcome> outcomes;
@@ -89,7 +91,7 @@ class Living : public ::testing::Test {
     House house_{directory_ / "living", true};
 };
 
-// Cuts a file as LDM hands it on, one file a record; gives the paths in their order.
+// Tests a volume that is cut into one file for each record, as LDM delivers it.
 class LivingChunks : public Living {
   protected:
     void SetUp() override {
@@ -103,12 +105,12 @@ class LivingChunks : public Living {
             const std::size_t from = i == 0 ? 0 : ends[i - 1];
             parts_.push_back(std::span{bytes_}.subspan(from, ends[i] - from));
         }
-        // Grids the whole file for comparison.
+        // Grid the whole file, for comparison.
         const fs::path file = directory_ / "KLOT20220317_000842_V06";
         append_to(file, bytes_);
         ASSERT_EQ(whole_.ingestor->ingest(file, false)->result(), IngestResult::gridded);
     }
-    // Begins again as another process would, with so much room on the shelf.
+    // Begins again, as after a restart, with this limit of sweeps on disk.
     void begin_again_with(std::uint64_t shelf_bytes) {
         house_.ingestor.reset();
         IngestOptions options = small_grid();
@@ -154,7 +156,7 @@ class LivingChunks : public Living {
         expect_one_volume(house_);
     }
     fs::path drop_ = directory_ / "drop/KLOT/494";
-    std::int64_t came_ = 0;  // each a second after the one before
+    std::int64_t came_ = 0;  // each file comes a second after the previous one
     House whole_{directory_ / "whole", false};
     std::vector<std::byte> bytes_;
     std::vector<std::string> names_;

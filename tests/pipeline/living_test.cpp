@@ -1,5 +1,5 @@
-// Volumes that grow record by record: what stands in the cache meanwhile, and that nothing of it is
-// left in the end.
+// Tests volumes that grow record by record: the living grids in the cache, and that none of them is
+// left at the end.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -23,7 +23,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// The same volume as it would have been so much later.
+// Returns the volume with all times later by `by`.
 level2::Volume later(level2::Volume volume, std::chrono::milliseconds by) {
     const UtcTime start = volume.header->time() + by;
     const NexradTime named = nexrad_from_time(start);
@@ -48,9 +48,9 @@ TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
     }
     EXPECT_EQ(outcomes.back().result(), IngestResult::gridded);
     const level2::Volume volume = level2::decode(bytes)->volume;
-    EXPECT_EQ(shown, volume.sweeps.size() - 1);  // the last one ends the volume
+    EXPECT_EQ(shown, volume.sweeps.size() - 1);  // the last sweep ends the volume
 
-    // Another house takes the complete file.
+    // Another house ingests the complete file.
     House whole(directory_ / "whole", false);
     ASSERT_EQ(whole.ingestor->ingest(path, false)->result(), IngestResult::gridded);
     ASSERT_EQ(house_.grids("KLOT").size(), 1U);
@@ -64,8 +64,8 @@ TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
     EXPECT_EQ(rows->at(0).volume.radial_count, same->at(0).volume.radial_count);
 }
 
-// 2026-11-28: two records in the wrong order at the boundary of two sweeps made two volumes of one,
-// of which the first had no living grids after these and a grid that was nearly empty.
+// 2026-11-28: two records in the wrong order at the boundary of two sweeps split the volume in two.
+// The first part got no more living grids, and its final grid was nearly empty.
 TEST_F(Living, RecordsInTheWrongOrderGiveTheGridsOfTheRightOrder) {
     const std::vector<std::byte> right = real_bytes(busy);
     const std::vector<std::size_t> ends = synth::piece_ends(right);
@@ -100,8 +100,8 @@ TEST_F(Living, RecordsInTheWrongOrderGiveTheGridsOfTheRightOrder) {
     EXPECT_TRUE(rows->at(0).volume.complete);
 }
 
-// Each moment's grids are those of a house that makes this moment alone, at every record of two
-// volumes: also while sweeps of the first stand for moments that have not come again.
+// At every record of two volumes, each moment's grids equal those of a house that grids only this
+// moment, even while old sweeps stand in for some moments.
 TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
     using level2::Moment;
     const std::vector<Moment> moments = {Moment::ref, Moment::vel, Moment::rho};
@@ -152,7 +152,8 @@ TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
         EXPECT_EQ(together.grids("KLOT", moment).size(), 2U);
 }
 
-// By hand: the last volume's sweeps in front, and the new ones behind them.
+// The living grid must equal the grid of a volume that this test composes: the last volume's old
+// sweeps, followed by the new ones.
 TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
     const std::vector<std::byte> first_bytes = real_bytes(busy);
     const fs::path first_path = directory_ / "KLOT20220317_000842_V06";
@@ -175,7 +176,8 @@ TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
     EXPECT_TRUE(made.provenance.partial);
     ASSERT_EQ(made.provenance.notes.size(), 1U);
     EXPECT_TRUE(made.provenance.notes[0].starts_with("living: ")) << made.provenance.notes[0];
-    // Each elevation once, the low ones of the new volume and the high ones of the last.
+    // The grid has each elevation once: the low ones from the new volume, and the high ones from
+    // the last.
     const UtcTime second_start = second.header->time();
     std::size_t fresh = 0;
     for (std::size_t i = 0; i < made.provenance.sweeps.size(); ++i) {
@@ -227,7 +229,8 @@ TEST_F(Living, WithoutTimeLowSweepsAreShownAndTheOthersTogetherLater) {
     const auto outcomes = grow(house, path, bytes, 40);
     const auto shown = [](const IngestOutcome& outcome) { return !outcome.living.empty(); };
     const auto left_out = [](const IngestOutcome& outcome) { return outcome.living_left_out; };
-    // Its cuts: 0.5 degrees twice, higher ones, and 0.5 again half-way (SAILS).
+    // The volume's cuts are 0.5 degrees twice, higher ones, and 0.5 degrees again in between
+    // (SAILS).
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), shown), 0);
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), left_out), 0);
     ASSERT_TRUE(outcomes.back().living_left_out) << "a high sweep was the last";
@@ -247,7 +250,7 @@ TEST_F(Living, AFileThatIsRewrittenMeanwhileIsReadAsItIs) {
     const fs::path path = directory_ / "KLOT20220317_000842_V06";
     grow(house_, path, bytes, 20);
     const std::size_t size = fs::file_size(path);
-    // In place, so that it is the same file and longer than it was.
+    // Overwrite the file in place, so that it is the same file but longer.
     ASSERT_GT(other.size(), size);
     std::fstream(path, std::ios::binary | std::ios::in | std::ios::out)
         .write(reinterpret_cast<const char*>(other.data()),
@@ -316,7 +319,7 @@ TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
     EXPECT_TRUE(files.last_of("KAAA") && files.last_of("KCCC"));
     EXPECT_EQ(files.take_given_up(), 0U);
 
-    // 2026-11-25: no real volume took the place of one of 2040.
+    // 2026-11-25: no real volume ever replaced a volume of the year 2040.
     const auto years = std::chrono::duration_cast<std::chrono::minutes>(std::chrono::years{25});
     files.keep_last(last_of("KAAA", static_cast<int>(years.count())));
     EXPECT_EQ(files.last_of("KAAA"), a);
@@ -330,7 +333,7 @@ TEST_F(Living, GrowthIsToldByTheRecords) {
     append_to(path, std::span{bytes}.subspan(24, 1'000'000));
     EXPECT_TRUE(FollowedFile::growing(path));
     append_to(path, std::span{bytes}.subspan(1'000'024));
-    EXPECT_FALSE(FollowedFile::growing(path));  // whole: its last record says so
+    EXPECT_FALSE(FollowedFile::growing(path));  // its last record ends the file
     EXPECT_FALSE(FollowedFile::growing(testing::real_file("volumes/KLIX20050828_180149.gz")));
     EXPECT_FALSE(FollowedFile::growing(directory_.path()));
     EXPECT_FALSE(FollowedFile::growing(directory_ / "nothing"));
@@ -349,7 +352,7 @@ TEST_F(Living, SweepsComeBackFromTheShelfBitForBit) {
             back.sweeps[i] = (*shelf)->get(places[i]).value();
         EXPECT_EQ(level2::difference(volume, back), "") << name;
         EXPECT_GT((*shelf)->bytes(), 0U);
-        // Damaged places give errors, not sweeps.
+        // Reading from a damaged place gives an error, not a sweep.
         SweepShelf::Place beyond = places.back();
         beyond.offset += 1'000'000'000;
         EXPECT_FALSE((*shelf)->get(beyond));

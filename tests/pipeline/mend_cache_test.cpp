@@ -1,4 +1,4 @@
-// Grids of real volumes that are damaged or deleted, and made again.
+// Tests that damaged or deleted grids of real volumes are made again.
 #include "pipeline/care/mend_cache.h"
 
 #include <fstream>
@@ -85,7 +85,7 @@ TEST_F(MendCache, EachOfSeveralMomentsIsMadeAgain) {
               (std::vector<cache::GridName>{{"KLOT", level2::Moment::vel, velocity.time}}));
     ASSERT_TRUE(mender.make(missing->front()));
     EXPECT_EQ(*read_file(velocity.path), good);
-    // A configuration without the moment drops what is damaged.
+    // If the configuration no longer has the moment, the damaged grid is removed.
     fs::resize_file(velocity.path, good.size() / 2);
     EXPECT_EQ(mender_.mend(velocity, MendDepth::header)->condition, GridCondition::dropped);
 }
@@ -112,7 +112,7 @@ TEST_F(MendCache, ADamagedGridWithoutItsFileIsDropped) {
     }
 }
 
-// 2026-11-25: what stood in the place of a cataloged file was gridded as if it were that file.
+// 2026-11-25: any file in the place of a cataloged file was gridded as if it were that file.
 TEST_F(MendCache, AnotherFileOfTheSameSizeAndTimeIsNotTheOneThatWasCataloged) {
     take_in(2);
     for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
@@ -182,7 +182,7 @@ TEST_F(MendCache, AWipedCacheIsFilledNewestFirst) {
     EXPECT_TRUE(mender_.missing(hours{6})->empty());
 }
 
-// The volumes lie six minutes apart.
+// The volumes are six minutes apart.
 TEST_F(MendCache, OnlyTheNewestOfAWipedCacheAreFilled) {
     take_in(3);
     fs::remove_all(directory_ / "cache/KBGM");
@@ -209,7 +209,7 @@ TEST_F(MendCache, FilesThatWentOrChangedAreNotTried) {
     EXPECT_TRUE(mender_.missing(hours{6})->empty());
 }
 
-// The same with a mosaic of one site: its partials and its frames.
+// Tests the same for a mosaic of one site, with partials and frames.
 class MendMosaic : public SmallHouse {
   protected:
     MendMosaic() : SmallHouse(with_domain()) {}
@@ -244,7 +244,7 @@ class MendMosaic : public SmallHouse {
         for (const auto& [path, codes] : good_)
             EXPECT_EQ(codes_of(path), codes) << path;
     }
-    // Mends as after a restart: nothing that was made before is left in memory.
+    // Mends as after a restart, with nothing kept in memory.
     Result<MendedGrid> mend_afresh(const cache::StoreEntry& entry, MendDepth depth) {
         Ingestor ingestor(catalog_, store_, with_domain());
         return CacheMender(catalog_, store_, ingestor, {level2::Moment::ref}).mend(entry, depth);
@@ -261,7 +261,7 @@ class MendMosaic : public SmallHouse {
     std::map<fs::path, std::vector<std::byte>> good_;
 };
 
-// Every partial and every frame, one after the other, with a bit flipped and cut.
+// Damages every partial and every frame, one after the other, by a wrong byte and by truncation.
 TEST_F(MendMosaic, DamagedPartialsComeFromRawFilesAndFramesFromPartials) {
     for (const auto& entry : all()) {
         const bool is_frame = entry.domain == "north";
@@ -288,7 +288,7 @@ TEST_F(MendMosaic, DamagedPartialsComeFromRawFilesAndFramesFromPartials) {
 }
 
 TEST_F(MendMosaic, AFrameMadeOfWhatIsDamagedTooSaysSoAndIsPutRightWithIt) {
-    const auto frame = frames().at(1);  // of the second and the third volume
+    const auto frame = frames().at(1);  // from the second and the third volume
     const auto partial = partials().at(2);
     testing::alter_last_byte_of(frame.path);
     testing::alter_last_byte_of(partial.path);
@@ -312,7 +312,7 @@ TEST_F(MendMosaic, DeletedPartialsAndFramesAreMissing) {
     ASSERT_EQ(missing->at(0).names.size(), 1U) << "the site's own grid stands";
     EXPECT_EQ(missing->at(0).names[0].domain, "north.KBGM");
     ASSERT_TRUE(mender_.make(missing->at(0)));
-    expect_all_as_before();  // a partial brings its frames with it
+    expect_all_as_before();  // frames are made with the partial
 
     fs::remove(frames().at(1).path);
     const auto lost = mender_.missing_frames(hours{6});

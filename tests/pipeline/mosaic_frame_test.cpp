@@ -1,4 +1,4 @@
-// Frames of several sites, from real and from synthetic volumes.
+// Tests frames of several sites, with real and synthetic volumes.
 #include "pipeline/mosaic/mosaic_frame.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ grid::GridSpec northeast() {
     return coarse_spec(41.8, -75, 200);
 }
 
-// KBGM's sequence of August 2005, and a domain that sees nothing of another site.
+// KBGM's sequence of August 2005, and a domain that no other site reaches.
 class RealFrames : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }

@@ -1,4 +1,4 @@
-// Mosaics that are kept as volumes come, and the same made at once.
+// Compares mosaics that are updated as volumes come with mosaics that are made at once.
 #include "pipeline/mosaic/mosaic_maker.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Loaded load_volume(const std::string& name) {
     return loaded;
 }
 
-// The names of volumes of the sequence, as grids have them.
+// Returns the names of these volumes of the sequence, as in the provenance of grids.
 std::vector<std::string> volumes_of(const std::vector<std::size_t>& numbers) {
     std::vector<std::string> volumes;
     for (const std::size_t number : numbers)
@@ -46,7 +46,7 @@ std::vector<std::string> volumes_of(const std::vector<std::size_t>& numbers) {
 class MosaicKeeperTest : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
-    // A volume without its header is not whole.
+    // Takes in a volume, which is incomplete if it has no header.
     Kept take(const Loaded& loaded) {
         VolumeSource source{loaded.volume, loaded.site, loaded.file};
         source.partial = !loaded.volume.header;
@@ -75,7 +75,7 @@ TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome)
     take(load_volume(sequence[0]));
     EXPECT_EQ(store_.list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->size(),
               1U);
-    // The middle of the first volume is 02:46:50: no frame is due between it and itself.
+    // The middle of the first volume is 02:46:50, so no frame is due yet.
     const std::size_t first = frames().size();
     const Kept second = take(load_volume(sequence[1]));
     EXPECT_GE(frames().size(), first);
@@ -86,7 +86,7 @@ TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome)
     EXPECT_EQ(frame.description().provenance.revision, 2);
     EXPECT_EQ(frame.description().provenance.source_files, volumes_of({0, 1}));
 
-    // A third volume brings the frame of 02:55 and leaves that of 02:50 alone.
+    // A third volume gives the frame of 02:55, and does not change the frame of 02:50.
     const Kept third = take(load_volume(sequence[2]));
     ASSERT_EQ(third.frames.size(), 1U);
     EXPECT_EQ(format_utc(open(third.frames[0]).description().time), "2005-08-22T02:55:00Z");
@@ -111,7 +111,7 @@ TEST_F(MosaicKeeperTest, AVolumeOfChunksWhoseHeaderComesLateStandsOnce) {
     ASSERT_EQ(partials().size(), 1U);
     EXPECT_EQ(partials()[0].time, whole.volume.start_time());
 
-    // The files that are left when scour has taken the first one take nothing away.
+    // If scour has deleted the first chunk, the remaining chunks remove no grid.
     take(cut);
     const auto stand = partials();
     EXPECT_TRUE(std::any_of(stand.begin(), stand.end(), [&](const cache::StoreEntry& entry) {
@@ -177,7 +177,7 @@ TEST_F(MosaicKeeperTest, AFrameIsWhatTheSameVolumesMakeWithoutTheStore) {
     EXPECT_EQ(a.values, b.values);
 }
 
-// If there is one site, all bricks are its own, so all are merged; it still counts as an update.
+// With a single site, all bricks are merged again, but the frame still counts as updated.
 TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     take(load_volume(sequence[0]));
     EXPECT_EQ(take(load_volume(sequence[2])).updated, 0U) << "no frame stood";
@@ -194,7 +194,7 @@ TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     EXPECT_EQ(*read_file(whole->path), bytes_of_updated) << "however often it was made";
 }
 
-// A code that was altered would be copied with a new checksum, and never be found again.
+// An altered code would be copied with a new checksum, and the damage would never be noticed.
 TEST_F(MosaicKeeperTest, ADamagedFrameIsNotCopiedFrom) {
     take(load_volume(sequence[0]));
     const auto path = take(load_volume(sequence[1])).frames.at(0);

@@ -1,9 +1,9 @@
-// Checks the promises of the planner of mosaics over real frames of one site between volumes and of
-// several sites, as tests/grid/honesty_test.cpp does for one volume:
-// - An effect that it left off changes the frame by less than the budget if it is forced on.
-// - An effect that it turned on changes the frame by more than a tenth of the budget if it is
+// Checks the promises of the planner for mosaics with real frames, of one site between its volumes
+// and of several sites, as tests/grid/honesty_test.cpp does for one volume: - An effect that the
+// planner left off changes the frame by less than the budget if it is forced on. - An effect that
+// it turned on changes the frame by more than a tenth of the budget if it is
 //   forced off, in at least one scene for each effect.
-// - The frame that it chose is within the budget of the exact chain's.
+// - The chosen frame differs from the exact chain's frame by at most the budget.
 #include "pipeline/plan/mosaic_plan.h"
 
 #include <cmath>
@@ -164,7 +164,7 @@ TEST(MosaicHonesty, EveryEffectOfMosaicsMattersInSomeScene) {
         const accuracy::Plan& plan = prepared->plan->plan;
         const MosaicFrame chosen = frame_of(*prepared, plan.choice);
         for (const accuracy::Decision& decision : plan.decisions) {
-            // Leave out what was turned on because it costs nothing, or with the most accurate
+            // Skip effects that were turned on because they cost nothing, or with the most accurate
             // choice.
             if (!decision.on || !decision.reason.starts_with("without it")) continue;
             const accuracy::Choice without =
@@ -192,7 +192,8 @@ TEST(MosaicPlan, OfVolumesWithoutAPairHasNoEffectOfTime) {
     }
 }
 
-// 13.5 m/s (docs/accuracy.md) for the minutes between the middle of a volume and the instant.
+// The echo moves at 13.5 m/s (docs/accuracy.md) for the minutes between the middle of a volume and
+// the instant.
 TEST(MosaicPlan, EchoMotionIsAsFarAsEchoMoves) {
     STORMCELLAR_NEED_DATA();
     const auto prepared = prepare(scenes()[0]);
@@ -217,7 +218,7 @@ TEST(MosaicPlan, WithoutABudgetIsTheDefault) {
     EXPECT_FALSE(plan->choice.fine_codes);
 }
 
-// The largest values that radars send (docs/level2.md).
+// These are the largest values that radars send (docs/level2.md).
 TEST(MosaicPlan, FineCodesHoldAllThatRadarsSend) {
     const std::map<level2::Moment, float> largest = {{level2::Moment::ref, 94.5F},
                                                      {level2::Moment::sw, 63.5F},

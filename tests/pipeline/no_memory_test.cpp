@@ -1,4 +1,4 @@
-// The system gives no memory, at any allocation: nothing is lost, and no file is to blame.
+// Tests that if any allocation fails, nothing is lost and no file is rejected.
 #include <cstdint>
 #include <new>
 
@@ -22,8 +22,8 @@ Result<IngestOutcome> ingest_with(House& house, const fs::path& path, std::int64
     }
 }
 
-// Each try gets a little further than the one before, as if others gave their memory back; gives
-// how many failed.
+// Ingests a file again and again with a little more memory, until it succeeds. Returns the number
+// of failed tries.
 int ingest_with_ever_more_memory(House& house, const fs::path& path) {
     int failed = 0;
     for (std::int64_t allocations = 0;; allocations += 1 + allocations / 3) {
@@ -53,7 +53,7 @@ TEST_F(LivingChunks, WithoutMemoryAreAskedForAgain) {
     expect_one_volume(house_);
 }
 
-// After a restart all that lies there is read with the first.
+// After a restart, the first job reads all chunks in the directory.
 TEST_F(LivingChunks, WithoutMemoryAreAllReadAgain) {
     for (std::size_t i = 0; i < names_.size(); ++i)
         append_to(drop_ / names_[i], parts_[i]);
@@ -75,7 +75,7 @@ TEST_F(Living, WithoutMemoryAFileIsAskedForAgain) {
     EXPECT_TRUE(std::ranges::equal(a->view().codes, b->view().codes));
 }
 
-// A followed file loses what was decoded of it, but the volume does not lose the rest.
+// A followed file loses its decoded data, but the volume loses nothing.
 TEST_F(Living, WithoutMemoryAGrowingFileIsBegunAnew) {
     const std::vector<std::byte> bytes = real_bytes(busy);
     const fs::path path = directory_ / "KLOT20220317_000842_V06";
@@ -97,7 +97,7 @@ TEST_F(Living, WithoutMemoryAGrowingFileIsBegunAnew) {
     EXPECT_TRUE(std::ranges::equal(a->view().codes, b->view().codes));
 }
 
-// Symptom, 2026-11-22: `unsupported`, as of a file that nobody can read.
+// 2026-11-22: the error was `unsupported`, as for a file that cannot be decoded.
 TEST(NoMemory, IsNotTheDatas) {
     STORMCELLAR_NEED_DATA();
     const std::vector<std::byte> bytes = real_bytes(busy);

@@ -1,5 +1,5 @@
-// Partials that other machines made: the mosaic is what one machine would have made of all volumes,
-// and a machine that is late is left out, named, and back as soon as it has caught up.
+// Tests partials that other machines made. The mosaic equals the mosaic that one machine makes from
+// all volumes. A late machine is left out and named, until it has caught up.
 #include <fstream>
 #include <functional>
 #include <map>
@@ -39,7 +39,7 @@ class OthersPartials : public ::testing::Test {
                                std::chrono::seconds late_after = std::chrono::minutes{10}) {
         return std::make_unique<Node>(directory_ / name, late_after);
     }
-    // The file of a partial in the directory of a machine.
+    // Writes a partial into the directory of a machine.
     OthersPartial brought(const std::string& machine, const InventedPartial& partial) {
         auto store = cache::StoreWriter::open(real_file_system(), directory_ / machine, false);
         const fs::path file = commit(*store, partial);
@@ -127,7 +127,8 @@ TEST_F(OthersPartials, AMachineThatIsLateIsLeftOutNamedAndComesBack) {
     const auto late = node("late", std::chrono::minutes{5}), all = node("all");
     for (const auto& partial : {first, other_first, other_second, other_third})
         take(*late, partial.station == "KBGM" ? "a" : "b", partial);
-    // KBGM's newest middle is 02:46, so it is in the frame of 02:50 and not in that of 02:55.
+    // KBGM's newest middle is 02:46, so KBGM is in the frame of 02:50, but not in the frame of
+    // 02:55.
     EXPECT_THAT(frame_of(*late, 50).stations, ElementsAre("KBGM", "KOKX"));
     EXPECT_THAT(frame_of(*late, 50).left_out, IsEmpty());
     EXPECT_THAT(frame_of(*late, 55).stations, ElementsAre("KOKX"));
@@ -146,7 +147,8 @@ TEST_F(OthersPartials, AStationThatAnotherMachineBringsIsNotLeftOut) {
     const auto one = node("one", std::chrono::minutes{5});
     for (const auto& partial : {first, other_first, other_second, other_third})
         take(*one, "a", partial);
-    // A buddy has KBGM, too, and is on time: of "a" nothing is missing but by its own station.
+    // The machine "buddy" brings KBGM, too, and is on time, so no station is left out because "a"
+    // is late.
     take(*one, "buddy", second);
     EXPECT_THAT(frame_of(*one, 55).stations, ElementsAre("KBGM", "KOKX"));
     EXPECT_THAT(frame_of(*one, 55).left_out, IsEmpty());
@@ -177,14 +179,14 @@ TEST_F(OthersPartials, WhatIsNoPartOfADomainIsRefused) {
     EXPECT_THAT(cache_of("one"), IsEmpty());
 }
 
-// 2026-11-28: a daemon that was killed between a part and its frames never made them again.
+// 2026-11-28: a daemon that was killed between a partial and its frames never made the frames.
 TEST_F(OthersPartials, FramesThatAKilledDaemonDidNotMakeAreMade) {
     const auto whole = node("whole"), killed = node("killed");
     for (const auto& partial : {first, other_first, second, other_second, third, other_third})
         take(*whole, "all", partial);
     for (const auto& partial : {first, other_first, second, other_second, third})
         take(*killed, "all", partial);
-    commit(killed->store, other_third);  // and then the end came
+    commit(killed->store, other_third);  // and then the daemon is killed
     ASSERT_FALSE(cache_of("killed") == cache_of("whole"));
 
     const auto again = node("killed");
@@ -197,7 +199,7 @@ TEST_F(OthersPartials, FramesThatAKilledDaemonDidNotMakeAreMade) {
     EXPECT_EQ(mended(*again), 0) << "what is as it should be stays";
 }
 
-// 2026-11-28: forged parts kept the thread for three minutes without a beat.
+// 2026-11-28: forged partials kept the thread busy for three minutes without a heartbeat.
 TEST_F(OthersPartials, EachFrameOfAPartIsABeat) {
     const auto merging = node("merging");
     take(*merging, "a", first);
@@ -222,9 +224,9 @@ TEST_F(OthersPartials, AFrameWhosePartsLeftTheCacheStays) {
     EXPECT_TRUE(*read_file(*frame) == before);
 }
 
-// 2026-11-28: notes of forged parts came to more than the file of a frame holds, so that no frame
-// was written; 65,000 notes kept the thread for minutes; parts of the year 9998 made the others
-// late.
+// 2026-11-28: the notes of forged partials exceeded the limit of a frame's file, so that no frame
+// was written. 65,000 notes kept the thread busy for minutes. Partials of the year 9998 made the
+// other machines late.
 TEST_F(OthersPartials, PartsThatSayWhatNoneSaysAreRefused) {
     const auto one = node("one");
     using Change = std::function<void(grid::Grid&)>;
@@ -283,7 +285,8 @@ TEST_F(OthersPartials, AFrameOfPartsWithManyNotesIsMade) {
     EXPECT_THAT(notes.back(), HasSubstr("more notes"));
 }
 
-// 2026-11-28: 930 parts of a station within an hour all stood, and each new one opened all of them.
+// 2026-11-28: 930 partials of a station within an hour were kept, and each new one opened all of
+// them.
 TEST_F(OthersPartials, AStationHasNoMorePartsOfAnHourThanARadarMakes) {
     const auto one = node("one");
     take(*one, "all", other_first);

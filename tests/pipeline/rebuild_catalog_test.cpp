@@ -1,4 +1,4 @@
-// A catalog made again from raw files, and from what is left of a damaged one.
+// Tests that a catalog is made again from raw files, and from the readable rows of a damaged one.
 #include "pipeline/care/rebuild_catalog.h"
 
 #include <fstream>
@@ -23,7 +23,7 @@ class RebuildCatalog : public ::testing::Test {
         options_.catalog = catalog_;
         options_.drop = drop_;
     }
-    // Two volumes and a file that is none.
+    // Puts two volumes, and a file without a volume, into the drop directory.
     void fill_drop() {
         for (const std::string name : {first_, second_})
             testing::write_small_volume(name, drop_ / "KBGM" / name);
@@ -96,7 +96,7 @@ TEST_F(RebuildCatalog, OfOneStationOnlyFilesThatMayBeItsAreRead) {
     EXPECT_EQ(rebuild_catalog(options_)->registered, 2U);
 }
 
-// 2026-11-24: one database that could not be opened ended the rebuilding of all others.
+// 2026-11-24: a database that could not be opened ended the rebuilding of all others.
 TEST_F(RebuildCatalog, ADatabaseThatCannotBeUsedIsNamedAndTheOthersAreRebuilt) {
     fill_drop();
     fs::create_directories(catalog_ / "KAAA.sqlite");

@@ -1,5 +1,5 @@
-// Machines that have the same volumes make the same bytes, whatever is local: the names, times and
-// places of the files, the order in which they come, and the number of threads.
+// Tests that machines with the same volumes make the same bytes, although the names, times and
+// places of files, their order, and the number of threads differ.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ using Files = std::map<fs::path, std::vector<std::byte>>;
 
 // The facts that are local to a machine.
 struct Local {
-    std::string before, behind;  // of the name of a file
-    std::chrono::hours age{0};   // of the files, an hour more for each next one
+    std::string before, behind;  // added to the names of files
+    std::chrono::hours age{0};   // of the first file; each next one is an hour older
     int threads = 1;
     bool newest_first = false;
 };

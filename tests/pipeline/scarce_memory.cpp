@@ -6,7 +6,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-thread_local std::int64_t left = -1;  // below 0: as many as it wants
+thread_local std::int64_t left = -1;  // below 0: no limit
 thread_local bool refused = false;
 
 void* allocate(std::size_t size, std::size_t alignment) {
@@ -44,7 +44,7 @@ void* operator new(std::size_t size) {
 void* operator new(std::size_t size, std::align_val_t alignment) {
     return stormcellar::pipeline::allocate(size, static_cast<std::size_t>(alignment));
 }
-// AddressSanitizer's own one would not call the operator above.
+// The operator of AddressSanitizer would not call the one above.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     try {
         return stormcellar::pipeline::allocate(size, 0);

@@ -1,5 +1,5 @@
-// Simulates a system without memory, for a program that is linked with scarce_memory.cpp, which has
-// its own operator new.
+// tests/pipeline/scarce_memory.h -- simulates a system without memory. Link the program with
+// scarce_memory.cpp, which replaces operator new.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class WithMemoryFor {
     WithMemoryFor(const WithMemoryFor&) = delete;
     WithMemoryFor& operator=(const WithMemoryFor&) = delete;
     ~WithMemoryFor();
-    // Returns true if the last object refused any.
+    // Returns true if the last object refused an allocation.
     [[nodiscard]] static bool was_refused();
 };
 

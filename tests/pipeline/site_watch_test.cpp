@@ -1,4 +1,4 @@
-// Simulated radars that look at the same storms, gridded as the daemon does it, and compared.
+// Compares simulated radars that see the same storms, gridded as the daemon does it.
 #include "pipeline/mosaic/site_watch.h"
 
 #include <cmath>
@@ -78,7 +78,7 @@ class SiteWatchTest : public ::testing::Test {
         if (*report) fmt::print("{}\n", describe((*report)->found));
         return *report;
     }
-    // Within what grid/judge/site_comparison.h states.
+    // Expects the true values, within the accuracy that grid/judge/site_comparison.h states.
     static void expect(const grid::SiteComparison& found, double bias_db, double azimuth_deg,
                        double time_s) {
         EXPECT_NEAR(found.bias_db.value, bias_db, 0.4);
@@ -130,7 +130,8 @@ TEST_F(SiteWatchTest, AFaultIsNamed) {
     EXPECT_THAT(report->faults, ElementsAre(HasSubstr("XSYB against XSYA: too weak by ")));
 }
 
-// The motion comes from the volumes themselves, so that a clock can be told from an antenna.
+// The motion is estimated from the volumes, so that a wrong clock can be told from a misaligned
+// antenna.
 TEST_F(SiteWatchTest, AClockThatIsLateIsNamed) {
     Radar late = *b_;
     for (level2::Volume& volume : late.volumes)
