@@ -103,7 +103,7 @@ Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, Chun
 
 // Records a chunk of a volume that has not ended. The first chunk's row describes the volume, so
 // that it can be listed and read while it grows. If the volume had ended and a late chunk reopened
-// it, its row stays as it is.
+// it, its row does not change.
 Status TakeChunk::record(const ChunkVolume& volume, const fs::path& path,
                          const std::string& station) {
     const ChunkVolume::File& file = volume.files().at(path);

@@ -102,7 +102,7 @@ std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::sec
     const auto steps = (since + interval - std::chrono::milliseconds{1}) / interval;
     for (UtcTime at = UtcTime{day} + steps * interval; at <= to; at += interval) {
         instants.push_back(at);
-        // Count frames from midnight again, whatever the interval.
+        // Count from midnight again, even if the interval does not divide a day.
         const auto next_day = std::chrono::floor<std::chrono::days>(at) + std::chrono::days{1};
         if (at + interval > UtcTime{next_day}) at = UtcTime{next_day} - interval;
     }
