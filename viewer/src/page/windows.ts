@@ -121,8 +121,8 @@ export class Windows {
         return waits.length > 0 ? Promise.all(waits.map((one) => one.done)).then(() => undefined) : null;
     }
 
-    // Returns a whole grid, or of a grid in parts the cells about points, of level 0 if there is room. Returns null until
-    // these have come, or if the points are beyond the grid in parts.
+    // Returns a whole grid, or of a grid in parts the cells about points, of level 0 if there is room. Returns null
+    // until these have come, or if the points are beyond the grid in parts.
     ray(loaded: LoadedGrid, points: readonly Plane[]): Cells | null {
         const { grid, stream } = loaded;
         return stream ? this.about(loaded, stream, 'ray', points, 0) : this.whole(grid);

@@ -1,0 +1,49 @@
+// retrieve/dealias/anchors.h -- what says how often a region is folded, beside its neighbors in the
+// sweep: the wind at its height, and the sweeps above and below.
+//
+// Threads  Pure functions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "retrieve/dealias/fold_graph.h"
+#include "retrieve/dealias/regions.h"
+#include "retrieve/dealias/velocity_sheet.h"
+#include "retrieve/wind/folded_wind.h"
+
+namespace stormcellar::retrieve {
+
+// One sheet on its way to fold numbers.
+struct SheetState {
+    VelocitySheet sheet;
+    SheetRegions regions;
+    FoldGraph graph;
+    std::vector<std::int32_t> folds;    // of each node
+    std::vector<Votes> wind_anchors;    // of each node
+    std::vector<std::uint8_t> guessed;  // of each node
+    std::vector<float> heights_m;       // of each gate number, above the antenna
+    // Of each gate, radials x gates; made of the nodes' folds by fill_gate_folds().
+    std::vector<std::int8_t> gate_folds;
+
+    [[nodiscard]] std::int32_t fold_of(std::int32_t region) const {
+        const auto r = static_cast<std::size_t>(region);
+        return folds[static_cast<std::size_t>(graph.node_of_region[r])] + graph.fold_in_node[r];
+    }
+    void fill_gate_folds();
+};
+
+// Weights of one gate, beside 1 of a pair of neighbors that agree.
+inline constexpr float wind_weight = 0.02F;     // where all gates agree with the wind
+inline constexpr float neighbor_weight = 0.1F;  // at the same height
+
+// The largest weight that anchors can give to a gate.
+inline constexpr float most_anchor_weight = wind_weight + 2 * neighbor_weight;
+
+// Adds the votes of the wind for each gate of the sheet.
+void anchor_to_wind(const FoldedWind& wind, const SheetState& state, std::vector<Votes>& anchors);
+
+// Adds the votes of the gates of another sheet, whose folds are known, above or below each gate.
+void anchor_to_sheet(const SheetState& other, const SheetState& state, std::vector<Votes>& anchors);
+
+}  // namespace stormcellar::retrieve

@@ -1,0 +1,181 @@
+#include "stormcellar/retrieve/dealias.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "base/degree.h"
+#include "retrieve/dealias/ambiguity.h"
+#include "retrieve/dealias/anchors.h"
+#include "retrieve/dealias/shear_repair.h"
+
+namespace stormcellar::retrieve {
+namespace {
+
+std::size_t at(std::int32_t index) {
+    return static_cast<std::size_t>(index);
+}
+
+void find_graph(SheetState& state, float anchor_weight) {
+    state.regions = find_regions(state.sheet);
+    std::vector<float> bound;
+    bound.reserve(state.regions.gate_count.size());
+    for (const std::int32_t gates : state.regions.gate_count)
+        bound.push_back(anchor_weight * static_cast<float>(gates));
+    const auto regions = static_cast<std::int32_t>(state.regions.gate_count.size());
+    state.graph = fold_graph(std::exchange(state.regions.edges, {}), regions, bound);
+    state.folds = likely_folds(state.graph);
+}
+
+// Without an anchor, a component is taken to be folded as little as possible.
+void center_components(SheetState& state) {
+    std::vector<double> sums(at(state.graph.components)), gates(sums.size());
+    for (std::size_t region = 0; region < state.regions.gate_count.size(); ++region) {
+        const auto component = at(state.graph.component[at(state.graph.node_of_region[region])]);
+        const double count = state.regions.gate_count[region];
+        sums[component] += count * state.fold_of(static_cast<std::int32_t>(region));
+        gates[component] += count;
+    }
+    for (std::int32_t node = 0; node < state.graph.nodes; ++node) {
+        const auto component = at(state.graph.component[at(node)]);
+        state.folds[at(node)] -=
+            static_cast<std::int32_t>(std::lrint(sums[component] / gates[component]));
+    }
+}
+
+void solve_alone(SheetState& state) {
+    minimize_cost(state.graph, {}, state.folds);
+    center_components(state);
+    state.guessed = guessed_nodes(state.graph, {}, state.folds);
+    state.fill_gate_folds();
+    repair_shear(state.sheet, state.gate_folds);
+}
+
+// Sheets by elevation, those of one elevation in the order of time.
+std::vector<std::size_t> by_elevation(const std::vector<SheetState>& states) {
+    std::vector<std::size_t> order(states.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {},
+                             [&](std::size_t i) { return states[i].sheet.elevation_deg; });
+    return order;
+}
+
+void solve_anchored(std::vector<SheetState>& states, const FoldedWind& wind) {
+    for (SheetState& state : states) {
+        state.wind_anchors.resize(at(state.graph.nodes));
+        anchor_to_wind(wind, state, state.wind_anchors);
+        minimize_cost(state.graph, state.wind_anchors, state.folds);
+        state.fill_gate_folds();
+    }
+    // Downward, because the sweeps above have fewer folds; then upward once more.
+    std::vector<std::size_t> order = by_elevation(states);
+    for (const bool is_downward : {true, false}) {
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::size_t place = is_downward ? order.size() - 1 - i : i;
+            SheetState& state = states[order[place]];
+            std::vector<Votes> anchors = state.wind_anchors;
+            if (place > 0) anchor_to_sheet(states[order[place - 1]], state, anchors);
+            if (place + 1 < order.size()) anchor_to_sheet(states[order[place + 1]], state, anchors);
+            minimize_cost(state.graph, anchors, state.folds);
+            state.fill_gate_folds();
+            if (!is_downward) repair_shear(state.sheet, state.gate_folds);
+            state.guessed = guessed_nodes(state.graph, anchors, state.folds);
+        }
+    }
+}
+
+// A wind that agrees less than this with the velocities at its height unfolds nothing.
+constexpr double least_agreement = 0.3;
+
+// Brings each gate nearest to the wind at its height.
+void unfold_to_wind(const FoldedWind& wind, SheetState& state) {
+    const VelocitySheet& sheet = state.sheet;
+    state.gate_folds.assign(sheet.turns.size(), 0);
+    const double per_turn = std::cos(sheet.elevation_deg * degree) / sheet.turn_mps;
+    for (int radial = 0; radial < sheet.radials; ++radial) {
+        const double azimuth = static_cast<double>(sheet.azimuths_deg[at(radial)]) * degree;
+        const double east = std::sin(azimuth) * per_turn, north = std::cos(azimuth) * per_turn;
+        for (int gate = 0; gate < sheet.gates; ++gate) {
+            const std::size_t here = sheet.at(radial, gate);
+            const FoldedWind::Layer& layer =
+                wind.at(static_cast<double>(state.heights_m[at(gate)]));
+            if (std::isnan(sheet.turns[here]) || layer.agreement < least_agreement) continue;
+            state.gate_folds[here] = static_cast<std::int8_t>(std::lrint(
+                layer.u_mps * east + layer.v_mps * north - static_cast<double>(sheet.turns[here])));
+        }
+    }
+}
+
+void count_jumps(const SheetState& state, Dealiased& dealiased) {
+    dealiased.pairs += state.regions.pairs;
+    dealiased.jumps += state.regions.jumps;
+}
+
+void write_folds(const SheetState& state, SweepFolds& folds, Dealiased& dealiased) {
+    const std::size_t first =
+        state.sheet.first_radial * static_cast<std::size_t>(state.sheet.gates);
+    std::ranges::copy(state.gate_folds, folds.folds.begin() + static_cast<std::ptrdiff_t>(first));
+    for (const Run& run : state.regions.runs) {
+        const auto node = at(state.graph.node_of_region[at(run.region)]);
+        if (state.guessed[node] == 0) continue;
+        std::fill_n(folds.ambiguous.begin() +
+                        static_cast<std::ptrdiff_t>(first + state.sheet.at(run.radial, run.begin)),
+                    run.end - run.begin, std::uint8_t{1});
+        dealiased.ambiguous_gates += run.end - run.begin;
+    }
+    for (std::size_t gate = 0; gate < state.gate_folds.size(); ++gate) {
+        if (std::isnan(state.sheet.turns[gate])) continue;
+        ++dealiased.gates;
+        if (state.gate_folds[gate] != 0) ++dealiased.folded_gates;
+    }
+}
+
+Dealiased empty_folds(const level2::Volume& volume) {
+    Dealiased dealiased;
+    for (std::size_t s = 0; s < volume.sweeps.size(); ++s) {
+        const level2::Sweep& sweep = volume.sweeps[s];
+        for (std::size_t m = 0; m < sweep.moments.size(); ++m) {
+            if (sweep.moments[m].moment != level2::Moment::vel) continue;
+            const std::size_t gates =
+                sweep.radials.size() * static_cast<std::size_t>(sweep.moments[m].gate_stride);
+            dealiased.sweeps.push_back(
+                {s, m, std::vector<std::int8_t>(gates, 0), std::vector<std::uint8_t>(gates, 0)});
+        }
+    }
+    return dealiased;
+}
+
+}  // namespace
+
+Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
+    Dealiased dealiased = empty_folds(volume);
+    if (rung == Dealiasing::off) return dealiased;
+    std::vector<VelocitySheet> sheets = velocity_sheets(volume);
+    FoldedWind wind;
+    if (rung != Dealiasing::region) wind = fit_folded_wind(sheets);
+    std::vector<SheetState> states;
+    states.reserve(sheets.size());
+    for (VelocitySheet& sheet : sheets) {
+        SheetState& state = states.emplace_back();
+        state.sheet = std::move(sheet);
+        state.heights_m = gate_heights_m(state.sheet);
+        if (rung == Dealiasing::profile)
+            unfold_to_wind(wind, state);
+        else
+            find_graph(state, rung == Dealiasing::anchored ? most_anchor_weight : 0);
+        if (rung == Dealiasing::region) solve_alone(state);
+    }
+    if (rung == Dealiasing::anchored) solve_anchored(states, wind);
+    std::map<std::pair<std::size_t, std::size_t>, SweepFolds*> by_moment;
+    for (SweepFolds& folds : dealiased.sweeps)
+        by_moment[{folds.sweep, folds.moment}] = &folds;
+    for (const SheetState& state : states) {
+        count_jumps(state, dealiased);
+        write_folds(state, *by_moment.at({state.sheet.sweep, state.sheet.moment}), dealiased);
+    }
+    return dealiased;
+}
+
+}  // namespace stormcellar::retrieve

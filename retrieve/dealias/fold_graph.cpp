@@ -1,0 +1,269 @@
+#include "retrieve/dealias/fold_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "retrieve/dealias/minimum_cut.h"
+#include "retrieve/dealias/offset_sets.h"
+
+namespace stormcellar::retrieve {
+
+void Votes::add_real(float real, float weight) {
+    const float below = std::floor(std::clamp(real, -most - 1.0F, most + 1.0F));
+    const float part = std::clamp(real - below, 0.0F, 1.0F);
+    add(static_cast<int>(below), weight * (1 - part));
+    add(static_cast<int>(below) + 1, weight * part);
+}
+
+void Votes::add_shifted(const Votes& other, int shift) {
+    for (int number = -most; number <= most; ++number)
+        if (const float weight = other.at(number); weight > 0) add(number + shift, weight);
+}
+
+float Votes::total() const {
+    return std::accumulate(weights_.begin(), weights_.end(), 0.0F);
+}
+
+float Votes::cost(int number) const {
+    float sum = 0;
+    for (int voted = -most; voted <= most; ++voted)
+        sum += weights_[index(voted)] * static_cast<float>(std::abs(number - voted));
+    return sum;
+}
+
+int Votes::winner() const {
+    return static_cast<int>(std::ranges::max_element(weights_) - weights_.begin()) - most;
+}
+
+namespace {
+
+// Noise can have so many equal solutions that the best one is found only after minutes.
+constexpr std::int64_t looks_per_edge = 1000;
+
+std::size_t at(std::int32_t index) {
+    return static_cast<std::size_t>(index);
+}
+
+FoldEdge turned(const FoldEdge& edge) {
+    FoldEdge other{edge.b, edge.a, {}};
+    for (int number = -Votes::most; number <= Votes::most; ++number)
+        other.votes.add(-number, edge.votes.at(number));
+    return other;
+}
+
+// The edges between the sets' nodes, with votes for the differences of these.
+std::vector<FoldEdge> edges_between(const std::vector<FoldEdge>& edges, OffsetSets& sets,
+                                    const std::vector<std::int32_t>& node_of_root) {
+    std::vector<FoldEdge> between;
+    between.reserve(edges.size());
+    for (const FoldEdge& edge : edges) {
+        const auto a = sets.find(edge.a);
+        const auto b = sets.find(edge.b);
+        if (a.root == b.root) continue;
+        FoldEdge moved{node_of_root[at(a.root)], node_of_root[at(b.root)], {}};
+        moved.votes.add_shifted(edge.votes, a.offset - b.offset);
+        between.push_back(moved);
+    }
+    return between;
+}
+
+// Joins regions over edges that outweigh all else about one of them. Returns the number of joins.
+std::int32_t join_over_heavy_edges(const std::vector<FoldEdge>& edges,
+                                   const std::vector<float>& anchor_bound, OffsetSets& sets) {
+    std::vector<float> total = anchor_bound;
+    for (const FoldEdge& edge : edges) {
+        const float weight = edge.votes.total();
+        total[at(edge.a)] += weight;
+        total[at(edge.b)] += weight;
+    }
+    std::int32_t joins = 0;
+    for (const FoldEdge& edge : edges) {
+        const int number = edge.votes.winner();
+        const float weight = 2 * edge.votes.at(number);
+        if (weight < total[at(edge.a)] && weight < total[at(edge.b)]) continue;
+        if (sets.join(edge.a, edge.b, number)) ++joins;
+    }
+    return joins;
+}
+
+void find_components(FoldGraph& graph) {
+    OffsetSets sets(graph.nodes);
+    for (const FoldEdge& edge : graph.edges)
+        sets.join(edge.a, edge.b, 0);
+    graph.component.assign(at(graph.nodes), -1);
+    std::vector<std::int32_t> of_root(at(graph.nodes), -1);
+    for (std::int32_t node = 0; node < graph.nodes; ++node) {
+        auto& component = of_root[at(sets.find(node).root)];
+        if (component < 0) component = graph.components++;
+        graph.component[at(node)] = component;
+    }
+}
+
+// The part of the cost that changes if `step` is added to the folds of a set of nodes is a sum over
+// nodes, and over edges that join a raised node to one that is not.
+bool move(const FoldGraph& graph, const std::vector<Votes>& anchors, std::int32_t step,
+          std::int64_t& looks, std::vector<std::int32_t>& folds) {
+    std::vector<float> cost_of_staying(at(graph.nodes), 0);
+    MinimumCut cut(graph.nodes);
+    for (const FoldEdge& edge : graph.edges) {
+        const int number = folds[at(edge.b)] - folds[at(edge.a)];
+        const float lowered =
+            edge.votes.cost(number - step) - edge.votes.cost(number);  // if a alone moves
+        cost_of_staying[at(edge.a)] -= lowered;
+        cost_of_staying[at(edge.b)] += lowered;
+        // If b alone moves, the cost changes by this much more than by -lowered.
+        cut.connect(edge.b, edge.a, 2 * edge.votes.at(number));
+    }
+    for (std::int32_t node = 0; node < graph.nodes; ++node) {
+        if (!anchors.empty()) {
+            const Votes& votes = anchors[at(node)];
+            cost_of_staying[at(node)] -=
+                votes.cost(folds[at(node)] + step) - votes.cost(folds[at(node)]);
+        }
+        cut.prefer_source(node, cost_of_staying[at(node)]);
+    }
+    looks -= cut.run(looks);
+    std::vector<std::int32_t> moved = folds;
+    for (std::int32_t node = 0; node < graph.nodes; ++node)
+        if (cut.on_source_side(node)) moved[at(node)] += step;
+    // Rounding must not let two solutions of one cost alternate for ever.
+    if (cost_of(graph, anchors, moved) >= cost_of(graph, anchors, folds) * (1 - 1e-7) - 1e-4)
+        return false;
+    folds = std::move(moved);
+    return true;
+}
+
+}  // namespace
+
+// Sorts by a with counting, then finds equal b by the place that each b was last put to.
+void combine_edges(std::vector<FoldEdge>& edges, std::int32_t regions) {
+    std::vector<std::size_t> begin(at(regions) + 1, 0);
+    for (FoldEdge& edge : edges) {
+        if (edge.a > edge.b) edge = turned(edge);
+        if (edge.a != edge.b) ++begin[at(edge.a) + 1];
+    }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> order(begin.back());
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (edges[i].a != edges[i].b) order[next[at(edges[i].a)]++] = static_cast<std::uint32_t>(i);
+    constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> place(at(regions), nowhere);
+    std::vector<FoldEdge> combined;
+    combined.reserve(order.size());
+    for (std::int32_t a = 0; a < regions; ++a) {
+        const std::size_t first = combined.size();
+        for (std::size_t i = begin[at(a)]; i < begin[at(a) + 1]; ++i) {
+            const FoldEdge& edge = edges[order[i]];
+            std::size_t& known = place[at(edge.b)];
+            if (known == nowhere || known < first) {
+                known = combined.size();
+                combined.push_back(edge);
+                continue;
+            }
+            combined[known].votes.add_shifted(edge.votes, 0);
+        }
+    }
+    edges = std::move(combined);
+}
+
+FoldGraph fold_graph(std::vector<FoldEdge> edges, std::int32_t regions,
+                     const std::vector<float>& anchor_bound) {
+    FoldGraph graph;
+    graph.nodes = regions;
+    graph.node_of_region.resize(at(regions));
+    std::iota(graph.node_of_region.begin(), graph.node_of_region.end(), 0);
+    graph.fold_in_node.assign(at(regions), 0);
+    graph.edges = std::move(edges);
+    combine_edges(graph.edges, regions);
+    std::vector<float> bound = anchor_bound;
+    while (true) {
+        OffsetSets sets(graph.nodes);
+        const std::int32_t joins = join_over_heavy_edges(graph.edges, bound, sets);
+        if (joins == 0) break;
+        std::vector<std::int32_t> node_of_root(at(graph.nodes), -1);
+        std::int32_t nodes = 0;
+        std::vector<float> next_bound;
+        for (std::int32_t node = 0; node < graph.nodes; ++node) {
+            auto& number = node_of_root[at(sets.find(node).root)];
+            if (number < 0) {
+                number = nodes++;
+                next_bound.push_back(0);
+            }
+            next_bound[at(number)] += bound[at(node)];
+        }
+        for (std::int32_t region = 0; region < regions; ++region) {
+            const auto found = sets.find(graph.node_of_region[at(region)]);
+            graph.node_of_region[at(region)] = node_of_root[at(found.root)];
+            graph.fold_in_node[at(region)] += found.offset;
+        }
+        graph.edges = edges_between(graph.edges, sets, node_of_root);
+        graph.nodes = nodes;
+        combine_edges(graph.edges, nodes);
+        bound = std::move(next_bound);
+        if (joins < nodes / 20) break;
+    }
+    find_components(graph);
+    return graph;
+}
+
+std::vector<std::int32_t> likely_folds(const FoldGraph& graph) {
+    struct Heavy {
+        float weight;
+        std::int32_t edge;
+    };
+    std::vector<Heavy> order;
+    order.reserve(graph.edges.size());
+    for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+        const Votes& votes = graph.edges[i].votes;
+        order.push_back(
+            {2 * votes.at(votes.winner()) - votes.total(), static_cast<std::int32_t>(i)});
+    }
+    std::ranges::stable_sort(order, std::greater<>{}, &Heavy::weight);
+    OffsetSets sets(graph.nodes);
+    for (const Heavy& heavy : order) {
+        const FoldEdge& edge = graph.edges[at(heavy.edge)];
+        sets.join(edge.a, edge.b, edge.votes.winner());
+    }
+    std::vector<std::int32_t> folds;
+    folds.reserve(at(graph.nodes));
+    for (std::int32_t node = 0; node < graph.nodes; ++node)
+        folds.push_back(sets.find(node).offset);
+    return folds;
+}
+
+double cost_of(const FoldGraph& graph, const std::vector<Votes>& anchors,
+               const std::vector<std::int32_t>& folds) {
+    double sum = 0;
+    for (const FoldEdge& edge : graph.edges)
+        sum += static_cast<double>(edge.votes.cost(folds[at(edge.b)] - folds[at(edge.a)]));
+    for (std::size_t node = 0; node < anchors.size(); ++node)
+        sum += static_cast<double>(anchors[node].cost(folds[node]));
+    return sum;
+}
+
+void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
+                   std::vector<std::int32_t>& folds) {
+    // Whole components first, which saves many cuts.
+    if (!anchors.empty()) {
+        std::vector<std::array<float, 2 * Votes::most + 1>> costs(at(graph.components));
+        for (std::int32_t node = 0; node < graph.nodes; ++node)
+            for (int shift = -Votes::most; shift <= Votes::most; ++shift)
+                costs[at(graph.component[at(node)])][at(shift + Votes::most)] +=
+                    anchors[at(node)].cost(folds[at(node)] + shift);
+        for (std::int32_t node = 0; node < graph.nodes; ++node) {
+            const auto& of = costs[at(graph.component[at(node)])];
+            folds[at(node)] +=
+                static_cast<std::int32_t>(std::ranges::min_element(of) - of.begin()) - Votes::most;
+        }
+    }
+    std::int64_t looks =
+        looks_per_edge * static_cast<std::int64_t>(graph.edges.size() + anchors.size() + 1);
+    int idle = 0;
+    for (int i = 0; looks > 0 && idle < 2; ++i)
+        idle = move(graph, anchors, i % 2 == 0 ? 1 : -1, looks, folds) ? 0 : idle + 1;
+}
+
+}  // namespace stormcellar::retrieve

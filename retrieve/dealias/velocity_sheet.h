@@ -1,0 +1,43 @@
+// retrieve/dealias/velocity_sheet.h -- the velocities that can be unfolded as one: consecutive
+// radials of a sweep with one Nyquist velocity and one gate geometry.
+//
+// Units     A turn is twice the Nyquist velocity. A velocity of x turns may really be x + n turns
+//           for any whole n, the fold number. Ranges in meters, angles in degrees.
+// Threads   Plain data and pure functions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::retrieve {
+
+struct VelocitySheet {
+    std::size_t sweep = 0;   // index in the volume
+    std::size_t moment = 0;  // index in the sweep
+    std::size_t first_radial = 0;
+    int radials = 0;
+    int gates = 0;
+    double first_gate_m = 0, gate_spacing_m = 0;
+    double turn_mps = 0;
+    double elevation_deg = 0;  // mean of the radials
+    bool is_circle = false;    // the last radial is beside the first
+    std::vector<float> azimuths_deg;
+    std::vector<float> turns;  // radials x gates; NaN where a gate has no value
+
+    [[nodiscard]] const float* row(int radial) const {
+        return turns.data() + static_cast<std::size_t>(radial) * static_cast<std::size_t>(gates);
+    }
+    [[nodiscard]] std::size_t at(int radial, int gate) const {
+        return static_cast<std::size_t>(radial) * static_cast<std::size_t>(gates) +
+               static_cast<std::size_t>(gate);
+    }
+};
+
+// Returns the sheets of all velocity moments, in the order of the volume. Sheets without a value
+// are left out, and so are radials whose Nyquist velocity is not from 1 to 200 m/s.
+[[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume);
+
+}  // namespace stormcellar::retrieve

@@ -1,0 +1,42 @@
+// retrieve/wind/folded_wind.h -- the wind above the radar, by height, from velocities that may be
+// folded.
+//
+// A gate of azimuth a and elevation e sees (u sin a + v cos a) cos e of a wind (u, v). Folded or
+// not, exp(i pi velocity / Nyquist) is the same, so for each layer and candidate wind the fit sums
+// cos(pi (seen - velocity) / Nyquist). The best path through the layers gives neighboring layers
+// similar winds.
+//
+// Units     m/s, meters above the antenna. u is toward the east, v toward the north.
+// Accuracy  Only a guide to fold numbers; wind_profile.h measures the wind.
+// Threads   Pure functions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "retrieve/dealias/velocity_sheet.h"
+
+namespace stormcellar::retrieve {
+
+struct FoldedWind {
+    static constexpr double layer_m = 400;
+    static constexpr std::size_t layers = 40;
+    struct Layer {
+        double u_mps = 0, v_mps = 0;
+        // 1 if all velocities agree with the wind, 0 if they are as good as random, or none is
+        // there.
+        double agreement = 0;
+    };
+    std::array<Layer, layers> by_height;
+
+    // The layer of a height; heights beyond the top or below the antenna belong to the nearest one.
+    [[nodiscard]] const Layer& at(double height_m) const;
+};
+
+[[nodiscard]] FoldedWind fit_folded_wind(std::span<const VelocitySheet> sheets);
+
+// The height above the antenna of each gate of a sheet, on a sphere of 4/3 of the earth's radius.
+[[nodiscard]] std::vector<float> gate_heights_m(const VelocitySheet& sheet);
+
+}  // namespace stormcellar::retrieve

@@ -1,0 +1,132 @@
+// Winds whose radial velocity is known at every gate, folded, and odd volumes.
+#include "stormcellar/retrieve/dealias.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/retrieve/folded_volume.h"
+
+namespace stormcellar::retrieve {
+namespace {
+
+constexpr double radian = std::numbers::pi / 180;
+
+double seen(double u, double v, double azimuth_deg, double elevation_deg) {
+    return (u * std::sin(azimuth_deg * radian) + v * std::cos(azimuth_deg * radian)) *
+           std::cos(elevation_deg * radian);
+}
+
+double uniform(double azimuth, double /*range*/, double elevation, double /*height*/) {
+    return seen(18, 22, azimuth, elevation);
+}
+
+// From 8 m/s of the south to 45 m/s of the west at 8 km.
+double sheared(double azimuth, double /*range*/, double elevation, double height) {
+    const double part = std::min(height / 8000, 1.0);
+    return seen(45 * part, 8 * (1 - part), azimuth, elevation);
+}
+
+// A Rankine vortex of 50 m/s at 10 km from its center, 45 km east of the radar, in a wind of 10
+// m/s.
+double vortex(double azimuth, double range, double elevation, double /*height*/) {
+    const double x = range * std::sin(azimuth * radian) - 45'000;
+    const double y = range * std::cos(azimuth * radian);
+    const double radius = std::max(std::hypot(x, y), 1.0);
+    const double speed = radius < 10'000 ? 50 * radius / 10'000 : 50 * 10'000 / radius;
+    return seen(10 - speed * y / radius, speed * x / radius, azimuth, elevation);
+}
+
+struct Wind {
+    const char* name;
+    RadialVelocity velocity;
+};
+
+class SyntheticWind : public ::testing::TestWithParam<double> {};
+
+// 99.9 % of gates right at every Nyquist velocity, and no sweep off as a whole.
+TEST_P(SyntheticWind, IsUnfolded) {
+    for (const Wind& wind : {Wind{"uniform", uniform}, {"sheared", sheared}, {"vortex", vortex}}) {
+        FoldedSpec spec;
+        spec.nyquist_mps = GetParam();
+        const FoldedVolume folded = fold(spec, wind.velocity);
+        const Score found = score(folded, dealias(folded.volume, Dealiasing::anchored));
+        EXPECT_GT(found.gates, 600'000);
+        EXPECT_LE(found.wrong_share(), 0.001) << wind.name;
+        EXPECT_LE(found.worst_sweep, 0.005) << wind.name;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Nyquist, SyntheticWind, ::testing::Values(8.0, 12.0, 16.0, 24.0, 33.0));
+
+// Two storms with no echo between them: only the wind says how often the far one is folded.
+TEST(Dealias, AnIsolatedStormIsAnchoredToTheWind) {
+    const auto storms = [](double azimuth, double range, double elevation, double height) {
+        const bool is_near = range < 30'000;
+        const bool is_far = azimuth > 40 && azimuth < 70 && range > 70'000 && range < 90'000;
+        if (!is_near && !is_far) return std::numeric_limits<double>::quiet_NaN();
+        return uniform(azimuth, range, elevation, height);
+    };
+    FoldedSpec spec;
+    spec.nyquist_mps = 10;
+    spec.elevations_deg = {0.5, 1.0, 1.5, 2.0};
+    const FoldedVolume folded = fold(spec, storms);
+    const Score anchored = score(folded, dealias(folded.volume, Dealiasing::anchored));
+    const Score alone = score(folded, dealias(folded.volume, Dealiasing::region));
+    EXPECT_LE(anchored.wrong_share(), 0.001);
+    EXPECT_GT(alone.wrong_share(), 0.05) << "neighbors alone cannot know";
+}
+
+TEST(Dealias, OffLeavesEveryGateAsItIs) {
+    const FoldedVolume folded = fold({}, uniform);
+    const Dealiased found = dealias(folded.volume, Dealiasing::off);
+    ASSERT_EQ(found.sweeps.size(), 5U);
+    for (const SweepFolds& sweep : found.sweeps)
+        for (const std::int8_t fold : sweep.folds)
+            ASSERT_EQ(fold, 0);
+}
+
+TEST(Dealias, NothingFoldedStaysAsItIs) {
+    FoldedSpec spec;
+    spec.nyquist_mps = 60;
+    const FoldedVolume folded = fold(spec, uniform);
+    for (const Dealiasing rung : {Dealiasing::profile, Dealiasing::region, Dealiasing::anchored}) {
+        const Dealiased found = dealias(folded.volume, rung);
+        EXPECT_EQ(score(folded, found).wrong, 0) << static_cast<int>(rung);
+        EXPECT_EQ(found.folded_gates, 0);
+    }
+}
+
+TEST(Dealias, OddVolumesAreNoTrouble) {
+    const auto noise_alone = [](double azimuth, double range, double, double) {
+        return std::fmod(azimuth * 7919 + range * 104'729, 60.0) - 30;
+    };
+    FoldedSpec one_gate;
+    one_gate.radials = 1;
+    one_gate.gates = 1;
+    one_gate.missing = 0;
+    FoldedSpec legacy;
+    legacy.radials = 367;
+    legacy.gates = 60;
+    legacy.elevations_deg = {0.5};
+    for (const Dealiasing rung : {Dealiasing::profile, Dealiasing::region, Dealiasing::anchored}) {
+        EXPECT_EQ(dealias({}, rung).sweeps.size(), 0U);
+        EXPECT_EQ(dealias(fold(one_gate, uniform).volume, rung).gates, 5) << "one in each sweep";
+        EXPECT_GT(dealias(fold(legacy, noise_alone).volume, rung).gates, 0);
+        FoldedVolume folded = fold({}, uniform);
+        for (level2::Radial& radial : folded.volume.sweeps[0].radials)
+            radial.nyquist_mps = 0;
+        folded.volume.sweeps[1].radials[100].nyquist_mps = std::numeric_limits<float>::quiet_NaN();
+        folded.volume.sweeps[2].radials[7].azimuth_deg = std::numeric_limits<float>::infinity();
+        folded.volume.sweeps[3].moments[0].first_gate_m = -375;
+        for (std::size_t radial = 180; radial < 360; ++radial)
+            folded.volume.sweeps[4].radials[radial].nyquist_mps = 17;
+        const Dealiased found = dealias(folded.volume, rung);
+        for (const std::int8_t fold : found.sweeps[0].folds)
+            ASSERT_EQ(fold, 0) << "no Nyquist velocity, no folds";
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::retrieve

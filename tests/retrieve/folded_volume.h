@@ -1,0 +1,45 @@
+// tests/retrieve/folded_volume.h -- volumes whose true velocities are known.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/dealias.h"
+
+namespace stormcellar::retrieve {
+
+struct FoldedSpec {
+    double nyquist_mps = 12;
+    std::vector<double> elevations_deg = {0.5, 1.5, 2.5, 3.5, 4.5};
+    int radials = 360, gates = 400;
+    double gate_spacing_m = 250;
+    double noise_mps = 1;
+    double missing = 0.05;  // share of gates
+};
+
+// The velocity of a gate; NaN where there is no echo. Azimuth clockwise from north; height above
+// the antenna.
+using RadialVelocity = std::function<double(double azimuth_deg, double range_m,
+                                            double elevation_deg, double height_m)>;
+
+struct FoldedVolume {
+    level2::Volume volume;
+    // As the rows of each sweep's velocities: what was added to the true velocity, as fold numbers
+    // that lead back to it.
+    std::vector<std::vector<std::int8_t>> folds;
+};
+
+[[nodiscard]] FoldedVolume fold(const FoldedSpec& spec, const RadialVelocity& velocity);
+
+struct Score {
+    std::int64_t gates = 0, wrong = 0, wrong_unmarked = 0, marked = 0;
+    double worst_sweep = 0;  // the largest share of wrong gates of a sweep
+    [[nodiscard]] double wrong_share() const {
+        return static_cast<double>(wrong) / static_cast<double>(gates);
+    }
+};
+[[nodiscard]] Score score(const FoldedVolume& truth, const Dealiased& found);
+
+}  // namespace stormcellar::retrieve
