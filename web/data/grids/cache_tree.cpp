@@ -368,10 +368,12 @@ void CacheTree::handle_file(const Place& place, std::uint32_t mask, std::string_
     // A file that cannot be read is not gone; a scan looks again.
     if (!has_facts && errno != ENOENT && errno != ENOTDIR) return;
     if (!has_facts || !S_ISREG(facts.st_mode)) {
-        // A grid that came and went before its first event was read is told as gone, once.
+        // If a grid came and went before its first event was read, report it as gone, too, but
+        // once.
         const bool has_come = (mask & (IN_MOVED_TO | IN_CLOSE_WRITE)) != 0;
-        if (!is_known && (has_facts || !has_come)) return;
+        if (!is_known && (has_facts || !has_come || day->gone == *time)) return;
         if (is_known) day->times.erase(at);
+        day->gone = *time;
         note_time(place, day->seen);
         return tell(CacheEvent::went, place, *time);
     }
@@ -379,6 +381,7 @@ void CacheTree::handle_file(const Place& place, std::uint32_t mask, std::string_
     if ((mask & IN_CREATE) != 0 && facts.st_nlink < 2) return;
     if ((mask & (IN_DELETE | IN_MOVED_FROM)) != 0) return;  // the event of its new file follows
     if (!is_known) day->times.insert(at, *time);
+    day->gone.reset();
     note_time(place, day->seen);
     tell(is_known ? CacheEvent::changed : CacheEvent::came, place, *time);
 }

@@ -52,6 +52,8 @@ class CacheTree {
     struct Day {
         Seen seen;
         std::vector<UtcTime> times;  // ascending
+        // The last grid that an event reported as gone. Further events of its removal may follow.
+        std::optional<UtcTime> gone;
     };
     struct OfMoment {
         Seen seen;
