@@ -1,8 +1,9 @@
 // batch/check.h -- finds which tasks of a plan are done, from their records.
 //
-// The task that writes the last of a directory's thousand records also writes their sum to
-// PLAN/tasks/00012/summary.json. The file appears by rename, and every process writes the same sum
-// for the same records. So checking a plan of millions of tasks reads thousands of files.
+// A directory holds the records of a thousand tasks. The task that writes the last record of
+// PLAN/tasks/00012 also writes the sum of these records, to summary.json in that directory. The
+// summary appears by rename, and every process writes the same sum for the same records. So
+// checking a plan of millions of tasks reads thousands of files.
 //
 // Threads   One thread at a time for a plan; other processes may check it at the same time.
 // Errors    Those of reading the plan and, with `deep`, of reading grids.
@@ -25,7 +26,8 @@ struct CheckReport {
     std::vector<std::size_t> missing;  // tasks that are not done, ascending
     std::vector<std::size_t> changed;  // missing tasks whose record does not fit the cache (`deep`)
     double cost_left_s = 0;            // estimated processor time of the missing tasks
-    // Estimated from the work since the first task began; none before the first task is done.
+    // Time until all tasks are done, estimated from the work since the first task began. None
+    // before the first task is done.
     std::optional<double> seconds_left;
 };
 

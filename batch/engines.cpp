@@ -184,7 +184,8 @@ Result<std::string> makefile_of(const Plan& plan, const TaskLists& tasks,
         in_makefile(quoted(plan.directory().native())), options.threads,
         targets_of("grid", tasks.grids), targets_of("frame", tasks.frames),
         targets_of("statistics", tasks.statistics));
-    // The hours of a day need the same grids, so group tasks by needs to name them once.
+    // The hours of a day need the same grids, so group tasks with equal needs and name the needs
+    // once.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_needs;
     for (const std::size_t number : tasks.frames) {
         const auto task = plan.task(number);

@@ -31,7 +31,8 @@ struct EngineOptions {
 // script cannot hold, such as a line feed.
 [[nodiscard]] Status check_names(const Plan& plan, const EngineOptions& options);
 
-// The tasks that are not done, in three steps: grids, then frames, then statistics.
+// The tasks that are not done, by kind. An engine runs the grids first, then the frames, then the
+// statistics.
 struct TaskLists {
     std::vector<std::size_t> grids, frames, statistics;
 };

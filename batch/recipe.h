@@ -25,10 +25,10 @@ namespace stormcellar::batch {
 struct Recipe {
     std::string source;           // an absolute directory, or the URL of a bucket
     std::filesystem::path cache;  // directory of the grids
-    UtcTime from, to;             // of the frames; without a domain, of the volumes' starts;
-                                  // inclusive
+    // Range of the times of the frames or, without a domain, of the starts of volumes; inclusive.
+    UtcTime from, to;
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    std::optional<grid::Tallied> statistics;  // to count in the domain's frames; none: nothing
+    std::optional<grid::Tallied> statistics;  // counted in the domain's frames; none: no counts
     std::optional<pipeline::Domain> domain;   // none: each station's own grids, with this spec
     double spacing_m = 1000;
     int nx = 460, ny = 460;
@@ -36,7 +36,7 @@ struct Recipe {
 
     // Returns the domain of the cache for the grids of a station.
     [[nodiscard]] std::string domain_of(const std::string& station) const;
-    // Returns how much earlier than `from`, and later than `to`, needed volumes may begin.
+    // Returns how long before `from`, and after `to`, a volume may begin that the frames need.
     [[nodiscard]] std::chrono::milliseconds margin() const;
     // Returns the recipe as options for filling in one moment.
     [[nodiscard]] pipeline::ArchiveOptions archive_options(int threads) const;

@@ -1,8 +1,8 @@
 // batch/record.h -- the result of a task, in a file that appears when the task is done.
 //
-// PLAN/tasks/00012/12345.json is the record of task 12345; a directory has a thousand records.
-// Their sum is in the same directory once all exist (batch/check.h). docs/guides/batch.md lists the
-// fields.
+// PLAN/tasks/00012/12345.json is the record of task 12345; a directory has a thousand records. Once
+// all records of a directory exist, the directory also has their sum (batch/check.h).
+// docs/guides/batch.md lists the fields.
 //
 // A record appears by rename. If two runs of a task overlap, the later record stays; both runs make
 // the same grids.

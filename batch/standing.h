@@ -27,20 +27,22 @@ struct StandingGrid {
     std::filesystem::path path;
 };
 
-// Returns the grids of the task in order of moment, then time. A task of statistics has its file of
-// counts instead.
+// Returns the grids of the task in order of moment, then time. For a task of statistics, returns
+// its file of counts, if that can be read.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
 
 // Returns ok if the cache has the grids of the task's record. Damaged grids count as present, and
 // additional grids are accepted, because another plan may have made them. Errors: also io if there
-// are fewer grids, or as many but other ones, for example because the cache is not mounted.
+// are fewer grids than the record says, or as many grids with another digest, for example because
+// the cache is not mounted.
 [[nodiscard]] Status check_stands(const cache::StoreReader& store, const Plan& plan,
                                   const Task& task, const Record& record);
 
-// Returns true if the grid's bytes fit its checksum. Does not read a file of counts.
+// Returns true if the grid's bytes fit its checksum. Returns true for a file of counts without
+// reading the file.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
-// Removes the record of a task with damaged grids, and then these grids.
+// If grids of the task are damaged, removes the record of the task and then these grids.
 [[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,
                                     const Task& task);
 

@@ -45,8 +45,8 @@ class ConnectionWatch {
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
-    // Call when the answer starts to go out: a body, or a stream, which may have nothing to send
-    // for long. `holds_memory` says that the answer budget counts the body.
+    // Call when the server begins to send a body or a stream. A stream may have nothing to send for
+    // long. `holds_memory` says that the answer budget counts the body.
     void sending_body(MHD_Connection* connection, std::uint64_t bytes, bool holds_memory = false);
     void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
@@ -74,7 +74,8 @@ class ConnectionWatch {
     };
     void run() STORMCELLAR_EXCLUDES(mutex_);
     using Streams = std::vector<std::shared_ptr<StreamFeed>>;
-    // Returns the streams that must end, which is done without the lock.
+    // Cuts off connections. Returns the streams that the caller must end, after it has released the
+    // lock.
     [[nodiscard]] Streams look(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
     void cut_those_gone() STORMCELLAR_REQUIRES(mutex_);
     bool is_too_slow(Open& open, SteadyTime now) const;

@@ -37,8 +37,8 @@ class Counters {
     // Counts requests below this prefix ("/tiles") separately. Other requests count as "other", and
     // requests that could not be read as "unread".
     void add_door(std::string prefix);
-    // Add a number that rises and falls, or one that only rises. The name is the family's, such as
-    // "stormcellar_web_kept_bytes".
+    // Add a gauge, which rises and falls, or a counter, which only rises. `name` is the name of the
+    // metric family, such as "stormcellar_web_kept_bytes".
     void add_gauge(std::string name, std::string help, std::function<double()> value,
                    Fields labels = {});
     void add_counter(std::string name, std::string help, std::function<double()> value);

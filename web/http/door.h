@@ -20,23 +20,25 @@ class Door {
   public:
     virtual ~Door() = default;
     // Returns the answer if that takes well under a millisecond, because it is kept in memory or
-    // only a file must be opened. The thread that serves all connections calls it. None: a worker
-    // calls answer().
+    // only a file must be opened. The thread that serves all connections calls this function. If it
+    // returns none, a worker makes the answer, with answer_soon() if the door has long workers,
+    // else with answer().
     virtual std::optional<Answer> answer_at_once(const Request& /*request*/) {
         return std::nullopt;
     }
     // Makes the answer, however long that takes. If it throws, the client gets 503.
     virtual Answer answer(const Request& request) = 0;
-    // Returns the answer unless computing it takes long. None: a worker for long answers then calls
-    // answer(). Only a door with such workers needs this.
+    // Returns the answer, or none if computing it takes long; a long worker then calls answer().
+    // The server calls answer_soon() only if the door has long workers.
     virtual std::optional<Answer> answer_soon(const Request& request) { return answer(request); }
 
     // Gives a door with slow answers its own workers, which several doors may share, so that the
-    // other doors need not wait. Requests beyond their capacity get 503. Null: the server's
-    // workers. Call before the server opens.
+    // other doors need not wait. Requests beyond their capacity get 503. A door without workers of
+    // its own uses the server's workers. Call before the server opens.
     void set_workers(std::shared_ptr<WorkQueue> workers) { workers_ = std::move(workers); }
     [[nodiscard]] const std::shared_ptr<WorkQueue>& workers() const { return workers_; }
-    // Does the same for the answers that answer_soon() leaves.
+    // Gives a door workers that make the answers for which answer_soon() returns none. Without
+    // them, the server does not call answer_soon(). Call before the server opens.
     void set_long_workers(std::shared_ptr<WorkQueue> workers) {
         long_workers_ = std::move(workers);
     }
@@ -51,11 +53,11 @@ class Door {
 class Doors {
   public:
     void add(std::string prefix, std::shared_ptr<Door> door);
-    // Returns the door; never null once "/" was added.
+    // Returns the door; null if no prefix fits, which cannot happen once "/" was added.
     [[nodiscard]] std::shared_ptr<Door> find(std::string_view path) const;
     // Returns the prefixes that were added, the longest first.
     [[nodiscard]] std::vector<std::string> prefixes() const;
-    // Returns the doors' own workers of both kinds, each once.
+    // Returns the workers and long workers of all doors, each once.
     [[nodiscard]] std::vector<std::shared_ptr<WorkQueue>> workers() const;
 
   private:

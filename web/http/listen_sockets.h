@@ -32,8 +32,9 @@ struct ListenSocket {
 };
 using ListenSockets = std::vector<ListenSocket>;
 
-// Returns a socket for each address: the one in `held` if there is one for the same address, else a
-// new one. Errors: busy if an address is in use; bad_argument if it is not an address; io.
+// Returns a socket for each address. Takes the socket from `held` if `held` has one for the
+// address, else opens a new socket. Errors: busy if an address is in use; bad_argument for a text
+// that is not an address; io.
 [[nodiscard]] Result<ListenSockets> open_listen_sockets(const std::vector<ListenAddress>& wanted,
                                                         const ListenSockets& held = {});
 

@@ -30,8 +30,8 @@ struct ServerFacts {
 
 class Server {
   public:
-    // Listens on `sockets`, which stay open when the server ends. Without any, it opens sockets for
-    // the addresses of the options.
+    // Listens on `sockets`, which stay open when the server ends. If `sockets` is empty, opens
+    // sockets for the addresses of the options.
     static Result<std::unique_ptr<Server>> open(ServerOptions options,
                                                 std::shared_ptr<const Doors> doors,
                                                 ListenSockets sockets = {});

@@ -37,7 +37,8 @@ bool WorkQueue::add(const std::string& client, Work work) {
         const MutexLock lock(mutex_);
         if (is_stopping_) return false;
         const auto known = clients_.find(client);
-        // Idle threads take work at once, so as much work does not count as waiting.
+        // Each idle thread takes one piece of work at once, so that many pieces do not count as
+        // waiting.
         if (waiting_ >= most_waiting_ + (threads_.size() - working_)) {
             lost = take_place_of_other(known == clients_.end() ? 0 : known->second.requests());
             if (!lost) return false;

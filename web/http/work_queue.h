@@ -1,10 +1,11 @@
 // web/http/work_queue.h -- a bounded number of threads that make answers, and a bounded number of
 // waiting requests.
 //
-// Clients share the threads. The next turn goes to the client with the fewest requests being
-// answered; among equals, to the client that came, or whose last turn ended, longest ago. If all
-// places are taken, a new request takes the place of the newest waiting request of the client with
-// most requests, if that client has at least two more.
+// Clients share the threads. A free thread takes work of the client for which the fewest threads
+// work. Among clients with equally few, it takes the client that came, or whose last turn ended,
+// longest ago. If all places are taken, a new request takes the place of another client's newest
+// waiting request. That client is the one with the most requests, and must have at least two more
+// than the new request's client.
 //
 // Threads   Many threads may add work.
 #pragma once
@@ -28,15 +29,15 @@ class WorkQueue {
     WorkQueue(unsigned workers, std::size_t most_waiting);
     WorkQueue(const WorkQueue&) = delete;
     WorkQueue& operator=(const WorkQueue&) = delete;
-    // Runs waiting work with `stopping`, so that it answers at once.
+    // Runs the waiting work with `stopping`, so that each request is answered at once.
     ~WorkQueue();
 
-    // The reason for which work is run: its turn has come, the queue stops, or another client took
-    // its place. Work must not throw.
+    // The reason why a thread runs work: the turn of the work has come, the queue stops, or another
+    // client's work took its place. Work must not throw.
     enum class Turn { came, stopping, lost };
     using Work = std::function<void(Turn turn)>;
-    // Returns false if too much work waits already. If this work takes the place of other work, the
-    // caller's thread runs the other work with `lost`.
+    // Returns false if the queue stops, or if too much work waits and this work can take no place.
+    // If it takes the place of other work, the caller's thread runs the other work with `lost`.
     [[nodiscard]] bool add(const std::string& client, Work work);
     void stop();
     [[nodiscard]] std::size_t waiting() const;
@@ -46,14 +47,14 @@ class WorkQueue {
     struct Client {
         std::deque<Work> waiting;
         std::size_t working = 0;
-        std::uint64_t last_turn = 0;  // or when it came, in units of turns_
+        std::uint64_t last_turn = 0;  // end of its last turn, or its coming, counted by turns_
         [[nodiscard]] std::size_t requests() const { return waiting.size() + working; }
     };
     using Clients = std::map<std::string, Client>;
     void run() STORMCELLAR_EXCLUDES(mutex_);
     [[nodiscard]] Clients::iterator next() STORMCELLAR_REQUIRES(mutex_);
-    // Takes the newest waiting work of the client with most requests, if these are more than
-    // `requests` + 1.
+    // Removes and returns the newest waiting work of the client with the most requests, if that
+    // client has more than `requests` + 1.
     [[nodiscard]] std::optional<Work> take_place_of_other(std::size_t requests)
         STORMCELLAR_REQUIRES(mutex_);
     void forget_if_idle(Clients::iterator client) STORMCELLAR_REQUIRES(mutex_);

@@ -19,13 +19,13 @@ namespace stormcellar::web {
 
 enum class EventType : std::uint8_t {
     volume_begun,     // the first part of a volume appeared in the catalog or in the cache
-    sweep_gridded,    // a site's grid was made again with new sweeps of a growing volume
+    sweep_gridded,    // a site's grid was made from a growing volume with a new sweep
     volume_complete,  // a site's grid was made from a volume that has ended
     mosaic,           // a grid of a configured domain was made, or made again
     grid_evicted,     // grids of a domain and moment are gone
     station_silent,   // nothing came from a station for some time
     station_spoke,    // something came from a station that was silent
-    reset,            // events were lost: whoever keeps a list must ask for it again
+    reset,            // events were lost; clients must request their lists again
 };
 
 struct EventTypeFacts {
@@ -55,10 +55,10 @@ struct Event {
     std::string json;  // one object on one line
 };
 
-// Selects the events that a client wants to hear. Stations and domains are places: an event fits if
-// it is about one of these stations or domains, or if the filter names neither. Moments and types,
-// where given, must fit too. An event without a moment fits any list of moments, so that a client
-// that asks for REF hears of silent stations. A reset fits every filter.
+// Selects the events that a client wants to hear. An event fits if it is about one of the filter's
+// stations or domains, or if the filter names neither. If the filter names moments or types, they
+// must fit, too. An event without a moment fits any list of moments, so that a client that asks for
+// REF hears of silent stations. A reset fits every filter.
 struct EventFilter {
     std::vector<std::string> stations = {}, domains = {};
     std::vector<level2::Moment> moments = {};

@@ -3,7 +3,7 @@
 // The daemon sends no messages. The feed sees each grid when the daemon renames it into the cache
 // (web/data/grids/cache_watch.h), and checks every two seconds which stations' databases were
 // written. The grids of a station show when its volumes begin and end. If a station has had no grid
-// for 30 seconds, the catalog shows it.
+// for 30 seconds, the feed takes the beginnings and ends of its volumes from the catalog.
 //
 // Threads   Many threads may use it. One thread of its own reads and publishes.
 // Errors    A catalog that does not exist (yet) has no stations. unreadable() counts grids that
@@ -44,7 +44,8 @@ class EventFeed {
 
     // Returns the known facts about the stations, sorted.
     [[nodiscard]] std::vector<StationNews::Page> stations() const;
-    // Returns the number of completed looks at the catalog, whose events are published.
+    // Returns how often the feed has looked at the catalog. The events of these looks are
+    // published.
     [[nodiscard]] std::uint64_t looks() const;
     // Returns the number of grids that could not be read.
     [[nodiscard]] std::uint64_t unreadable() const;

@@ -41,13 +41,13 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
 
     // Numbers the event and wakes the listeners whose filter it fits.
     void publish(Event event);
-    // Call once a second. Each call sends a heartbeat to the idle ones among a fifteenth of the
-    // listeners.
+    // Call once a second. The listeners form `heartbeat_ticks` groups; each call takes the next
+    // group and sends a heartbeat to the idle listeners in it.
     void tick();
 
-    // Starts listening after the event of this id; none: after the newest. If events were lost
-    // since then, or the id is of another run, the first event heard is a reset. An empty `id`
-    // counts as none, and a text that is no id as an id of another run.
+    // Starts listening after the event with this id, or after the newest event if `id` is none or
+    // empty. If events after the id were lost, or if the id is of another run, the first event
+    // heard is a reset. A text that is no id counts as an id of another run.
     [[nodiscard]] std::shared_ptr<Listener> listen(EventFilter filter,
                                                    std::optional<std::string> id = {});
 
@@ -97,7 +97,7 @@ class EventHub::Listener : public std::enable_shared_from_this<EventHub::Listene
     // Returns up to `most` bytes of frames; empty if nothing is pending. The first bytes are the
     // opening: the reconnection delay, and the id after which the listener starts.
     [[nodiscard]] std::string read(std::size_t most);
-    // Sets the function to call when there is something to read; null: none.
+    // Sets the function that the hub calls when there is something to read; null removes it.
     void on_more(std::function<void()> wake);
 
   private:
@@ -114,8 +114,8 @@ class EventHub::Listener : public std::enable_shared_from_this<EventHub::Listene
     Mutex wake_mutex_;
     std::function<void()> wake_ STORMCELLAR_GUARDED_BY(wake_mutex_);
 
-    // The first event that the listener may not have read; it has no meaning while nothing is
-    // pending.
+    // Number of the first event that the listener may not have read. The number has no meaning
+    // while nothing is pending.
     std::uint64_t next_ STORMCELLAR_GUARDED_BY(hub_->mutex_) = 0;
     bool is_pending_ STORMCELLAR_GUARDED_BY(hub_->mutex_) = true;
     bool beat_due_ STORMCELLAR_GUARDED_BY(hub_->mutex_) = false;

@@ -5,7 +5,7 @@
 //
 // The times of directories are coarse, so the watch may report an unchanged grid as changed.
 // Therefore grids written before the server began and files that were already reported give no
-// events.
+// events of their own. If such files appear, as when a disk is mounted, a reset follows.
 //
 // Threads   One thread at a time.
 // Errors    None are returned. A grid that cannot be read is counted, and reported if it is
@@ -35,14 +35,14 @@ class GridEvents {
         : grids_(std::move(grids)), book_(book), began_ns_(began_ns) {}
 
     // Returns the events of these changes, in their order. If a grid changed several times, the
-    // last change counts. Grids that went become one event for each domain and moment.
+    // last change counts. Grids that are gone give one event for each domain and moment.
     [[nodiscard]] std::vector<Event> of(std::span<const CacheChange> changes, UtcTime now);
 
     // Returns the number of grids that could not be read.
     [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
 
   private:
-    // Distinguishes a file from the next one of the same name.
+    // Identifies a file. A later file of the same name differs in a field.
     struct Told {
         UtcTime time;
         std::uint64_t inode = 0;

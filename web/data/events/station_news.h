@@ -1,7 +1,8 @@
 // web/data/events/station_news.h -- when each station was last heard, and its newest volume.
 //
-// Times of arrival are this machine's, times of volumes are the radar's. A volume from the future
-// (by is_believed()) is never the newest, since no volume would come after it.
+// This machine's clock gives the times of arrival, and the radar's clock the times of volumes. A
+// volume from the future (by is_believed()) is never the newest, since no volume would come after
+// it.
 //
 // Threads   Many threads may use it.
 #pragma once

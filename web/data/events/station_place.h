@@ -1,7 +1,7 @@
 // web/data/events/station_place.h -- finds where a station is.
 //
-// The station table and the configuration know most stations. Only the files of a test bed or a new
-// radar tell its place, which is therefore read from the newest grid.
+// The station table and the configuration have the places of most stations. The place of any other
+// station, such as a test bed or a new radar, is read from its newest grid.
 //
 // Threads   Pure functions of the table and the cache.
 // Errors    None. The result is empty for a station whose place is unknown.

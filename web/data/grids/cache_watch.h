@@ -54,7 +54,8 @@ class CacheWatch {
     void catch_up();
     // Reads the directories whose times changed, even without events.
     void rescan();
-    // Returns a sentence that says why some changes are reported late; none if none are.
+    // Returns a sentence that says why some changes are reported late; none if all are reported at
+    // once.
     [[nodiscard]] std::optional<std::string> problem() const;
 
   private:

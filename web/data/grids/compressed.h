@@ -22,11 +22,12 @@ enum class Coding { identity, gzip, zstd };
 [[nodiscard]] Result<std::string> compressed(std::string_view bytes, Coding coding);
 inline constexpr int gzip_level = 4;
 inline constexpr int zstd_level = 5;
-// Does the same with higher levels, for bytes that are compressed once and sent often.
+// Compresses with the levels `gzip_once_level` and `zstd_once_level`, for bytes that are compressed
+// once and sent often.
 [[nodiscard]] Result<std::string> compressed_once(std::string_view bytes, Coding coding);
 inline constexpr int gzip_once_level = 9;
 inline constexpr int zstd_once_level = 19;
-// Each compresses at the given level.
+// Compress at the given level.
 [[nodiscard]] Result<std::string> gzipped(std::string_view bytes, int level);
 [[nodiscard]] Result<std::string> zstd_packed(std::string_view bytes, int level);
 

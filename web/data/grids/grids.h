@@ -36,7 +36,7 @@ struct GridsOptions {
     std::uint64_t most_open_bytes = std::uint64_t{256} << 20;
 };
 
-// A grid that is open. `id` changes when the grid of this name is made again.
+// An open grid. When the cache's grid of this name is made again, the new grid has another `id`.
 struct OpenGrid {
     cache::GridFile file;
     std::string domain;
@@ -44,16 +44,16 @@ struct OpenGrid {
     UtcTime time;
     std::string id;  // hash of its bytes, letters and digits, for ETags and keys
 
-    // Returns true if this grid will be made again: its volume is growing or incomplete, or its
-    // mosaic waits for later volumes.
+    // Returns true if this grid may be made again, because its volume is growing or incomplete, or
+    // because it is a mosaic that waits for later volumes.
     [[nodiscard]] bool may_change() const {
         const grid::Provenance& from = file.description().provenance;
         return from.partial || from.provisional;
     }
 };
 
-// Returns the newest of these times, which ascend and are not empty. A time in the future comes
-// from a wrong clock; it counts only if all times are in the future (is_believed()).
+// Returns the newest time. `times` must be ascending and not empty. A time in the future (by
+// is_believed()) comes from a wrong clock, so it counts only if all times are in the future.
 [[nodiscard]] UtcTime newest_believed(std::span<const UtcTime> times);
 
 class Grids {
@@ -77,8 +77,8 @@ class Grids {
     // Returns the grid if it is open and its file is still current; else null. Takes microseconds.
     [[nodiscard]] std::shared_ptr<const OpenGrid> find_if_open(std::string_view domain,
                                                                level2::Moment moment, UtcTime time);
-    // Returns true if a grid of this name was listed earlier and is gone, which the doors answer
-    // with 410 instead of 404. The newest 65,536 names are remembered.
+    // Returns true if a grid of this name was listed since the start and is gone; the doors then
+    // answer 410 instead of 404. Only the newest 65,536 evictions are remembered.
     [[nodiscard]] bool was_evicted(std::string_view domain, level2::Moment moment,
                                    UtcTime time) const;
     // Returns the number of changes: grids that came, changed or went, and losses of events.
@@ -91,7 +91,7 @@ class Grids {
     // Calls the function for each change from now on, after the lists are updated. One thread at a
     // time calls it; it must be quick and must not ask for grids.
     void listen(std::function<void(const CacheChange&)> listener);
-    // Returns a sentence that says why changes are noticed late; none if they are not.
+    // Returns a sentence that says why changes are noticed late; none if they are noticed at once.
     [[nodiscard]] std::optional<std::string> problem() const;
     [[nodiscard]] const std::filesystem::path& cache() const;
 

@@ -12,7 +12,7 @@
 //
 // Threads   Pure functions.
 // Errors    See halved().
-// Accuracy  A mean is rounded to the next code: half a step each time.
+// Accuracy  Each halving rounds a mean to the nearest code, an error of at most half a step.
 #pragma once
 
 #include <cstdint>

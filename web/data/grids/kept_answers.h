@@ -31,11 +31,11 @@ class KeptAnswers {
     explicit KeptAnswers(std::uint64_t budget_bytes)
         : most_bytes_of_one_(budget_bytes / 4), kept_({.weight = budget_bytes}) {}
 
-    // Returns the kept value; none if there is none. Takes microseconds.
+    // Returns the value if it is kept, else none. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const std::string& key);
-    // Returns the kept value, or makes and keeps it; values from 256 KiB on go to a memory file.
-    // Errors are not kept; an exception becomes an error. A value larger than a quarter of the
-    // budget is returned but not kept.
+    // Returns the value if it is kept. Otherwise makes it with `make` and keeps it, in a memory
+    // file if it has 256 KiB or more. Errors are not kept; an exception becomes an error. A value
+    // larger than a quarter of the budget is returned but not kept.
     [[nodiscard]] Result<Kept> find_or_make(const std::string& key,
                                             const std::function<Result<Kept>()>& make);
     // Drops every value whose key begins with this text.

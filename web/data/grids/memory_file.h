@@ -1,7 +1,7 @@
 // web/data/grids/memory_file.h -- holds bytes of an answer in a nameless file in memory (memfd).
 //
-// The kernel sends pages of a file without a copy (sendfile). It copies the bytes of a string for
-// each client, which was a quarter of the cost of sending a kept packed grid.
+// The kernel sends the pages of a file without copying them (sendfile), but copies a string for
+// each client. This copy was a quarter of the cost of sending a kept packed grid.
 //
 // Threads   Functions without state.
 #pragma once
@@ -21,8 +21,8 @@ inline constexpr std::size_t least_in_memory_file = std::size_t{256} << 10;
 // Writes at the file's position. Returns false if there is no room.
 [[nodiscard]] bool write_all(const Descriptor& file, std::span<const std::byte> bytes);
 
-// Returns the bytes in a file if they are many and a file can be made, else the text itself. Ranges
-// of a file share it; ranges of a text are copies.
+// Returns the bytes in a file if there are at least `least_in_memory_file` and a file can be made,
+// else the text itself. A range of a file shares the file; a range of a text is a copy.
 [[nodiscard]] Piece in_file(const Text& text);
 
 }  // namespace stormcellar::web

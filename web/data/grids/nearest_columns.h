@@ -3,7 +3,7 @@
 //
 // Threads   Any thread may call lay().
 // Errors    None. Columns beyond the grid are not seen.
-// Accuracy  A column is off by at most half the diagonal of a column of the grid.
+// Accuracy  Echo is displaced by at most half the diagonal of a column of the grid.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // web/data/grids/packed_grid.h -- the packed form of a grid, for browsers.
 //
 // docs/web/packed-grid.md specifies the bytes; the struct below asserts the offsets. A client gets
-// the grid whole, or first its table and then its bricks by ranges of the table. The form is the
-// same in both cases: the header says which sections follow.
+// the grid whole, or first its table and then its bricks by ranges of the table. Both have the same
+// form, in which the header says which sections follow.
 //
 // Units     As in the cache's files (docs/cache-format.md): meters, degrees, milliseconds.
 // Threads   Pure functions.
@@ -153,7 +153,7 @@ inline constexpr std::size_t most_bricks_of_a_range = 16384;
 
 // Returns the bytes of a whole grid, of its table, or of the bricks [first, end). The caller checks
 // afterward that the file is whole. Errors: bad_argument for a range that is empty or beyond the
-// table, and for more than the limits above; the message says what to ask instead.
+// table, and for an answer beyond the limits above; the message says what to request instead.
 [[nodiscard]] Result<std::string> pack_whole(const PackedSource& source);
 [[nodiscard]] Result<std::string> pack_table(const PackedSource& source);
 // Returns the whole grid if it has at most `most` bytes, else its table.

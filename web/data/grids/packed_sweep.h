@@ -80,8 +80,8 @@ static_assert(offsetof(PackedRadial, nyquist_mps) == 16);
 static_assert(offsetof(PackedRadial, unambiguous_range_m) == 20);
 static_assert(offsetof(PackedRadial, gate_count) == 24);
 
-// Returns the bytes. `kind` is the index among the arrays of this moment in the sweep, which differ
-// in their gates. Errors: not_found if the volume has no such sweep, moment or kind.
+// Returns the bytes. A sweep may have several arrays of one moment, with different gates; `kind` is
+// the index of the array. Errors: not_found if the volume has no such sweep, moment or kind.
 [[nodiscard]] Result<std::string> pack_sweep(const level2::Volume& volume, std::size_t sweep,
                                              level2::Moment moment, std::size_t kind);
 

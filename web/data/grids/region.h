@@ -3,12 +3,12 @@
 //
 // The grids of the sites that reach the box are resampled by nearest columns onto one plane about
 // its middle (web/data/grids/nearest_columns.h). The mosaic's code (pipeline/mosaic/mosaic_frame.h)
-// then moves each site's volumes before and after the instant to it, with the motion of the echo,
-// and merges the sites by the moment's default rule. A box with too many columns is made from
-// halved grids (web/data/grids/halved_grid.h, by maximum).
+// then takes, for each site, the volumes just before and just after the instant, moves their echo
+// to the instant, and merges the sites by the moment's default rule. A box with too many columns is
+// made from halved grids (web/data/grids/halved_grid.h, by maximum).
 //
 // Units     Degrees, meters.
-// Threads   Pure functions of what the cache holds.
+// Threads   Functions without state, which read the cache.
 // Errors    See each function.
 #pragma once
 
@@ -36,7 +36,7 @@ struct RegionBox {
 inline constexpr std::size_t most_region_columns = 1'000'000;
 inline constexpr std::size_t most_region_sites = 32;
 inline constexpr int most_region_halvings = 3;
-// Instants of a region: whole multiples of this since midnight.
+// A region has grids for instants that are whole multiples of this interval after midnight.
 inline constexpr std::chrono::minutes region_interval{5};
 
 // A site that the grid of a region leaves out, and why.

@@ -44,7 +44,7 @@ struct FlatMap {
 
 class FlatMaps {
   public:
-    // The newest map stays, however large it is: the tiles beside the first one need it.
+    // The newest map is kept however large it is, because the neighboring tiles need it, too.
     explicit FlatMaps(std::uint64_t budget_bytes) : maps_({.weight = budget_bytes}) {}
 
     // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that

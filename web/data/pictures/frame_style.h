@@ -37,7 +37,8 @@ struct FrameStyle {
 
 // Reads the query of a picture. The ending of the file's name gives the format. The parameters are
 // the options of `stormcellar frame` (web/data/pictures/picture_query.h), "panels" and "geotiff";
-// the door itself reads `others`. Errors: not_found for an ending without a format; bad_argument.
+// parameters named in `others` are left to the door. Errors: not_found for an ending without a
+// format; bad_argument.
 [[nodiscard]] Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,
                                              std::span<const std::string_view> others);
 

@@ -31,7 +31,7 @@ namespace stormcellar::web {
 
 struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
-    // Other doors may share it.
+    // Keeps the pictures; other doors may share the object.
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
     std::uint64_t map_bytes = 32'000'000;  // for the 2D products from which pictures are drawn
     int threads = 1;                       // for making one product of a grid

@@ -45,8 +45,8 @@ struct MapStyle {
 // echo-top-dbz.
 [[nodiscard]] bool is_of_layers(const render::PictureOption& option);
 
-// Reads the options of a layer; the door itself reads `others`. Without options, cells are drawn
-// unsmoothed, in colors without classes. Errors: bad_argument.
+// Reads the options of a layer. Parameters named in `others` are left to the door. Without options,
+// cells are drawn unsmoothed, in colors without classes. Errors: bad_argument.
 [[nodiscard]] Result<MapStyle> map_style(const MapProduct& layer, const Fields& query,
                                          std::span<const std::string_view> others);
 

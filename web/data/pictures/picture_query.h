@@ -30,7 +30,7 @@ using TakesOption = bool (*)(const render::PictureOption&);
 // Returns true for options that apply to a bare map: all but product, size, theme and labels.
 [[nodiscard]] bool is_of_bare_maps(const render::PictureOption& option);
 
-// Reads the options that `takes` allows. The door itself reads `others`.
+// Reads the options that `takes` allows. Parameters named in `others` are left to the door.
 [[nodiscard]] Result<PictureQuery> picture_query(const Fields& query, TakesOption takes,
                                                  std::span<const std::string_view> others);
 

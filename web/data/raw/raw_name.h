@@ -18,8 +18,8 @@ namespace stormcellar::web {
 [[nodiscard]] std::string raw_name(std::string_view station, UtcTime start,
                                    std::string_view file_name);
 
-// Returns the time in a name of that station: "KTLX20220317_000842" and anything behind it. None if
-// the name does not begin so.
+// Returns the time in a name of that station: "KTLX20220317_000842" and anything behind it. Returns
+// none if the name does not begin with the station and a time.
 [[nodiscard]] std::optional<UtcTime> time_of_raw_name(std::string_view station,
                                                       std::string_view name);
 // Returns true for a name of STATION and start without an ending, as grids name volumes. Such a

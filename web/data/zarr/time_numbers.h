@@ -12,9 +12,9 @@
 // bytes. Without a directory the numbers live as long as this object.
 //
 // Threads   Many threads may use it.
-// Errors    io and permission if the numbers cannot be read; busy if they cannot be kept and none
-//           was given before; corrupt for a damaged file, which must be removed by hand, because
-//           clients may hold its numbers; exhausted beyond `most_times`.
+// Errors    io and permission if the numbers cannot be read; busy if the numbers cannot be kept and
+//           no time has a number yet; corrupt for a damaged file, which must be removed by hand,
+//           because clients may hold its numbers; exhausted beyond `most_times`.
 #pragma once
 
 #include <cstddef>

@@ -78,8 +78,8 @@ struct ApiCall {
     const Request& request;
     ApiState& state;
     std::vector<std::pair<std::string, std::string>> path_values;
-    // If set, an operation that would compute for long returns takes_long(). It is called again
-    // without this flag when its turn has come.
+    // If set, an operation that would compute for long returns takes_long(). A worker for long
+    // answers then calls the operation again without this flag.
     bool must_be_quick = false;
 
     [[nodiscard]] Grids& grids() const { return *state.sources().grids; }
@@ -102,8 +102,8 @@ using Answered = tl::expected<T, Answer>;
     return tl::unexpected<Answer>(json_error(error));
 }
 
-// Each reads a parameter. If it is absent, the result is none or `usual`. A number must be finite
-// and within its limits.
+// Each function reads a parameter. If the parameter is absent, the function returns none or
+// `usual`. A number must be finite and within its limits.
 [[nodiscard]] Result<std::optional<double>> number_parameter(const ApiCall& call,
                                                              std::string_view name, double least,
                                                              double most);
@@ -130,8 +130,8 @@ struct ListedRange {
                                                                         std::string_view text);
 
 // Finds the grid that {domain}, {moment} and {time} of the path name; {time} may be "latest". The
-// error answer is 400 for another time, 404, 410 if the grid was evicted, or says why it cannot be
-// read.
+// error answer is 400 for a text that is not a time, 404 if there is no such grid, 410 if the grid
+// was evicted, or says why the grid cannot be read.
 struct NamedGrid {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
@@ -139,7 +139,8 @@ struct NamedGrid {
 };
 [[nodiscard]] Answered<NamedGrid> named_grid(const ApiCall& call);
 [[nodiscard]] Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call);
-// Finds the region that {region} and {moment} of the path name. The error answer is 400, 404, or
+// Finds the region that {region} and {moment} of the path name. The error answer is 400 for a box
+// that makes no sense, 404 for an unknown moment or if no site with its grids reaches the box, or
 // says why a grid cannot be read.
 struct AskedRegion {
     std::string name;  // the box as text, as in the request
@@ -151,7 +152,8 @@ struct AskedRegion {
 
 // Answers with JSON. Clients must ask again each time and get 304 if the JSON has not changed.
 [[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
-// Returns the answer of an operation that must be quick and cannot be. It is never sent.
+// Returns the mark by which an operation says that it would compute for long. The server never
+// sends this answer.
 [[nodiscard]] Answer takes_long();
 // Returns the path of a grid in the API, for links.
 [[nodiscard]] std::string grid_path(const NamedGrid& grid);

@@ -4,7 +4,7 @@
 //   /frames/DOMAIN.png?time=...    a picture; the ending gives its format
 //
 // The door draws the newest grid at or before the instant "time". Without "time", or with "latest",
-// the newest grid is drawn. If panels show several moments, all are drawn at the newest instant at
+// it draws the newest grid. If panels show several moments, all are drawn at the newest instant at
 // which every moment has a grid. A ppi is drawn from the raw volume of the newest grid of any
 // moment.
 //
@@ -34,8 +34,8 @@ class FramesDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    // A requested picture. It shows a grid of each moment at `time`. A picture of a sweep has one
-    // moment, and shows the raw volume of that grid.
+    // A requested picture. The picture shows a grid of each moment at `time`. A picture of a sweep
+    // has one moment, and shows the raw volume of that moment's grid.
     struct Asked {
         std::string domain;
         FrameStyle style;
@@ -46,8 +46,9 @@ class FramesDoor final : public Door {
         [[nodiscard]] bool is_of_sweep() const;
     };
     [[nodiscard]] Found<Asked> asked(const Request& request) const;
-    // Finds the newest instant, `until` at the latest, at which every moment has a grid; for a
-    // sweep, any moment, which is then the only one. Returns false if there is none.
+    // Sets `time` to the newest instant, `until` at the latest, at which every moment has a grid.
+    // For a sweep, a grid of one moment suffices, and that moment becomes the only one. Returns
+    // false if there is no such instant.
     [[nodiscard]] bool find_grids(Asked& asked, UtcTime until) const;
     [[nodiscard]] Answer of_sweep(const Request& request, Asked asked);
     [[nodiscard]] Answer index(const Request& request) const;

@@ -11,8 +11,9 @@
 
 namespace stormcellar::web {
 
-// Returns the entity of a volume. Clients may use a settled volume for only a minute without asking
-// again, because it may be sent again. They must ask for a growing volume each time.
+// Returns the entity of a volume. Clients may use a volume that does not grow for a minute without
+// asking again. They may not use it longer, because the volume may be sent again. Clients must ask
+// each time for a growing volume.
 [[nodiscard]] Entity entity_of(const OpenedVolume& volume);
 
 // Answers 404, 410 for a deleted file, and 503 with Retry-After for a file that changed since it
@@ -21,12 +22,13 @@ namespace stormcellar::web {
 
 [[nodiscard]] Answer volume_answer(const Request& request, RawFiles& files,
                                    std::string_view station, std::string_view name);
-// Answers with a volume that RawFiles::open_kept() still has; else none.
+// Answers with the volume if RawFiles::open_kept() returns it; returns none otherwise.
 [[nodiscard]] std::optional<Answer> volume_answer_at_once(const Request& request, RawFiles& files,
                                                           std::string_view station,
                                                           std::string_view name);
 
-// Does the same for a request for /DOOR/STATION/NAME; none for other paths.
+// Answers a request for /DOOR/STATION/NAME if volume_answer_at_once() has the answer; returns none
+// for other paths.
 [[nodiscard]] std::optional<Answer> named_volume_at_once(const Request& request, RawFiles& files);
 
 // Reads a time of a query: the forms of parse_utc(), an offset of zero, or "present".

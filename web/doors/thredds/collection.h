@@ -94,7 +94,7 @@ class ThreddsCollection {
     const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
     std::shared_ptr<RawFiles> files);
 
-// Each makes one kind; make_collection() chooses.
+// Each function makes one kind of data set. make_collection() chooses the kind.
 [[nodiscard]] std::shared_ptr<ThreddsCollection> make_level2_collection(
     const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
     std::shared_ptr<RawFiles> files);

@@ -85,8 +85,8 @@ struct WmsMap {
 };
 [[nodiscard]] WmsRead<WmsMap> wms_map(const WmsParameters& parameters, UtcTime now);
 
-// A pixel of a picture. wms_pixel() reads the one that GetFeatureInfo asks about; place_of()
-// returns the place of its center.
+// A pixel of a picture. wms_pixel() reads the pixel that GetFeatureInfo asks about; place_of()
+// returns the place of a pixel's center.
 struct WmsPixel {
     int column = 0, row = 0;
 };

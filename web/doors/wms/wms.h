@@ -7,7 +7,7 @@
 //   /wms?REQUEST=GetFeatureInfo&...&QUERY_LAYERS=...&I=...&J=...
 //   /wms?REQUEST=GetLegendGraphic&LAYER=...
 //
-// /wms/DOMAIN does the same; its capabilities have only that domain.
+// /wms/DOMAIN answers these requests, too; its capabilities have only the layers of that domain.
 //
 // TIME selects the nearest grid within an hour; without TIME, the newest grid is used. The header
 // Warning names the grid's instant unless TIME is exactly that, as the standard requires.
