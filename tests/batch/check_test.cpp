@@ -39,19 +39,20 @@ TEST_F(BatchCheck, ASummaryStandsForItsRecords) {
     const Plan plan = plan_of(recipe("one"), "plan");
     run_all(plan);
     const fs::path summary = plan.directory() / "tasks/00000/summary.json";
-    ASSERT_TRUE(fs::exists(summary)) << "the last task writes it";
+    ASSERT_TRUE(fs::exists(summary)) << "the task that ends last writes the summary";
     fs::remove(summary);
     const auto records = check(plan, {});
     ASSERT_TRUE(fs::exists(summary));
     const auto bytes = *read_file(summary);
     fs::remove(record_path(plan.directory(), 1));
     const auto summed = check(plan, {});
-    EXPECT_THAT(summed->missing, IsEmpty()) << "the records are not read";
+    EXPECT_THAT(summed->missing, IsEmpty()) << "check() takes the summary instead of the records";
     EXPECT_EQ(summed->done.cpu_s, records->done.cpu_s);
     EXPECT_EQ(summed->done.stations.at("KBGM").taken, records->done.stations.at("KBGM").taken);
     EXPECT_EQ(summed->done.started, records->done.started);
     EXPECT_EQ(*read_file(summary), bytes);
-    EXPECT_THAT(check(plan, {true, {}})->missing, ElementsAre(1)) << "a deep check reads them";
+    EXPECT_THAT(check(plan, {true, {}})->missing, ElementsAre(1))
+        << "a deep check reads the records";
     // A damaged summary is written again.
     fs::resize_file(summary, 20);
     ASSERT_TRUE(run(plan, 1));

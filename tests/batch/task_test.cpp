@@ -131,7 +131,7 @@ TEST_F(BatchTasks, AKilledTaskContinuesWithTheFileThatItWasAt) {
 
 TEST_F(BatchTasks, ABadVolumeIsLeftOutWithItsReason) {
     std::ofstream(raw_ / "day" / pipeline::sequence[1], std::ios::trunc)
-        << "no radar data at all, but some bytes";
+        << "some bytes that are no radar data";
     const Plan plan = plan_of(recipe("one"), "plan");
     const auto outcome = run(plan, 0);
     ASSERT_TRUE(outcome) << outcome.error().message;
@@ -336,7 +336,8 @@ TEST_F(BatchTasks, ADamagedGridIsNamedAndMadeAgain) {
     ASSERT_THAT(frames->record.left_out, SizeIs(1));
     EXPECT_THAT(frames->record.left_out[0].reason, HasSubstr(grid.native()));
     EXPECT_EQ(check(plan, {})->done.left_out, 1U);
-    EXPECT_THAT(check(plan, {true, {}})->changed, SizeIs(2)) << "the grid, and frames without it";
+    EXPECT_THAT(check(plan, {true, {}})->changed, SizeIs(2))
+        << "the task of the grid, and the task of the frames that lack the grid";
     // 2026-11-29: while a damaged grid could not be made again, frames were made without it.
     fs::rename(raw_ / "day", directory_ / "unmounted");
     fs::create_directory(raw_ / "day");

@@ -33,13 +33,14 @@ TEST(AnswerBudget, OneClientHoldsHalfAtMost) {
     EXPECT_FALSE(budget.take("greedy", c));
     EXPECT_TRUE(budget.take("modest", c));
     EXPECT_TRUE(budget.take("third", d));
-    EXPECT_FALSE(budget.take("fourth", e)) << "all of it is taken";
+    EXPECT_FALSE(budget.take("fourth", e)) << "the whole budget is taken";
     EXPECT_TRUE(budget.take("fourth", text_of_kib(10))) << "small answers always pass";
     // 2026-11-28: 200 slow answers shared six objects. Clients that were cut off asked again, so no
     // object was ever released.
-    EXPECT_FALSE(budget.take("greedy", b)) << "it holds it already, but others wait for room";
+    EXPECT_FALSE(budget.take("greedy", b))
+        << "the client holds this text already, but others wait for room";
     budget.give_back("greedy", a);
-    EXPECT_FALSE(budget.take("greedy", a)) << "the room is for others";
+    EXPECT_FALSE(budget.take("greedy", a)) << "the room is for other clients";
     EXPECT_TRUE(budget.take("fourth", e));
 }
 
@@ -67,7 +68,7 @@ TEST(AnswerBudget, EachFurtherClientHoldsHalfOfWhatIsLeft) {
     }
     EXPECT_EQ(taken.size(), 4u + 2 + 1);
     EXPECT_TRUE(budget.take("d", text_of_kib(100)))
-        << "a client that has nothing gets what is left";
+        << "a client that holds nothing gets the room that is left";
 }
 
 TEST(AnswerBudget, ALargerAnswerPassesAlone) {
@@ -85,7 +86,7 @@ TEST(AnswerBudget, AFileOnDiskIsFreeAndOneWithoutANameIsNot) {
     EXPECT_TRUE(budget.take("a", {FileSlice{file, 0, 1 << 30}}));
     EXPECT_EQ(budget.bytes(), 0u);
     EXPECT_TRUE(budget.take("a", {FileSlice{file, 0, 1, hundred_kib}}));
-    EXPECT_EQ(budget.bytes(), hundred_kib) << "one byte of it keeps all of it";
+    EXPECT_EQ(budget.bytes(), hundred_kib) << "a piece of one byte keeps the whole text in memory";
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST_F(Api, ListsDomainsAndGrids) {
     using Times = std::vector<std::string>;
     EXPECT_EQ(of(""),
               (Times{"2005-08-22T02:44:14.123Z", "2024-11-22T12:00:00Z", "2024-11-22T12:05:00Z"}));
-    EXPECT_EQ(of("?limit=1"), (Times{"2024-11-22T12:05:00Z"})) << "the newest";
+    EXPECT_EQ(of("?limit=1"), (Times{"2024-11-22T12:05:00Z"})) << "the limit keeps the newest grid";
     EXPECT_EQ(of("?from=2024-11-22T12:00&to=2024-11-22T12:04"), (Times{"2024-11-22T12:00:00Z"}));
     EXPECT_EQ(of("?moment=VEL"), Times{});
     EXPECT_EQ(of("?domain=KOKX"), Times{});
@@ -136,7 +136,7 @@ TEST_F(Api, AGridThatIsMadeAgainHasAnotherTag) {
     const Answer after = served_.get(packed, {{"If-None-Match", etag}});
     EXPECT_EQ(after.status, 200u);
     EXPECT_NE(header_of(after, "ETag"), etag);
-    EXPECT_EQ(served_.get(packed + "?id=" + id).status, 410u) << "the bytes of that id are gone";
+    EXPECT_EQ(served_.get(packed + "?id=" + id).status, 410u) << "the bytes of the old id are gone";
 }
 
 TEST_F(Api, ProbesGiveTheGridsOwnCells) {
@@ -297,7 +297,7 @@ TEST_F(Api, ThePackedFormHoldsEachCell) {
 // Compares a window that begins at the given cell with the whole grid. Returns the number of its
 // values.
 int compare_window(const Unpacked& whole, const Unpacked& cut, int first_x, int first_y) {
-    EXPECT_EQ(cut.u32(160), 0u) << "it is whole by itself";
+    EXPECT_EQ(cut.u32(160), 0u) << "a window is packed as a whole grid";
     EXPECT_EQ(cut.u32(164), whole.u32(164));
     // Returns the center's distance from the first column, in columns.
     const auto center = [](const Unpacked& grid, std::uint64_t offset, unsigned cells) {
@@ -411,7 +411,7 @@ TEST_F(Api, AMapGoesOnAcrossTheAntimeridian) {
         return ends;
     };
     EXPECT_LT(longitudes(both).first, 178);
-    EXPECT_GT(longitudes(both).second, 190) << "Alaska goes on beyond 180";
+    EXPECT_GT(longitudes(both).second, 190) << "the longitudes of Alaska go on beyond 180";
     const auto west = map("west=170&east=180"), east = map("west=-180&east=-160");
     EXPECT_EQ(both.at("lines").size(), west.at("lines").size() + east.at("lines").size());
     EXPECT_LE(longitudes(east).first, -178);

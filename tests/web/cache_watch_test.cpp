@@ -56,7 +56,7 @@ TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
     }));
     ASSERT_TRUE(store.remove(store.list("KBGM", level2::Moment::ref, noon, noon)->front()));
     watch->catch_up();
-    EXPECT_TRUE(has_told(CacheEvent::went)) << "it goes on";
+    EXPECT_TRUE(has_told(CacheEvent::went)) << "the watch goes on";
 }
 
 // 2026-11-29: a grid that was removed before the watch read its first event was never reported as

@@ -27,8 +27,9 @@ TEST(ConnectionWatch, AnIpv6NetworkOf64BitsIsOneClient) {
     EXPECT_TRUE(watch.may_open("2001:db8:0:1::3"));
     for (const std::uintptr_t proxied : {3, 4, 5})
         watch.opened(made_connection(proxied), -1, "2001:db8:0:2::1");
-    EXPECT_TRUE(watch.may_open("2001:db8:0:2::1")) << "a proxy has as many as there are";
-    EXPECT_TRUE(watch.may_open("2001:db8:0:2::2")) << "and takes none of its neighbor's";
+    EXPECT_TRUE(watch.may_open("2001:db8:0:2::1")) << "a trusted proxy may take all connections";
+    EXPECT_TRUE(watch.may_open("2001:db8:0:2::2"))
+        << "the proxy's connections do not count for its neighbor";
     watch.closed(made_connection(1));
     EXPECT_TRUE(watch.may_open("2001:db8::3"));
 }

@@ -100,7 +100,8 @@ TEST(EventFeed, FollowsAVolumeFromItsFirstSweepToItsEnd) {
     }
     ASSERT_EQ(begun.size(), 1u);
     EXPECT_EQ(begun[0]["volume"], "2026-03-28T20:14:57.447Z");
-    ASSERT_GT(sweeps.size(), 1u) << "as fast as chunks come here, some are told together";
+    ASSERT_GT(sweeps.size(), 1u)
+        << "chunks come so fast here that one event may report several sweeps";
     for (std::size_t i = 1; i < sweeps.size(); ++i) {
         EXPECT_GT(sweeps[i]["sweeps"], sweeps[i - 1]["sweeps"]);
         EXPECT_GE(sweeps[i]["data_to"], sweeps[i - 1]["data_to"]) << "a sweep may have no REF";

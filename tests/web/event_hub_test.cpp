@@ -65,7 +65,7 @@ TEST(EventHub, GoesOnAfterTheIdThatAClientGives) {
     EXPECT_EQ(ids_in(read_all(*hub->listen({.stations = {"KTLX"}}, "abc-1"))),
               (Ids{"abc-3", "abc-5"}));
     EXPECT_EQ(ids_in(read_all(*hub->listen({}, "abc-5"))), Ids{});
-    EXPECT_EQ(ids_in(read_all(*hub->listen({}, "abc-0"))).size(), 5u) << "none is lost";
+    EXPECT_EQ(ids_in(read_all(*hub->listen({}, "abc-0"))).size(), 5u) << "no event is lost";
     EXPECT_EQ(hub->resets(), 0u);
 }
 
@@ -77,11 +77,11 @@ TEST(EventHub, AnIdThatIsTooOldOrOfAnotherRunResets) {
         const std::string heard = read_all(*hub->listen({}, id));
         EXPECT_EQ(ids_in(heard), (Ids{"reset"})) << id;
         EXPECT_NE(heard.find("id: abc-5\nevent: reset\n"), std::string::npos)
-            << "a client that comes back after it goes on";
+            << "a client that has this event goes on after it";
     }
     EXPECT_EQ(hub->resets(), 5u);
     EXPECT_EQ(ids_in(read_all(*hub->listen({}, "abc-3"))), (Ids{"abc-4", "abc-5"}))
-        << "both are kept";
+        << "both events are still in the ring";
     EXPECT_EQ(hub->resets(), 5u);
 }
 
@@ -123,10 +123,10 @@ TEST(EventHub, WakesOnceAndOnlyThoseWhoAreConcerned) {
         read_all(*listener);
     hub->publish(of_station("KTLX"));
     hub->publish(of_station("KTLX"));
-    EXPECT_EQ(tulsa_woken, 1) << "not again before it has read";
+    EXPECT_EQ(tulsa_woken, 1) << "the hub wakes a listener only once before it reads";
     EXPECT_EQ(nation_woken, 0);
     EXPECT_EQ(both_woken, 1);
-    EXPECT_EQ(ids_in(read_all(*both)).size(), 2u) << "each event once";
+    EXPECT_EQ(ids_in(read_all(*both)).size(), 2u) << "the listener gets each event once";
     hub->publish({EventType::mosaic, "", "conus", level2::Moment::ref, "{}"});
     EXPECT_EQ(tulsa_woken, 1);
     EXPECT_EQ(nation_woken, 1);

@@ -57,7 +57,7 @@ TEST(EventFilter, MomentsAndKindsMustFitToo) {
     EXPECT_FALSE(
         filter.fits({EventType::volume_complete, "KTLX", "KTLX", level2::Moment::vel, ""}));
     EXPECT_TRUE(filter.fits({EventType::station_silent, "KTLX", "KTLX", std::nullopt, ""}))
-        << "it has no moment";
+        << "the event has no moment";
     EXPECT_TRUE(filter.fits(reset_event("lost")));
 }
 

@@ -75,7 +75,8 @@ TEST_F(EventsOverHttp, GoesOnWhereAClientWas) {
     const auto by_parameter = listener("?last_event_id=abc-2");
     EXPECT_EQ(by_parameter->read_until("KTLX\"}").find("KLOT"), std::string::npos);
     const auto both = listener("?last_event_id=abc-1", "Last-Event-ID: abc-2\r\n");
-    EXPECT_EQ(both->read_until("KTLX\"}").find("KLOT"), std::string::npos) << "the header is newer";
+    EXPECT_EQ(both->read_until("KTLX\"}").find("KLOT"), std::string::npos)
+        << "the header takes precedence over the parameter";
     const auto other = listener("", "Last-Event-ID: \xff\xfe{}\r\n");
     EXPECT_NE(other->read_until("event: reset").find("event: reset"), std::string::npos);
 }
@@ -114,11 +115,12 @@ TEST_F(EventsOverHttp, StreamsHaveLimitsOfTheirOwn) {
         open.push_back(listener());
         EXPECT_EQ(status_in(open.back()->read_until("id: abc-0\n\n")), 200) << i;
     }
-    EXPECT_EQ(status_in(listener()->read_until("\r\n\r\n")), 503) << "the sixth of this client";
+    EXPECT_EQ(status_in(listener()->read_until("\r\n\r\n")), 503)
+        << "the sixth stream of this client";
     open.push_back(listener("", "", "127.0.0.2"));
     EXPECT_EQ(status_in(open.back()->read_until("id: abc-0\n\n")), 200);
     const std::string refused = listener("", "", "127.0.0.3")->read_until("\r\n\r\n");
-    EXPECT_EQ(status_in(refused), 503) << "the seventh of all";
+    EXPECT_EQ(status_in(refused), 503) << "the seventh stream of all clients";
     EXPECT_NE(refused.find("Retry-After: 10"), std::string::npos);
     EXPECT_EQ(door_->refused(), 2u);
     // Six streams are open, and this client has room for three other connections.

@@ -89,7 +89,7 @@ TEST_F(Frames, VolumesAndSectionsAreDrawn) {
     EXPECT_EQ(volume.width, 480);
     const render::Image other = decoded_png(
         body_of(get("/frames/KTLX.png?width=480&height=360&slices=32&azimuth=20&tilt=60")));
-    EXPECT_NE(volume.rgba, other.rgba) << "the camera stands elsewhere";
+    EXPECT_NE(volume.rgba, other.rgba) << "the camera is at another place";
     const Answer section =
         get("/frames/KTLX.png?product=section&section=35.3,-98.2,35.4,-97.0&width=400&height=300");
     ASSERT_EQ(section.status, 200u) << body_of(section);
@@ -128,14 +128,15 @@ TEST_F(Frames, TheNewestGridAtOrBeforeTheTimeIsDrawn) {
     ASSERT_FALSE(exact.empty());
     const Answer later = get(std::string(small_map) + "&time=1999-05-04T03:00");
     EXPECT_EQ(header_of(later, "ETag"), exact);
-    EXPECT_EQ(header_of(later, "Cache-Control"), "no-cache") << "another grid may come between";
+    EXPECT_EQ(header_of(later, "Cache-Control"), "no-cache")
+        << "a grid nearer to the time may still come";
     EXPECT_EQ(get(std::string(small_map) + "&time=1999-05-03T23:00").status, 404u);
 }
 
 TEST_F(Frames, AreKeptAndHaveTags) {
     EXPECT_FALSE(door_->answer_at_once(request_for(small_map)));
     const std::string etag = header_of(get(small_map), "ETag");
-    ASSERT_TRUE(door_->answer_at_once(request_for(small_map))) << "it is kept now";
+    ASSERT_TRUE(door_->answer_at_once(request_for(small_map))) << "the picture is kept now";
     EXPECT_EQ(get(small_map, {{"If-None-Match", etag}}).status, 304u);
     EXPECT_NE(header_of(get(std::string(small_map) + "&theme=light"), "ETag"), etag);
 }
@@ -192,7 +193,8 @@ TEST_F(Frames, OfSweepsAreKeptAndHavePanelsAndFormats) {
     EXPECT_EQ(get("/frames/KTLX.png?product=ppi&time=1999-05-03T20:00").status, 404u);
     const Answer too_high = get("/frames/KTLX.png?product=ppi&elevation=45");
     EXPECT_EQ(too_high.status, 404u) << body_of(too_high);
-    EXPECT_NE(body_of(too_high).find("19.5"), std::string::npos) << "the angles that there are";
+    EXPECT_NE(body_of(too_high).find("19.5"), std::string::npos)
+        << "the answer lists the angles of the volume";
 }
 
 TEST_F(Frames, OfSweepsNeedTheRawFile) {
@@ -207,11 +209,11 @@ TEST_F(Frames, OfSweepsNeedTheRawFile) {
     const Answer gone = asked(*door, ppi);
     EXPECT_EQ(gone.status, 404u);
     EXPECT_EQ(body_of(gone).find(own.file().parent_path().native()), std::string::npos)
-        << "a client learns no directory: " << body_of(gone);
+        << "the answer names no directory: " << body_of(gone);
     auto catalog = catalog::CatalogWriter::open(own.catalog());
     ASSERT_TRUE(catalog && catalog->mark_gone(own.file()));
     EXPECT_EQ(asked(*door, ppi).status, 410u);
-    EXPECT_EQ(asked(*door, small_map).status, 200u) << "grids need no file";
+    EXPECT_EQ(asked(*door, small_map).status, 200u) << "a picture of grids needs no raw file";
 }
 
 TEST_F(Frames, TheIndexNamesEveryParameterThatIsTaken) {
@@ -234,7 +236,7 @@ TEST_F(Frames, RefusesWhatMakesNoSense) {
           "product=section", "panels=REF,REF", "panels=REF&moment=VEL", "geotiff=values",
           "product=composite&tilt=50", "slices=99999999"})
         EXPECT_EQ(get(std::string("/frames/KTLX.png?") + query).status, 400u) << query;
-    EXPECT_EQ(get("/frames/KTLX.tif").status, 400u) << "a volume is no map";
+    EXPECT_EQ(get("/frames/KTLX.tif").status, 400u) << "a picture in perspective is no map";
     EXPECT_EQ(get("/frames/KTLX.kmz?product=composite&panels=REF,VEL").status, 400u);
     for (const char* target :
          {"/frames/KTLX", "/frames/KTLX.gif", "/frames/KXXX.png", "/frames/.png",

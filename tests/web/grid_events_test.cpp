@@ -72,7 +72,7 @@ TEST_F(EventsOfGrids, AGridOfASiteIsAVolume) {
     EXPECT_EQ(event["path"], "/api/v1/grids/KBGM/REF/2024-11-22T12:00:00Z");
     EXPECT_EQ(event["partial"], false);
     const auto grid = grids_->find("KBGM", level2::Moment::ref, noon);
-    EXPECT_EQ(event["id"], (*grid)->id) << "that of the API";
+    EXPECT_EQ(event["id"], (*grid)->id) << "the API gives the same id";
 }
 
 TEST_F(EventsOfGrids, AGridThatIsMadeAgainIsToldAgain) {
@@ -84,7 +84,7 @@ TEST_F(EventsOfGrids, AGridThatIsMadeAgainIsToldAgain) {
     EXPECT_NE(second[0]["id"], first.back()["id"]);
     ASSERT_TRUE(testing::commit_sized(store_, "KBGM", noon, 4, 3));
     ASSERT_TRUE(testing::commit_sized(store_, "KBGM", noon, 5, 4));
-    EXPECT_EQ(types(events()), Types{"volume_complete"}) << "the last counts";
+    EXPECT_EQ(types(events()), Types{"volume_complete"}) << "the last change counts";
 }
 
 TEST_F(EventsOfGrids, AFrameOfADomainIsAMosaicAndItsPartsAreNobodysBusiness) {
@@ -122,7 +122,7 @@ TEST_F(EventsOfGrids, EvictedGridsAreOneEventOfAMoment) {
     ASSERT_TRUE(store_.remove(entries[2]));
     all = events();
     ASSERT_EQ(types(all), Types{"grid_evicted"});
-    EXPECT_TRUE(all[0]["oldest"].is_null()) << "none is left";
+    EXPECT_TRUE(all[0]["oldest"].is_null()) << "no grid is left";
 }
 
 TEST_F(EventsOfGrids, AGridThatCameAndWentIsToldAsGone) {
@@ -146,13 +146,13 @@ TEST_F(EventsOfGrids, WhatLayThereBeforeIsNoNews) {
     const auto ref = CacheChange{CacheEvent::changed, {"KBGM", level2::Moment::ref, noon}};
     (void)events();
     changes_ = {ref};
-    EXPECT_EQ(types(events()), Types{}) << "told already, with these bytes";
+    EXPECT_EQ(types(events()), Types{}) << "a grid with these bytes was already reported";
     GridEvents later(grids_, book_, file_clock_ns() + 1'000'000'000);
     const std::vector<CacheChange> changes{ref};
-    EXPECT_TRUE(later.of(changes, noon).empty()) << "written before that server began";
+    EXPECT_TRUE(later.of(changes, noon).empty()) << "the grid was written before that server began";
     const std::vector<CacheChange> came{{CacheEvent::came, ref.grid}};
     const auto back = later.of(came, noon);
-    ASSERT_EQ(back.size(), 1u) << "a disk was mounted: lists must be asked for again";
+    ASSERT_EQ(back.size(), 1u) << "a disk was mounted, so clients must request their lists again";
     EXPECT_EQ(back[0].type, EventType::reset);
 }
 

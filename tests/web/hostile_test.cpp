@@ -254,7 +254,8 @@ TEST_F(HostileClients, ManyClientsGetTheBytesThatOneGets) {
     for (std::thread& thread : threads)
         thread.join();
     EXPECT_EQ(others, 0u);
-    EXPECT_LT(told_to_come_back, requests / 2) << "only what is computed may be refused";
+    EXPECT_LT(told_to_come_back, requests / 2)
+        << "only requests that need computing may be refused";
     EXPECT_LE(resident_mib() - before_mib, 200);
 }
 

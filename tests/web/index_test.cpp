@@ -70,7 +70,7 @@ TEST(IndexPage, OffersOnlyWhatIsServed) {
         const auto address = door == "/view" ? HasSubstr("/storms/view/\"")
                                              : HasSubstr("://radar.example.org/storms" + door);
         EXPECT_THAT(page_of({door}), address);
-        if (door == "/api/v1") continue;  // the address of the events begins with it
+        if (door == "/api/v1") continue;  // the address of the events also begins with "/api/v1"
         EXPECT_THAT(page_of(others), Not(address));
     }
     EXPECT_THAT(page_of({"/zarr"}), Not(HasSubstr("NAME"))) << "lists are made from the API";

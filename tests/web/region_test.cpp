@@ -139,7 +139,8 @@ TEST_F(Region, TakesVolumesNearTheInstantAlone) {
               (std::vector<UtcTime>{testing::noon, testing::noon + std::chrono::minutes{5}}));
     commit(grid_of("KBGM", value_of_kbgm, testing::noon + std::chrono::minutes{14}));
     grids_->refresh();
-    EXPECT_EQ(region_times(*grids_, made).size(), 4u) << "and those between volumes of a site";
+    EXPECT_EQ(region_times(*grids_, made).size(), 4u)
+        << "the instants include those between two volumes of a site";
     const auto late = make_region(*grids_, made, testing::noon + std::chrono::hours{2});
     ASSERT_FALSE(late);
     EXPECT_EQ(late.error().code, ErrorCode::not_found);
@@ -163,7 +164,7 @@ TEST_F(Region, EchoIsMovedToTheInstant) {
     const Station station = *find_station("KMLB");
     const RegionPlan made = plan({station.longitude_deg - 1, station.latitude_deg - 0.8,
                                   station.longitude_deg + 1, station.latitude_deg + 0.8});
-    ASSERT_EQ(made.sites, std::vector<std::string>{"KMLB"}) << "no other site reaches it";
+    ASSERT_EQ(made.sites, std::vector<std::string>{"KMLB"}) << "no other site reaches the box";
     const UtcTime instant = testing::noon + std::chrono::minutes{5};
     const auto frame = make_region(*grids_, made, instant);
     ASSERT_TRUE(frame) << frame.error().message;
@@ -185,7 +186,7 @@ TEST_F(Region, EchoIsMovedToTheInstant) {
         return std::sqrt(squares / cells);
     };
     EXPECT_LT(rms_against(300), 1);
-    EXPECT_GT(rms_against(480), 2) << "where it would be without motion";
+    EXPECT_GT(rms_against(480), 2) << "the place of the echo without motion";
     const auto sites = region_sites(*grids_, made, instant);
     ASSERT_TRUE(sites);
     ASSERT_EQ(sites->size(), 1u);

@@ -101,7 +101,7 @@ TEST_F(Reload, NobodyWaitsForTheOldServersEnd) {
         of_the_new_one += answer.find("Access-Control-Allow-Origin") != std::string::npos ? 1 : 0;
     }
     EXPECT_TRUE(reloaded.get());
-    EXPECT_GE(of_the_new_one, 3) << "while the old one still ends";
+    EXPECT_GE(of_the_new_one, 3) << "the new server answers while the old one still ends";
 }
 
 // 2026-11-28: a client that had connected just before a reload was cut off without an answer.
@@ -189,8 +189,8 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
         was_deaf = !service_->is_listening();
         if (was_deaf) {
             service_->look_again();
-            EXPECT_FALSE(service_->is_listening()) << "there is no descriptor yet";
-            EXPECT_FALSE(service_->is_at_work()) << "systemd starts it again";
+            EXPECT_FALSE(service_->is_listening()) << "no descriptor is free yet";
+            EXPECT_FALSE(service_->is_at_work()) << "systemd then starts the service again";
         }
         is_over = true;
         greedy.join();

@@ -68,7 +68,7 @@ TEST(Request, FindsParametersAndHeaders) {
     EXPECT_EQ(request.parameter("time"), std::nullopt);
     EXPECT_TRUE(request.accepts("gzip"));
     EXPECT_TRUE(request.accepts("br"));
-    EXPECT_FALSE(request.accepts("zstd")) << "its weight is 0";
+    EXPECT_FALSE(request.accepts("zstd")) << "the weight of zstd is 0";
     EXPECT_FALSE(request.accepts("deflate"));
 }
 
@@ -142,7 +142,7 @@ TEST(ReadRequest, BelievesForwardedFieldsOfTrustedProxiesAlone) {
     EXPECT_EQ(reading.request.base, "http://localhost:8090");
     options.trusted_proxies = {"127.0.0.1"};
     reading = read_request(raw_get("/", headers), identity_of(options));
-    EXPECT_EQ(reading.request.client, "198.51.100.9") << "the one that the proxy itself saw";
+    EXPECT_EQ(reading.request.client, "198.51.100.9") << "the client that the proxy itself saw";
     EXPECT_EQ(reading.request.base, "https://radar.example.org");
     const Fields forwarded = {
         {"Host", "localhost"},
@@ -176,7 +176,7 @@ TEST(ReadRequest, TrustsAProxyHoweverItsAddressIsWritten) {
 TEST(ReadRequest, DoesNotBelieveAClientThatAddsTheOtherKindOfForwardedField) {
     Reading reading = read_through_proxy(
         {{"X-Forwarded-For", "192.0.2.7"}, {"Forwarded", "for=198.51.100.77;host=127.0.0.1"}});
-    EXPECT_EQ(reading.request.client, "127.0.0.1") << "the proxy's";
+    EXPECT_EQ(reading.request.client, "127.0.0.1") << "the address of the proxy";
     EXPECT_EQ(reading.request.base, "http://radar.example.org");
     reading = read_through_proxy(
         {{"X-Forwarded-For", "192.0.2.7"}, {"Forwarded", "proto=https;host=127.0.0.1"}});
@@ -185,7 +185,7 @@ TEST(ReadRequest, DoesNotBelieveAClientThatAddsTheOtherKindOfForwardedField) {
     reading = read_through_proxy({{"X-Forwarded-For", "2001:db8::7"},
                                   {"X-Forwarded-Proto", "https"},
                                   {"Forwarded", "for=\"[2001:DB8:0::7]:4711\";host=localhost"}});
-    EXPECT_EQ(reading.request.client, "2001:db8::7") << "a proxy that writes both";
+    EXPECT_EQ(reading.request.client, "2001:db8::7") << "this proxy writes both fields";
     EXPECT_EQ(reading.request.base, "https://radar.example.org");
 }
 
@@ -218,10 +218,10 @@ TEST(ReadRequest, TakesThePrefixOff) {
     EXPECT_EQ(path_of("/storms"), "/");
     EXPECT_EQ(path_of("/storms/a"), "/a");
     EXPECT_EQ(path_of("/stormsa"), "/stormsa");
-    EXPECT_EQ(path_of("/a"), "/a") << "a proxy may take it off itself";
+    EXPECT_EQ(path_of("/a"), "/a") << "a proxy may remove the prefix itself";
     EXPECT_EQ(read_request(raw_get("/"), identity).request.base, "https://example.org/storms");
     EXPECT_EQ(refusal_of(raw_get("/", {{"Host", "example.org"}}), options), 0u)
-        << "the public address names us";
+        << "the public address names this server";
 }
 
 }  // namespace

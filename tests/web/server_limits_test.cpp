@@ -97,10 +97,11 @@ TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     };
     for (int i = 0; i < 8; ++i)
         EXPECT_EQ(take_slowly("/shared", "127.0.0." + std::to_string(10 + i)), 200);
-    EXPECT_EQ(server_->facts().answer_bytes, large) << "all of them share it";
+    EXPECT_EQ(server_->facts().answer_bytes, large) << "all clients share one copy";
     EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 200);
-    EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 503) << "more than half of it for one client";
-    EXPECT_EQ(take_slowly("/own", "127.0.0.3"), 503) << "no room";
+    EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 503)
+        << "one client may not hold more than half of the budget";
+    EXPECT_EQ(take_slowly("/own", "127.0.0.3"), 503) << "the budget has no room";
     // 2026-11-28: twelve clients that sent HEAD requests and read nothing held 447 MB that did not
     // count.
     EXPECT_EQ(take_slowly("/own", "127.0.0.4", "HEAD "), 503) << "the answer to HEAD is held, too";

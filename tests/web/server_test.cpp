@@ -175,7 +175,7 @@ TEST_F(WebServer, RefusesHeadersWithoutEnd) {
     std::size_t sent = 0;
     while (sent < 100'000'000 && client.send(block))
         sent += block.size();
-    EXPECT_LT(sent, 10'000'000u) << "the connection is closed long before";
+    EXPECT_LT(sent, 10'000'000u) << "the server closes the connection long before the end";
     EXPECT_EQ(status_in(get("/")), 200);
 }
 

@@ -58,7 +58,7 @@ TEST_F(WebServerWorkers, ADoorWithWorkersOfItsOwnHoldsUpNoOther) {
     }
     EXPECT_EQ(body_in(get("/other")), "at /other") << "the worker of the server is free";
     const std::string refused = get("/slow");
-    EXPECT_EQ(status_in(refused), 503) << "one is drawn and one waits";
+    EXPECT_EQ(status_in(refused), 503) << "one picture is being drawn and one request waits";
     EXPECT_NE(refused.find("Retry-After: "), std::string::npos);
     released.set_value();
     for (auto& picture : pictures)
@@ -82,7 +82,8 @@ TEST_F(WebServerWorkers, RequestsThatWaitForADoorsWorkersAreAnsweredWhenItStops)
         start();
         auto pictures = asked_three_times("/slow");
         auto stopped = std::async(std::launch::async, [&] { server_.reset(); });
-        EXPECT_EQ(stopped.wait_for(busy_for), std::future_status::timeout) << "one is under way";
+        EXPECT_EQ(stopped.wait_for(busy_for), std::future_status::timeout)
+            << "one answer is under way";
         released.set_value();
         stopped.get();
         std::multiset<int> statuses;
@@ -153,7 +154,7 @@ TEST_F(WebServerWorkers, AnAnswerThatThrowsIsA503AndTheServerGoesOn) {
     }
     EXPECT_EQ(status_in(get("/")), 200);
     const std::scoped_lock lock(mutex);
-    EXPECT_EQ(trouble, "/var/lib/secret: trouble") << "for the log";
+    EXPECT_EQ(trouble, "/var/lib/secret: trouble") << "the log gets the error";
 }
 
 // 2026-11-28: a client got 503 if a grid was being computed for another client.

@@ -34,7 +34,7 @@ TEST(StationNews, AVolumeBeginsOnce) {
     EXPECT_EQ(names_of(book.hear("KTLX", SeenVolume{start}, start + 1min, start + 1min)), Names{});
     EXPECT_EQ(names_of(book.hear("KTLX", SeenVolume{start + 8s}, start + 1min, start + 1min)),
               Names{})
-        << "the time of its first radial";
+        << "the same volume, named by the time of its first radial";
     EXPECT_EQ(names_of(book.hear("KTLX", SeenVolume{start - 5min}, start + 2min, start + 2min)),
               Names{})
         << "an old volume that came late";
@@ -82,7 +82,7 @@ TEST(StationNews, WhatWasSilentBeforeTheServerBeganIsNoNews) {
     EXPECT_EQ(names_of(book.look(start + 2h)), Names{});
     EXPECT_TRUE(book.pages().at(0).is_silent && book.pages().at(1).is_silent);
     EXPECT_EQ(names_of(book.hear("KLOT", std::nullopt, start + 1h, start + 2h)), Names{})
-        << "what is an hour old is not speaking";
+        << "data of an hour ago do not show that the station sends now";
 }
 
 // 2026-11-28: a station with grids alone counted as silent from the server's start to its first new

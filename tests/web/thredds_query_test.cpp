@@ -69,7 +69,7 @@ TEST(ThreddsQuery, PlacesAreAPointOrABox) {
     const ThreddsQuery::Box across{30, 10, -170, 140};
     EXPECT_TRUE(is_inside(across, 13.5, 144.8)) << "Guam";
     EXPECT_TRUE(is_inside(across, 20, -175));
-    EXPECT_FALSE(is_inside(across, 21.1, -157.2)) << "Hawaii is east of it";
+    EXPECT_FALSE(is_inside(across, 21.1, -157.2)) << "Hawaii is east of the box";
     EXPECT_TRUE(is_inside({90, -90, 360, 0}, 0, -97));
     EXPECT_TRUE(is_inside({50, 20, 295, 230}, 35, -97)) << "degrees to the east from 0 to 360";
 }

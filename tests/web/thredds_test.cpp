@@ -129,7 +129,7 @@ TEST_F(Thredds, AStationThatItsFilesPlaceHasAPlace) {
     const std::string_view box = "?north=36&south=34&west=-98&east=-96&temporal=all";
     EXPECT_EQ(count_in(query(box), "urlPath"), 1U);
     door_ = std::make_unique<ThreddsDoor>(files(nullptr));
-    EXPECT_EQ(count_in(query(box), "urlPath"), 0U) << "without a grid nobody knows";
+    EXPECT_EQ(count_in(query(box), "urlPath"), 0U) << "without a grid the place is unknown";
 }
 
 // 2026-11-28: for each station without a place in the table, all stations were listed again.
@@ -161,7 +161,7 @@ TEST(ThreddsStations, AllPlacesAreAskedForAtOnce) {
     const auto files = std::make_shared<CountedFiles>();
     ThreddsDoor door(files);
     const std::string xml = body_of(asked(door, level2 + std::string{"/stations.xml"}));
-    EXPECT_EQ(count_in(xml, "<station "), 50U) << "the others have no place";
+    EXPECT_EQ(count_in(xml, "<station "), 50U) << "the other stations have no place";
     EXPECT_EQ(files->asked, 2);
 }
 
@@ -177,7 +177,7 @@ TEST_F(Thredds, AnAnswerHasWhatClientsResolve) {
     EXPECT_NE(xml.find("serviceType=\"HTTPServer\" "
                        "base=\"/thredds/fileServer/nexrad/level2/IDD/\""),
               xml.npos);
-    EXPECT_EQ(xml.find("OPENDAP"), xml.npos) << "it is not served";
+    EXPECT_EQ(xml.find("OPENDAP"), xml.npos) << "OPeNDAP is not served";
     EXPECT_NE(xml.find("<documentation>1 datasets found for query</documentation>"), xml.npos);
     EXPECT_NE(xml.find("<dataset name=\"KTLX20170101_030027_V06\" "), xml.npos);
     const std::string path = text_between(xml, "V06\" urlPath=\"", "\"");
@@ -201,7 +201,7 @@ TEST_F(Thredds, ALoneTimeGivesTheNearestFileOfEachStationWithinAnHour) {
     EXPECT_EQ(count_in(query("?stn=KTLX&time=2017-01-01T04:01:00Z"), "urlPath"), 0U);
     const std::string several =
         query("?stn=KTLX&stn=KABR&time=1991-07-20T16:00&time=2005-01-01&time=2005-01-01T00:10");
-    EXPECT_EQ(count_in(several, "urlPath"), 2U) << "no name comes twice";
+    EXPECT_EQ(count_in(several, "urlPath"), 2U) << "each name comes once";
 }
 
 TEST_F(Thredds, RangesAndPlacesAreHeard) {

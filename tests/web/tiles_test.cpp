@@ -140,7 +140,8 @@ TEST_F(Tiles, AreKeptAndHaveTags) {
     const auto kept = door_->answer_at_once(request_for(path));
     ASSERT_TRUE(kept);
     EXPECT_EQ(header_of(*kept, "ETag"), etag);
-    EXPECT_EQ(header_of(*kept, "Cache-Control"), "no-cache") << "latest is another one soon";
+    EXPECT_EQ(header_of(*kept, "Cache-Control"), "no-cache")
+        << "\"latest\" soon means another grid";
     EXPECT_EQ(get(path, {{"If-None-Match", etag}}).status, 304u);
     const std::string named = std::string("/tiles/KTLX/composite/") + PicturedStorm::time;
     EXPECT_EQ(header_of(get(named + "/8/58/100.png"), "ETag"), etag) << "the same bytes";

@@ -52,9 +52,10 @@ TEST_F(Viewer, ItsPolicyLetsItAskThisServerAlone) {
         EXPECT_EQ(header_of(answer, "Cross-Origin-Embedder-Policy"), "require-corp");
     }
     const std::string page = body_of(get("/view/"));
-    EXPECT_EQ(page.find("http:"), std::string::npos) << "no other server is named";
+    EXPECT_EQ(page.find("http:"), std::string::npos) << "the page names no other server";
     EXPECT_EQ(page.find("https:"), std::string::npos);
-    EXPECT_EQ(page.find("<style"), std::string::npos) << "the policy would refuse it";
+    EXPECT_EQ(page.find("<style"), std::string::npos)
+        << "the policy would refuse a style in the page";
     EXPECT_EQ(page.find("<script>"), std::string::npos);
 }
 

@@ -185,7 +185,7 @@ TEST_F(Volumes, AVolumeThatGrowsIsGivenWithWhatIsThere) {
     };
     EXPECT_TRUE(take(10));
     EXPECT_TRUE(take(20));
-    EXPECT_FALSE(take(1000)) << "its last chunk came";
+    EXPECT_FALSE(take(1000)) << "the last chunk of the volume has come";
 }
 
 TEST_F(Volumes, JoinedChunksAreKeptWithinBounds) {

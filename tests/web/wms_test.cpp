@@ -174,7 +174,8 @@ TEST_F(Wms, StylesAreColorTablesAndOptionsApply) {
     EXPECT_NE(body_of(get(rest + "nws")), usual);
     EXPECT_EQ(body_of(get(rest + "nws")), body_of(get(rest + "&colors=nws")));
     EXPECT_NE(body_of(get(rest + "&smooth=cubic")), usual);
-    EXPECT_EQ(body_of(get(rest + "&height-km=5")), usual) << "a composite has no height";
+    EXPECT_EQ(body_of(get(rest + "&height-km=5")), usual)
+        << "height-km has no effect on a composite";
     const Answer unknown = get(rest + "pink");
     EXPECT_EQ(unknown.status, 400u);
     EXPECT_THAT(body_of(unknown), HasSubstr("code=\"StyleNotDefined\""));

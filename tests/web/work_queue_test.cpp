@@ -49,7 +49,8 @@ TEST_F(SharedQueue, AClientThatAsksForLessGetsAPlaceAndTheNextTurn) {
         ASSERT_TRUE(ask("greedy", name));
     EXPECT_FALSE(ask("greedy", "5"));
     EXPECT_TRUE(ask("modest", "a"));
-    EXPECT_EQ(refused_, (std::vector<std::string>{"4"})) << "the newest of the other client";
+    EXPECT_EQ(refused_, (std::vector<std::string>{"4"}))
+        << "the newest request of the other client";
     go_on();
     EXPECT_EQ(served_, (std::vector<std::string>{"a", "1", "2", "3"}));
 }

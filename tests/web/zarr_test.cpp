@@ -246,8 +246,8 @@ TEST_F(ZarrTest, DamagedNumbersAreAnErrorAndNotNewNumbers) {
     const Answer answer = asked(again, "/zarr/KBGM/REF/time/0");
     EXPECT_EQ(answer.status, 500u);
     EXPECT_EQ(body_of(answer).find(state_.path().native()), std::string::npos)
-        << "paths of the server are nobody's business";
-    EXPECT_NE(answer.trouble.find(path.native()), std::string::npos) << "but the log's";
+        << "the client does not learn paths of the server";
+    EXPECT_NE(answer.trouble.find(path.native()), std::string::npos) << "the log has the path";
 }
 
 // The server must not give numbers that it would not know after the next start.
