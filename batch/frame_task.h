@@ -13,7 +13,7 @@
 namespace stormcellar::batch {
 
 // Checks that the tasks [first, end) are done and that the cache has their grids. Errors: unmet,
-// naming the first task without a record; those of check_stands(), and of opening the cache.
+// naming the first task without a record; errors of check_stands() and of opening the cache.
 [[nodiscard]] Status check_needs(const Plan& plan, std::size_t first, std::size_t end);
 
 [[nodiscard]] Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task,

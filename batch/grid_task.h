@@ -1,8 +1,8 @@
 // batch/grid_task.h -- grids the files of one station and day.
 //
 // The daemon's own chain (pipeline/ingest/ingest.h) grids the files one after the other. If a task
-// was killed, its next run begins with the last file that has a grid, because that file may lack
-// the grid of another moment. A bad file is left out with its reason. The chain's catalog is in the
+// was killed, its next run begins with the last file that has a grid, because the file may not have
+// grids of all moments yet. A bad file is left out with its reason. The chain's catalog is in the
 // scratch directory. The task puts no lock and no database on the cache, so other writers may be at
 // work there.
 //

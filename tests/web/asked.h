@@ -10,7 +10,8 @@ namespace stormcellar::web {
 
 // Returns a request for a path with a query, as the server would pass it on.
 [[nodiscard]] Request request_for(std::string_view target, Fields headers = {});
-// Asks as the server does: answer_at_once(), and answer() if that gives none.
+// Calls the door as the server does: calls answer_at_once(), and then answer() if answer_at_once()
+// returns none.
 [[nodiscard]] Answer asked(Door& door, std::string_view target, Fields headers = {});
 [[nodiscard]] std::string body_of(const Answer& answer);
 // Returns the first header of this name; empty if there is none.

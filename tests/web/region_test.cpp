@@ -146,8 +146,8 @@ TEST_F(Region, TakesVolumesNearTheInstantAlone) {
     EXPECT_EQ(late.error().code, ErrorCode::not_found);
 }
 
-// An echo drifts by 20 m/s in two volumes with middles at 12:02 and 12:08. At 12:05 it is halfway;
-// one volume alone would show it 3.6 km aside.
+// Two volumes, with middles at 12:02 and 12:08, show an echo that moves at 20 m/s. At 12:05 the
+// echo is halfway between; one volume alone would show it 3.6 km from there.
 TEST_F(Region, EchoIsMovedToTheInstant) {
     const std::vector<grid::Blob> blobs = {
         {-60, -40, 25, 55, 20, 5}, {30, 50, 20, 50, 20, 5}, {60, -50, 30, 45, 20, 5}};

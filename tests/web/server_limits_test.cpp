@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Larger than the buffers of both sockets.
+// Size of an answer that does not fit into the buffers of both sockets.
 constexpr std::size_t large_bytes = 64 << 20;
 Text large_text() {
     return text_of(std::string(large_bytes, 'x'));

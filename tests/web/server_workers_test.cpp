@@ -22,7 +22,8 @@ using namespace std::chrono_literals;
 
 class WebServerWorkers : public WebServer {
   protected:
-    // Sends requests of three clients, of which one is being answered. Returns their answers.
+    // Sends three requests, and waits until one is being answered and two wait. Returns the
+    // answers.
     [[nodiscard]] std::vector<std::future<std::string>> asked_three_times(const char* target) {
         std::vector<std::future<std::string>> answers;
         for (int i = 0; i < 3; ++i)

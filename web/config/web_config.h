@@ -70,10 +70,11 @@ struct PublicAddress {
 struct ConfiguredCollection {
     std::string path;  // "nexrad/level2/IDD"
     std::string title;
-    // Names of products of Level III, such as N0Q. Empty: Level II, from the catalog.
+    // Names of products of Level III, such as N0Q. If empty, the data set has the Level II files of
+    // the catalog.
     std::vector<std::string> variables;
-    // A directory of files of Level III, named Level3_FTG_N0Q_20150615_1201.nids. Empty: the data
-    // set is described, but has no files.
+    // A directory of files of Level III, named Level3_FTG_N0Q_20150615_1201.nids. If empty, the
+    // data set is described, but has no files.
     std::filesystem::path files;
     std::vector<std::string> stations;  // to list; empty: all that have files
     bool operator==(const ConfiguredCollection&) const = default;

@@ -20,8 +20,9 @@ struct WebSetup {
     std::filesystem::path state = "/var/lib/stormcellar";
     std::filesystem::path catalog = "/var/lib/stormcellar/catalog";  // empty: none
     std::filesystem::path cache = "/var/cache/stormcellar";          // empty: none
-    // Directory for the numbers of times (web/data/zarr/time_numbers.h). Empty: in memory.
-    // stormcellard.toml has no key for it; stormcellar-web takes $STATE_DIRECTORY/times.
+    // Directory for the numbers of times (web/data/zarr/time_numbers.h). If empty, the numbers are
+    // in memory only. stormcellard.toml has no key for it; stormcellar-web takes
+    // $STATE_DIRECTORY/times.
     std::filesystem::path numbers;
     std::vector<AddedStation> added_stations;
     std::vector<ServedLoop> loops;

@@ -39,9 +39,9 @@ class ConnectionWatch {
     // with streams do not count; their doors limit them.
     [[nodiscard]] bool may_open(const std::string& client) const;
     // Call when a connection has opened. If three quarters of the connections are open, the watch
-    // ends the one that has waited longest for a request. While seven eighths are open, it also
-    // ends bodies: first those below twenty times the least rate, the client with most connections
-    // first. Streams do not count.
+    // ends the connection that has waited longest for a request. While seven eighths are open, it
+    // also ends bodies: first those below twenty times the least rate, the client with most
+    // connections first. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
@@ -54,7 +54,8 @@ class ConnectionWatch {
     // bodies that hold memory, but none that its client takes at twenty times the least rate.
     void memory_is_short() { is_memory_short_ = true; }
     [[nodiscard]] std::size_t count() const;  // including streams
-    // Returns true if no answer is being made or sent, and no request may be about to be read.
+    // Returns true if no answer is being made or sent, and no new connection may be about to send
+    // its first request.
     [[nodiscard]] bool is_idle() const;
 
   private:

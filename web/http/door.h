@@ -21,15 +21,15 @@ class Door {
     virtual ~Door() = default;
     // Returns the answer if that takes well under a millisecond, because it is kept in memory or
     // only a file must be opened. The thread that serves all connections calls this function. If it
-    // returns none, a worker makes the answer, with answer_soon() if the door has long workers,
-    // else with answer().
+    // returns none, a worker makes the answer, with answer_soon() if long_workers() is set, else
+    // with answer().
     virtual std::optional<Answer> answer_at_once(const Request& /*request*/) {
         return std::nullopt;
     }
     // Makes the answer, however long that takes. If it throws, the client gets 503.
     virtual Answer answer(const Request& request) = 0;
-    // Returns the answer, or none if computing it takes long; a long worker then calls answer().
-    // The server calls answer_soon() only if the door has long workers.
+    // Returns the answer, or none if computing it takes long; a worker of long_workers() then calls
+    // answer(). The server calls answer_soon() only if long_workers() is set.
     virtual std::optional<Answer> answer_soon(const Request& request) { return answer(request); }
 
     // Gives a door with slow answers its own workers, which several doors may share, so that the

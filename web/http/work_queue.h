@@ -47,7 +47,7 @@ class WorkQueue {
     struct Client {
         std::deque<Work> waiting;
         std::size_t working = 0;
-        std::uint64_t last_turn = 0;  // end of its last turn, or its coming, counted by turns_
+        std::uint64_t last_turn = 0;  // turns_ when it came, or when its last turn ended
         [[nodiscard]] std::size_t requests() const { return waiting.size() + working; }
     };
     using Clients = std::map<std::string, Client>;

@@ -1,7 +1,7 @@
 // web/data/grids/cache_tree.h -- the directories of a cache, as a cache watch knows them.
 //
-// It reads directories, sets watches on them, and reports grids that came, went or changed. It
-// follows no symbolic links below the cache's directory, as the store does.
+// A CacheTree reads directories, sets watches on them, and reports grids that came, went or
+// changed. Like the store, it follows no symbolic links below the cache's directory.
 //
 // Threads   One thread at a time.
 // Errors    A directory that cannot be read keeps its known contents; see is_blind().

@@ -1,12 +1,12 @@
 // web/data/grids/cache_watch.h -- watches the grids of a cache.
 //
 // The watch reads the directories of the cache once and then follows them by inotify. It reports
-// each grid that exists at the start as having come. Changes are reported in their order, by the
-// thread that notices them: the watch's own, or a caller of catch_up(). If the cache does not exist
-// (yet) or vanishes, the watch looks for it once a second. The kernel does not report all changes
-// (no inotify watch is left, or another machine writes). So the watch also compares the times of
-// directories, once a minute, or every 2 seconds if it could not watch all of them. Then it may
-// report an unchanged grid as changed.
+// each grid that exists at the start as having come. The watch's own thread or a caller of
+// catch_up(), whichever notices a change first, reports the change. Changes are reported in their
+// order. If the cache does not exist (yet) or vanishes, the watch looks for it once a second. The
+// kernel may not report all changes, because no inotify watch is left or another machine writes. So
+// the watch also compares the times of directories, once a minute, or every 2 seconds if it could
+// not watch all directories. By this comparison the watch may report an unchanged grid as changed.
 //
 // Threads   Many threads may use it. One thread at a time calls the listener, under a lock: it must
 //           be quick and must not call the watch.

@@ -27,7 +27,7 @@ inline constexpr int zstd_level = 5;
 [[nodiscard]] Result<std::string> compressed_once(std::string_view bytes, Coding coding);
 inline constexpr int gzip_once_level = 9;
 inline constexpr int zstd_once_level = 19;
-// Compress at the given level.
+// Both compress the bytes at the given level.
 [[nodiscard]] Result<std::string> gzipped(std::string_view bytes, int level);
 [[nodiscard]] Result<std::string> zstd_packed(std::string_view bytes, int level);
 

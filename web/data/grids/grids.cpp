@@ -20,7 +20,7 @@
 
 namespace stormcellar::web {
 
-// Distinguishes a file from a later file of the same name.
+// Identifies a file. A later file of the same name differs in a field.
 struct GridFileStamp {
     std::uint64_t device = 0, inode = 0, size = 0;
     std::int64_t modified_ns = 0;

@@ -67,8 +67,8 @@ struct RegionPlan {
 // instants between two volumes that are close enough to move the site.
 [[nodiscard]] std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan);
 
-// The volumes of a site before and after an instant. If one of them is null, the other is used
-// unmoved.
+// The volumes of a site before and after an instant. If one volume is null, the echo of the other
+// volume is not moved.
 struct RegionSite {
     std::string site;
     std::shared_ptr<const OpenGrid> before, after;

@@ -5,7 +5,7 @@
 // rows, until neither exceeds 32. A cell of a level represents the four cells that it covers (fewer
 // at an edge of odd length):
 //   state   a value if any of the four has one; else range folded if any is; else no echo if any
-//           was seen; else not seen. So small scales hide no echo.
+//           was seen; else not seen. By this rule, small scales hide no echo.
 //   value   VEL: the value farthest from 0. ZDR, RHO, CFP: the mean. PHI, whose values are on a
 //           circle: the value of the first cell with one, from the southwest. Other moments, and
 //           products in other units than their moment's: the largest value.

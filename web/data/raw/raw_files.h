@@ -4,8 +4,9 @@
 // Volumes have the names of the public bucket, STATION, start and version, as in
 // KTLX20220317_000842_V06, whatever the name of the dropped file (web/data/raw/raw_name.h). open()
 // also finds a volume by the name of its file. A volume that came as chunks is served as one file:
-// all chunks, in the order of their numbers. Of several files with one name, open() prefers a file
-// that exists, then one that was decoded, then a complete one, then the one that was sent last.
+// all chunks, in the order of their numbers. If several files have one name, open() prefers files
+// that exist; among these, files that were decoded; then complete files; then the file that was
+// sent last.
 //
 // Volumes inside tar and zip archives are left out, because reading one means unpacking everything
 // before it.
@@ -46,8 +47,8 @@ struct RawStation {
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
 };
 
-// Returns the facts about a station. `grids` give the place of a station that no table has; null:
-// it has no place.
+// Returns the facts about a station. `grids` give the place of a station that no table has. If
+// `grids` is null, such a station has no place.
 [[nodiscard]] RawStation raw_station(std::string_view icao, Grids* grids);
 
 struct RawVolume {
@@ -99,9 +100,10 @@ struct RawFilesOptions {
     std::filesystem::path catalog;
     // The same catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
-    // Gives the places of stations that no table has. Null: they have no place.
+    // Gives the places of stations that no table has. If null, such stations have no place.
     std::shared_ptr<Grids> grids = nullptr;
-    // Directory for joined chunks, in nameless files. Empty: the system's temporary directory.
+    // Directory for joined chunks, in nameless files. If empty, the system's temporary directory is
+    // used.
     std::filesystem::path scratch;
     std::size_t most_joined = 16;  // joined volumes kept; each has at most 1 GiB, usually 10 MB
     std::uint64_t most_joined_bytes = std::uint64_t{256} << 20;  // of the joined volumes

@@ -1,9 +1,9 @@
 // web/doors/s3/keys.h -- raw volumes in the order of their keys in the public bucket,
 // YYYY/MM/DD/STATION/NAME.
 //
-// Keys sort by day, then by station, then by time. A walk reads one station and one day at a time
-// through the catalog's index; at the end of a day it asks all stations for their next volume. A
-// walk has an end bound, so a list of one station's day reads nothing else.
+// Keys are in the order of days, then of stations, then of times. A walk reads one station and one
+// day at a time through the catalog's index; at the end of a day it asks all stations for their
+// next volume. A walk has an end bound, so a list of one station's day reads nothing else.
 //
 // Threads   One thread at a time.
 // Errors    Those of RawFiles.

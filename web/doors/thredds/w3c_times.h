@@ -1,8 +1,8 @@
 // web/doors/thredds/w3c_times.h -- reads dates and durations as THREDDS clients write them.
 //
 // Dates have the forms of ISO 8601 in W3C's note on date and time formats, in any precision from
-// the year on, followed by "Z", an offset or nothing (UTC); "present" is a date, too. Durations are
-// those of W3C XML Schema ("P1DT12H"), or a number and a unit, as in "14 days".
+// the year on, followed by "Z", an offset or nothing (UTC); "present" is a date, too. A duration
+// has the form of W3C XML Schema ("P1DT12H"), or is a number and a unit, as in "14 days".
 //
 // Units     Milliseconds.
 // Threads   Pure functions.

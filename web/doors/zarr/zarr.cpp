@@ -166,8 +166,8 @@ std::optional<std::vector<std::size_t>> ZarrDoor::place_in(
     return place;
 }
 
-// Returns true if the grid has the same cells as the newest grid. Returns false also if the newest
-// grid is not open, because opening it would take long.
+// Returns true if the grid has the same cells as the newest grid. Also returns false if the newest
+// grid is not open, because opening that grid would take long.
 bool ZarrDoor::has_cells_of_newest(const Named& named, const OpenGrid& grid) const {
     const auto time = sources_.grids->newest(named.domain, named.moment);
     if (!time) return false;
