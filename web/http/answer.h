@@ -31,8 +31,8 @@ using Text = std::shared_ptr<const std::string>;  // bytes in memory
 struct FileSlice {
     std::shared_ptr<const Descriptor> file;
     std::uint64_t offset = 0, size = 0;
-    // The size of the whole file if it has no name, and so takes room only while it is open; else
-    // 0.
+    // The size of the whole file if the file has no name, because such a file takes room while it
+    // is open; else 0.
     std::uint64_t memory_bytes = 0;
 };
 

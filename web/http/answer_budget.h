@@ -4,9 +4,9 @@
 // answers share it. Answers below 64 KiB are not counted, so they pass even when the budget is
 // spent. One client may hold at most half of the room that other clients leave, or one larger
 // answer. An answer beyond the whole budget passes if nothing else is held. For 10 s after the
-// budget had no room, clients that hold something get nothing more. Otherwise clients whose slow
-// answers were cut off would ask again and share the objects of others, and nothing would become
-// free.
+// budget had no room, clients that hold something get nothing more. Otherwise a client whose slow
+// answer was cut off could ask again and share an object that another client holds, and no object
+// would become free.
 //
 // Threads   Many threads may use it.
 #pragma once

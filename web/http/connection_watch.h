@@ -39,9 +39,9 @@ class ConnectionWatch {
     // with streams do not count; their doors limit them.
     [[nodiscard]] bool may_open(const std::string& client) const;
     // Call when a connection has opened. If three quarters of the connections are open, the watch
-    // ends the connection that has waited longest for a request. While seven eighths are open, it
-    // also ends bodies: first those below twenty times the least rate, the client with most
-    // connections first. Streams do not count.
+    // ends the connection that has waited longest for a request. While seven eighths are open, the
+    // watch also ends connections that are sending a body: first bodies below twenty times the
+    // least rate; among these, a body of the client with most connections. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
@@ -50,8 +50,9 @@ class ConnectionWatch {
     void sending_body(MHD_Connection* connection, std::uint64_t bytes, bool holds_memory = false);
     void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
-    // Call when an answer was refused for want of memory. The watch ends up to 16 of the slowest
-    // bodies that hold memory, but none that its client takes at twenty times the least rate.
+    // Call when an answer was refused for want of memory. The watch ends the connections of up to
+    // 16 bodies that hold memory, the slowest first, but of no body whose client takes twenty times
+    // the least rate.
     void memory_is_short() { is_memory_short_ = true; }
     [[nodiscard]] std::size_t count() const;  // including streams
     // Returns true if no answer is being made or sent, and no new connection may be about to send

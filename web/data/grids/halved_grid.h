@@ -2,7 +2,8 @@
 //
 // A cell of the halved grid represents the four cells that it covers on its level (fewer at the
 // edge of a grid with an odd number of columns or rows). Levels are never halved, so heights stay
-// exact. Cells that are not seen do not count. The other cells are joined by
+// exact. Cells that are not seen do not count. If all four are not seen, so is the new cell. The
+// other cells are joined by
 //   maximum  the largest value if there is one (for VEL, which has a sign, the value farthest
 //            from 0); else range folded if one cell is, so that such air never looks clear;
 //            else no echo
@@ -31,8 +32,8 @@ enum class HalvedBy : std::uint32_t { maximum = 1, mean = 2 };  // numbers of th
 
 inline constexpr int most_halvings = 6;
 
-// Returns the spec of a halved grid. The new cells cover the old ones exactly, so the offset may be
-// other than a half.
+// Returns the spec of a halved grid. Its columns are in the middle of the pairs of columns that
+// they cover, so the offset from the center may be any fraction of a cell.
 [[nodiscard]] grid::GridSpec halved_spec(const grid::GridSpec& spec);
 
 // Returns the grid halved `times` times. Errors: bad_argument for `times` outside 1 to

@@ -43,7 +43,7 @@ namespace stormcellar::web {
 struct RawStation {
     std::string icao;
     std::string name, state;  // empty: unknown
-    bool has_place = false;   // the following are known
+    bool has_place = false;   // the three fields below are known
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
 };
 
@@ -57,7 +57,7 @@ struct RawVolume {
     UtcTime start{};
     bool grows = false;        // more will come; size and tag are as of now
     bool is_complete = false;  // decoded, and nothing is missing
-    // The following are set by open(), and by list() if RawRange::with_sizes is set.
+    // The fields below are set by open(), and by list() if RawRange::with_sizes is set.
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
     // list() leaves the tag of a growing file empty.

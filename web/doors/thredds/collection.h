@@ -23,7 +23,7 @@ namespace stormcellar::web {
 struct ThreddsStation {
     std::string id;
     std::string name, state, country;
-    bool has_place = false;  // the following are known
+    bool has_place = false;  // the fields below are known
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
 };
 

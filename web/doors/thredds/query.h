@@ -28,13 +28,13 @@ struct ThreddsQuery {
     struct Box {
         double north_deg = 0, south_deg = 0, east_deg = 0, west_deg = 0;
     };
-    // One of these four is set.
+    // One of the following four fields is set.
     std::vector<std::string> stations;
     bool all_stations = false;
     std::optional<Point> near;
     std::optional<Box> box;
 
-    // Either some times, or a range; the range of temporal=all has no ends.
+    // Either `times`, or the range from `from` to `to`; with temporal=all the range has no ends.
     std::vector<UtcTime> times;
     std::optional<UtcTime> from, to;
 
