@@ -4,8 +4,8 @@
 // all records of a directory exist, the directory also has their sum (batch/check.h).
 // docs/guides/batch.md lists the fields.
 //
-// A record appears by rename. If two runs of a task overlap, the later record stays; both runs make
-// the same grids.
+// A record appears by rename. If two runs of a task overlap, the later record replaces the earlier
+// one; both runs make the same grids.
 //
 // Units     Seconds, bytes; times are UTC.
 // Threads   Functions without state.

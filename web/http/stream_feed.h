@@ -40,7 +40,7 @@ class StreamFeed {
     MHD_Connection* const connection_;
     Mutex mutex_;
     bool is_suspended_ STORMCELLAR_GUARDED_BY(mutex_) = false;
-    // The stream announced more since the last read began.
+    // True if the stream announced more after the last read began.
     bool was_told_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     bool has_ended_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     bool has_left_ STORMCELLAR_GUARDED_BY(mutex_) = false;

@@ -1,8 +1,8 @@
 // web/data/events/catalog_changes.h -- finds the stations whose databases were written.
 //
-// It compares sizes and times of the files in the catalog's directory (STATION.sqlite and its
-// write-ahead log). This takes two system calls a station, opens no file, and needs no inotify
-// watch.
+// CatalogChanges compares sizes and times of the files in the catalog's directory (STATION.sqlite
+// and its write-ahead log). This takes two system calls a station, opens no file, and needs no
+// inotify watch.
 //
 // Threads   One thread at a time.
 // Errors    None. A directory that does not exist or cannot be read has no stations.

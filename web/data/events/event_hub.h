@@ -1,9 +1,9 @@
 // web/data/events/event_hub.h -- numbers events, keeps the newest, and passes them to listeners.
 //
 // Each event is formatted once; all listeners share the text. A listener keeps only the number of
-// the next event that it has not read, so a slow listener takes no memory. Once that event has left
-// the ring, the listener gets a reset. The hub finds listeners by the stations or domains that they
-// ask for and touches no others.
+// the next event that it has not read, so a slow listener takes no memory. Once this event has left
+// the ring, the listener gets a reset. The hub has an index of listeners by station and domain, so
+// an event touches only listeners that asked for its station or domain, or for all.
 //
 // Threads   Many threads may use hub and listeners; each listener is read by one thread at a time.
 //           The hub calls a listener's `wake` without holding a lock, and not again until the

@@ -2,8 +2,8 @@
 //
 // A cell of the halved grid represents the four cells that it covers on its level (fewer at the
 // edge of a grid with an odd number of columns or rows). Levels are never halved, so heights stay
-// exact. Cells that are not seen do not count. If all four are not seen, so is the new cell. The
-// other cells are joined by
+// exact. Cells that are not seen do not count. If all four are not seen, so is the new cell. Cells
+// that are seen are joined by
 //   maximum  the largest value if there is one (for VEL, which has a sign, the value farthest
 //            from 0); else range folded if one cell is, so that such air never looks clear;
 //            else no echo

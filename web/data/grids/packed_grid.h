@@ -136,7 +136,7 @@ static_assert(offsetof(PackedBrick, min_code) == 4);
 static_assert(offsetof(PackedBrick, max_code) == 6);
 static_assert(offsetof(PackedBrick, at) == 8);
 
-// The grid to pack, and facts about it for the header.
+// The grid to pack, and facts about the grid for the header.
 struct PackedSource {
     const cache::GridDescription* description = nullptr;  // has the spec of `view`
     grid::BrickView view;

@@ -22,7 +22,7 @@ namespace stormcellar::web {
 
 struct SweepPicture {
     std::string domain;
-    std::string grid_id;  // so that a growing volume is drawn again
+    std::string grid_id;  // part of the key, so that a growing volume is drawn again
     catalog::CatalogEntry volume;
     std::uint64_t chunks = 0;  // changes when more chunks come
     FrameStyle style;

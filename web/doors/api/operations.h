@@ -30,8 +30,8 @@ struct ApiOperation {
     std::string_view content_type;
     std::span<const unsigned> errors;
     Answer (*answer)(const ApiCall& call);
-    // Returns the answer within microseconds if it is in memory. Null for operations that keep no
-    // answers.
+    // Returns the answer within microseconds if it is in memory. The pointer is null for operations
+    // that keep no answers.
     std::optional<Answer> (*answer_at_once)(const ApiCall& call) = nullptr;
 };
 

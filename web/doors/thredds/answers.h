@@ -1,7 +1,7 @@
 // web/doors/thredds/answers.h -- the catalogs of the THREDDS radar server, as XML.
 //
 // The format is InvCatalog 1.0. Bases of services are paths without scheme and host, so a client
-// that reached the server by https stays there.
+// that reached the server by https keeps using https.
 //
 // Threads   Pure functions.
 #pragma once

@@ -32,7 +32,7 @@ struct ThreddsVariable {
     std::string vocabulary_name;  // in the vocabulary DIF
 };
 
-// The files of a station and, if the data set needs one, of a variable.
+// Selects the files of a station or, if the data set needs variables, of a station and a variable.
 struct ThreddsSeries {
     std::string_view station, variable;
 };
