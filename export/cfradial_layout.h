@@ -7,8 +7,8 @@
 // a modern volume is one field on one axis.
 //   names   The kind of a moment that most radials have is named REF; the others are REF_2, REF_3,
 //           .... Axes are range, range_2, ... in the order in which the fields need them.
-//   order   The order of the moments (REF VEL SW ZDR PHI RHO CFP), then by number of radials, then
-//           the order in the file.
+//   order   Fields are sorted by moment (REF VEL SW ZDR PHI RHO CFP), then by number of radials,
+//           then by their first place in the file.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -44,7 +44,7 @@ struct CfradialField {
     // One element for each sweep of the volume; null if the sweep has no gates of this kind. At
     // least one element is not null.
     std::vector<const level2::SweepMoment*> sweeps;
-    const level2::SweepMoment* kind = nullptr;  // the first that is not null
+    const level2::SweepMoment* kind = nullptr;  // the first of `sweeps` that is not null
     std::size_t radials = 0;                    // radials that have gates of this kind
 };
 
@@ -61,9 +61,9 @@ inline constexpr std::size_t most_cfradial_fields = 64;
 // Returns the place of a moment's gates on an axis of the layout, which must fit them.
 [[nodiscard]] GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment);
 
-// Makes the layout, which refers to the volume; the volume must outlive it. Errors: bad_argument
-// for a sweep without radials, or whose arrays do not fit each other; unsupported for more than
-// most_cfradial_fields fields.
+// Makes the layout, which refers to the volume; the volume must outlive the layout. Errors:
+// bad_argument for a sweep without radials, or whose arrays do not fit each other; unsupported for
+// more than most_cfradial_fields fields.
 [[nodiscard]] Result<CfradialLayout> lay_out(const level2::Volume& volume, RangeAxes ranges);
 
 }  // namespace stormcellar::netcdf

@@ -26,7 +26,8 @@ class NetcdfBuilder {
     NetcdfBuilder& operator=(const NetcdfBuilder&) = delete;
     ~NetcdfBuilder();
 
-    // Stands for the file, whose attributes are the global ones, and also means "no variable".
+    // A number for the file itself, whose attributes are the global ones. It also means "no
+    // variable".
     static constexpr int file = -1;
 
     // Makes a dimension. A size of 0 makes an unlimited dimension with nothing in it yet, as in

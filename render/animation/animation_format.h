@@ -48,11 +48,11 @@ inline constexpr const char* video_module_entry = "stormcellar_make_video_encode
 [[nodiscard]] Status check_frame(const Image& frame, int first_width, int first_height,
                                  int largest_side);
 
-// Returns when frame `index` begins, in ticks. It is rounded from the exact time, so that errors do
-// not add up.
+// Returns when frame `index` begins, in ticks. Each time is rounded from the exact time, so that
+// errors do not add up.
 [[nodiscard]] std::int64_t frame_start(const AnimationOptions& options, std::size_t index,
                                        double ticks_per_second);
-// Returns how long the frame stays, including the dwell of the last one.
+// Returns how long the frame stays, in ticks. The last frame includes its dwell.
 [[nodiscard]] std::int64_t frame_duration(const AnimationOptions& options, std::size_t index,
                                           bool last, double ticks_per_second);
 

@@ -1,12 +1,12 @@
 // render/animation/palette.h -- one palette for all frames of a loop.
 //
 // A histogram collects the colors of all frames, a palette is made from it, and a map turns pixels
-// into entries. If a loop has no more colors than the palette, it gets exactly these. Otherwise
-// variance-based splitting (Wan, Wong and Prusinkiewicz 1988) groups cells of 4x4x4 colors, and two
-// rounds of k-means (Lloyd 1982) improve the groups. If one color makes up half of a group, the
-// group has that color, so that background, text and legend stay exact. There is no dithering,
-// because it would crawl from frame to frame. Alpha is ignored. The same input gives the same
-// palette.
+// into entries. If a loop has no more colors than fit into the palette, the palette holds exactly
+// these colors. Otherwise variance-based splitting (Wan, Wong and Prusinkiewicz 1988) groups cells
+// of 4x4x4 colors, and two rounds of k-means (Lloyd 1982) improve the groups. If one color makes up
+// half of a group, the group has that color, so that background, text and legend stay exact. There
+// is no dithering, because its dots would move from frame to frame. Alpha is ignored. The same
+// input gives the same palette.
 //
 // Threads   One thread at a time for each object.
 #pragma once

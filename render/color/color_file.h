@@ -2,7 +2,8 @@
 //
 // TOML (docs/rendering.md has an example):
 //   name, unit, moment = "REF"   All optional. The moment sets the unit and the opacity.
-//   stepped = true|false         Classes, or (the default) colors that blend to the next point's.
+//   stepped = true|false         Classes, or, by default, colors that blend to the color of the
+//                                next point.
 //   end                          Where the color bar ends. range_folded: the color of that state.
 //   [[point]]                    At least 2 (1 if stepped), with rising values:
 //     value, color = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
@@ -23,7 +24,7 @@
 //   SolidColor: value r g b, SolidColor4: value r g b a   Does not blend and ignores a second
 //                                                         color.
 //   RF: r g b [a]   Range folded.
-//   ND: r g b [a]   Read and not used: cells without a value are drawn by their state.
+//   ND: r g b [a]   Ignored, because cells without a value are drawn by their state.
 // Entries may rise or fall; two entries at one value make an edge.
 //
 // Source    The color table specification of the GRLevelX programs (grlevelx.com, "Color Table File
@@ -57,8 +58,8 @@ inline constexpr double greatest_color_value = 1e6;
 [[nodiscard]] Result<ColorTable> colors_from(const std::string& name_or_file);
 
 // Returns the extinction for a table whose stops are set: default_extinction() if the table is for
-// a moment, else a rise from 0.02 to 0.5 per km over the table; both times the alpha of the table's
-// colors.
+// a moment, else a rise from 0.02 to 0.5 per km over the table; either is multiplied by the alpha
+// of the table's colors.
 [[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colors(const ColorTable& table,
                                                                 bool of_moment);
 

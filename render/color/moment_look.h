@@ -10,10 +10,11 @@
 // Velocity is teal toward the radar and red away from it, lighter with speed. The other tables,
 // except the circle of phases, become lighter with the value.
 //
-// For every kind of color vision two values that are far enough apart differ by least_smooth_step
-// or more (CIEDE2000): 15 dBZ, 10 m/s up to 40 m/s, 4 m/s of spectrum width, 2 dB of ZDR, 0.1 of
-// RHO above 0.7, 60 degrees, 15 dB (tests/render/safe_tables_test.cpp). The stepped safe tables
-// have this difference between neighboring classes, which are narrower.
+// For every kind of color vision the colors of two values differ by least_smooth_step or more
+// (CIEDE2000) if the values are this far apart: 15 dBZ, 10 m/s of velocity up to 40 m/s, 4 m/s of
+// spectrum width, 2 dB of ZDR, 0.1 of RHO above 0.7, 60 degrees of PHI, 15 dB of CFP
+// (tests/render/safe_tables_test.cpp). The stepped safe tables have this difference between
+// neighboring classes, which are narrower.
 //
 // Threads   Pure.
 #pragma once

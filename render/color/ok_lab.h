@@ -27,7 +27,8 @@ struct OkLab {
             0.0259040371F * l + 0.7827717662F * m - 0.8086757660F * s};
 }
 
-// Converts back. The result has numbers outside 0..1 if no display shows the color.
+// Converts OKLab to linear sRGB. The result has numbers outside 0..1 if sRGB does not contain the
+// color.
 [[nodiscard]] inline LinearRgb linear_of(const OkLab& color) {
     const float l = color.l + 0.3963377774F * color.a + 0.2158037573F * color.b;
     const float m = color.l - 0.1055613458F * color.a - 0.0638541728F * color.b;

@@ -31,7 +31,7 @@ inline constexpr auto pal_products = std::to_array<PalProduct>({
     {"DVL", {}, "kg/m2"},
 });
 
-// A unit of .pal files, and its factor: how many of it make one of our units.
+// A unit of .pal files, and the number of these units that make one of ours.
 struct PalUnit {
     std::string_view word = {};
     double per_ours = 1;

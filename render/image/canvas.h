@@ -70,8 +70,8 @@ class Canvas {
     void clip(const std::vector<Point>& polygon);
     void clip_both(const std::vector<Point>& one, const std::vector<Point>& other);
     void unclip();
-    // Draws a text that starts at the left end of its baseline. With a halo color of alpha > 0 it
-    // gets an outline, so that it is readable on anything.
+    // Draws a text that starts at the left end of its baseline. If the halo color has an alpha
+    // above 0, the letters get an outline, so that they are readable on anything.
     void text(const Fonts& fonts, std::string_view text, Point left_baseline, double size,
               bool bold, Rgba8 color, Rgba8 halo = {0, 0, 0, 0});
 

@@ -1,6 +1,7 @@
 // render/image/layer.h -- a translucent picture, and its composition over another picture.
 //
-// It uses SIMD by Highway, with the same bits on every target and for any number of threads.
+// The composition uses SIMD by Highway, with the same bits on every target and for any number of
+// threads.
 //
 // Threads   Pure; composite_over() uses `threads` threads of its own.
 #pragma once

@@ -2,8 +2,8 @@
 //
 // The colors of the ground are nearly gray, and far from the lightness of echo, so that none looks
 // like a reflectivity. Letters have a contrast of 4.5 or more against every background but echo;
-// over echo, they have it against their halo. Lines of the map have less contrast, so that they
-// stay behind the echo (tests/render/shades_test.cpp has the figures).
+// over echo, letters have this contrast against their halo. Lines of the map have less contrast, so
+// that they stay behind the echo (tests/render/shades_test.cpp has the figures).
 #pragma once
 
 #include "stormcellar/render/image.h"
@@ -90,7 +90,7 @@ inline constexpr Shades light = {
 // Returns a mix with the alpha of `one`. A share of 0 gives the color of `one`, a share of 1 the
 // color of `other`.
 [[nodiscard]] Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share);
-// Does the same, but is faster for shares of 0 and 1, which nearly all pixels have.
+// Returns mixed_between(), but faster for shares of 0 and 1, which nearly all pixels have.
 [[nodiscard]] inline Rgba8 mixed(Rgba8 one, Rgba8 other, double share) {
     if (share == 0) return one;
     if (share == 1) return {other[0], other[1], other[2], one[3]};

@@ -13,8 +13,8 @@
 namespace stormcellar::render {
 
 // Says "there is no theme 'drak'; did you mean 'dark'?" for the kind "theme". If no name is near,
-// it lists them instead: "there is no theme 'x'; the known themes are dark or light". `all` is then
-// "themes are dark or light".
+// lists all names instead: "there is no theme 'x'; the known themes are dark or light". In this
+// example, `all` is "themes are dark or light".
 [[nodiscard]] inline tl::unexpected<Error> unknown_name(std::string_view kind,
                                                         std::string_view name,
                                                         std::span<const std::string> names,

@@ -40,8 +40,8 @@ struct BarScale {
 // `ground` below.
 [[nodiscard]] ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick,
                                  Rgba8 ground);
-// Makes the same bar horizontally, rising to the right. The numbers are at least `gap` apart;
-// `width_of` gives their widths.
+// Makes a horizontal bar by the rules of color_bar(), rising to the right. The numbers are at least
+// `gap` apart; `width_of` gives their widths.
 [[nodiscard]] ColorBar lying_bar(const BarScale& scale, const Rect& box,
                                  const std::function<double(const std::string&)>& width_of,
                                  double gap, Rgba8 ground);

@@ -17,8 +17,8 @@ struct Coverage {
     double seen_low = 0;  // below low_coverage_m (render/products/ground.h)
 };
 
-// Returns 0 and 0 if there are no columns. All columns count alike, even if the cells of the grid
-// differ in size.
+// Returns the shares, which are 0 if there are no columns. All columns count alike, even if the
+// cells of the grid differ in size.
 [[nodiscard]] Coverage coverage_of(std::span<const ColumnSummary> columns,
                                    const grid::GridSpec& spec);
 

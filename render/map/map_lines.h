@@ -7,7 +7,7 @@
 //
 // Accuracy  On an azimuthal equidistant map, a ring around a site that is not the center of the
 //           grid is drawn as a circle of the map, which is off by less than 0.1 % of its radius
-//           within 500 km of the center. On other maps it goes through 240 points at the ring's
+//           within 500 km of the center. On other maps a ring goes through 240 points at its
 //           distance. Sites are exactly at their places on the map.
 // Threads   Pure functions, except that they draw on the canvas.
 #pragma once
@@ -37,8 +37,8 @@ struct MapLines {
 
 // Returns the spacing of the rings. A requested spacing is rounded to the nearest round number in
 // the unit of distances, then doubled until there are at most 20 rings. Without a request
-// (Scene::usual_rings) it starts at 50 km and is doubled until at most six rings reach the nearest
-// side of the grid. It is less than 50 km if the grid is too small for one ring.
+// (Scene::usual_rings) the spacing starts at 50 km and is doubled until at most six rings reach the
+// nearest side of the grid. The spacing is less than 50 km if the grid is too small for one ring.
 [[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene);
 
 // Draws a thin line around the ground.

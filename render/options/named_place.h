@@ -3,8 +3,8 @@
 // Every option that takes a place uses these functions.
 //
 // Threads   Any thread, once the options are read.
-// Errors    bad_argument. The message names the option. For a name that several places have it
-//           lists the candidates; for an unknown name it gives the nearest one.
+// Errors    bad_argument. The message names the option. If several places have the name, the
+//           message lists them. If the name is unknown, the message gives the nearest known name.
 #pragma once
 
 #include <string>

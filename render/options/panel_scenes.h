@@ -24,8 +24,8 @@ struct PanelScene {
     Scene scene;
 };
 
-// Returns the moments of a list of panels. `name` is what messages call the list. Errors:
-// bad_argument for an unknown or repeated moment.
+// Returns the moments of a list of panels. Messages call the list `name`. Errors: bad_argument for
+// an unknown or repeated moment.
 [[nodiscard]] Result<std::vector<level2::Moment>> moments_of_panels(const std::string& list,
                                                                     std::string_view name);
 

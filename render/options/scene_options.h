@@ -66,9 +66,9 @@ struct LoopChoices {
 [[nodiscard]] int thread_count(const SceneOptions& options);
 
 // Returns the facts of a grid for its labels. The local time is in the zone `time_zone` (IANA), or,
-// if empty, in the zone of the machine. It is left out if it is UTC or not known. The age of the
-// newest radial at `now` is given for grids younger than an hour, because for an archive it would
-// say nothing about the radar.
+// if empty, in the zone of the machine. The local time is left out if the zone is UTC or not known.
+// The age of the newest radial at `now` is given for grids younger than an hour, because for an
+// archive it would say nothing about the radar.
 [[nodiscard]] FrameFacts frame_facts_of(const std::string& domain,
                                         const cache::GridDescription& description,
                                         const std::string& time_zone, UtcTime now = now_utc());

@@ -20,15 +20,15 @@
 
 namespace stormcellar::render {
 
-// Returns the elevation or the number that the scene names. If several sweeps have one angle, the
-// wish selects the sweep nearest to `nearest_to`, or without a time the newest.
+// Returns the elevation or the number that the scene names. If several sweeps have the same angle,
+// the wish selects the sweep nearest in time to `nearest_to`, or the newest if no time is given.
 [[nodiscard]] grid::SweepWish sweep_wish_of(const Scene& scene,
                                             std::optional<UtcTime> nearest_to = {});
 
 // Returns the cuts of the volume's pattern at the angle nearest to the wish (without an angle, at
-// the lowest), so that no others need be decoded. Returns none, which means all cuts, in three
-// cases: the wish has a number, which counts all sweeps; the volume has no pattern; or no cut is
-// near, so that the error can list all angles.
+// the lowest), so that no other cut needs to be decoded. Returns none, which means all cuts, in
+// three cases: the wish has a number, which counts all sweeps; the volume has no pattern; or no cut
+// is near, so that the error can list all angles.
 [[nodiscard]] std::vector<int> cuts_of_wish(const level2::Volume& volume,
                                             const grid::SweepWish& wish);
 

@@ -2,14 +2,16 @@
 //
 // Each step has a lowest rung and effects, each of which turns on the next rung:
 //   slices       32 ... 2048; each effect doubles the number: slices_64, slices_128, ...
-//   integration  the nearer value of each step; value_span: all values between its ends;
-//                step_attenuation: in their order, so that near values hide far ones
+//   integration  the nearer value of each step; value_span: all values between the ends of the
+//                step; step_attenuation: all values in their order, so that near values hide far
+//                ones
 //   pixels       interpolated between rays where the picture is nearly straight; every_pixel: a ray
 //                for each pixel
 //   surface      equally bright in every direction; gradient_light: lighter toward the sun and
 //                darker away from it
 //   light        the same everywhere; shadow_light: the light of sun and sky that gets through;
-//                scattering_light: the same, scattered once toward the camera
+//                scattering_light: the light that gets through and is scattered once toward the
+//                camera
 // Kinds of light that the scene does not have (stormcellar/render/light.h) are not_asked, so the
 // exact picture lacks them too. Camera, exaggeration and the curve of the earth belong to the
 // scene, because they define what is shown. Sizes are color differences (CIEDE2000). The exact form

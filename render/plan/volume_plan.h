@@ -63,8 +63,8 @@ struct VolumePlan {
                                              const VolumeChoice& by_default,
                                              Predicted which = Predicted::asked);
 
-// Makes a row for each rung of each step that the scene asks for. A row compares the picture with
-// this rung, and with all other steps exact, with the picture of the exact chain.
+// Makes a row for each rung of each step that the scene asks for. A row compares two pictures: one
+// with this rung and all other steps exact, and one of the exact chain.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene,
                                                                   const accuracy::Chain& chain);
 

@@ -34,7 +34,7 @@ struct ColumnSummary {
 [[nodiscard]] bool is_uniform_stack(const grid::BrickView& view, int bx, int by);
 
 // Returns the states of 16 cells of a column in a brick of states, from this cell of the brick
-// upward: two bits each, the lowest cell in the lowest bits.
+// upward: two bits for each cell, the lowest cell in the lowest bits.
 [[nodiscard]] std::uint32_t states_of_run(const grid::BrickView& view,
                                           const grid::BrickEntry& entry, std::size_t cell);
 

@@ -2,7 +2,7 @@
 //
 // Both are opaque pictures, painted pixel by pixel. Each pixel shows the column whose cell it falls
 // into. If the picture has a map, the ground continues beyond the grid, darker (or, on a light
-// page, lighter); else the page is seen there. Land and water have shades of their own.
+// page, lighter). Without a map, the page is seen there. Land and water have shades of their own.
 //
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
@@ -75,11 +75,11 @@ struct GroundPatch {
 
 // Returns true if parallel rays look straight down, as in a map.
 [[nodiscard]] bool is_from_above(const ViewGeometry& geometry);
-// Returns how far beyond the grid the ground is shown, in meters. Seen from straight above, it
-// fills the picture; else it ends around the grid.
+// Returns how far beyond the grid the ground is shown, in meters. Seen from straight above, the
+// ground fills the picture; else the ground ends around the grid.
 [[nodiscard]] double reach_beyond_m(const ViewGeometry& geometry);
-// Fades the ground beyond the grid, and the lines on it, to the page, unless it is seen from
-// straight above.
+// Fades the ground beyond the grid, and the lines on it, to the page, unless the camera looks
+// straight down.
 void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture);
 // Paints a field that has a place for each pixel (sweep_in_picture()).
 [[nodiscard]] Image paint_pixels(const grid::GridSpec& spec, const FlatField& field,

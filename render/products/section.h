@@ -30,7 +30,7 @@ struct Section {
     double length_m = 0;
     double bottom_m = 0, top_m = 0;
     FlatField field;  // columns along the line, rows from bottom to top
-    // for each column of the field: 1 if the grid has cells there
+    // 1 for each column of the field where the grid has cells, else 0
     std::vector<std::uint8_t> in_grid;
 };
 

@@ -21,15 +21,16 @@ struct WaterMask {
     std::vector<std::uint8_t> water;  // the share of each cell, 0 to 255; row by row from the north
 
     // Returns the share of water at a place, 0..1. The share is linear between the centers of
-    // cells; outside the raster, the nearest place in it counts. An empty mask is all land.
+    // cells; outside the raster, the share of its nearest place is returned. An empty mask is all
+    // land.
     [[nodiscard]] double water_at(GroundPoint p) const {
         if (water.empty()) return 0;
         return share_at((p.x_m - west_m) / metres_per_cell - 0.5,
                         (north_m - p.y_m) / metres_per_cell - 0.5);
     }
 
-    // Does the same for a place in the raster, counted in cells from the middle of the first one.
-    // The mask must not be empty.
+    // Returns the share of water at a place in the raster, counted in cells from the middle of the
+    // first cell. The mask must not be empty.
     [[nodiscard]] double share_at(double place_x, double place_y) const {
         const double x = std::clamp(place_x, 0.0, width - 1.0);
         const double y = std::clamp(place_y, 0.0, height - 1.0);

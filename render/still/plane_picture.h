@@ -1,9 +1,9 @@
 // render/still/plane_picture.h -- draws a 2D product on a rectangle of a map's plane, for tiles and
 // pictures of web maps.
 //
-// A pixel shows the cell that holds its center, in the color of overlay_color(). Outside the grid
-// it is clear. The field may be coarser than the grid: each of its cells then covers 2^halvings by
-// 2^halvings columns, counted from the southwest corner of the grid.
+// A pixel shows the cell that holds its center, in the color of overlay_color(). A pixel outside
+// the grid is clear. The field may be coarser than the grid: each of its cells then covers
+// 2^halvings by 2^halvings columns, counted from the southwest corner of the grid.
 //
 // Units     Web Mercator (EPSG:3857) in meters of its plane, degrees as longitude and latitude.
 // Accuracy  Places on the grid are interpolated between the corners of squares of pixels. If the

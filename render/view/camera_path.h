@@ -9,8 +9,8 @@
 //                 Monotone cubics (Fritsch and Carlson 1980): between two keys they stay between
 //                 the values of the keys, so that no camera dips below the lower of two keys.
 //   azimuth       The shortest turn from key to key, plus `turns` whole turns.
-// The camera starts and ends at rest, unless it ends where it began. Then it keeps moving, and the
-// loop may be played for ever without a jolt.
+// The camera starts and ends at rest, unless it ends where it began. In that case the camera keeps
+// moving, so that the loop can be repeated without a jolt.
 //
 // Units     Each member names its unit; heights are above sea level.
 // Threads   A CameraPath is immutable.
@@ -37,8 +37,8 @@ class KeyedCurve {
   public:
     enum class Shape { smooth, monotone };
 
-    // `times` rise; there are at least two. The slope at knots in `is_held` is 0; if empty, no knot
-    // is held.
+    // `times` rise; there are at least two. `is_held` marks the knots at which the slope is 0; if
+    // empty, there are none.
     KeyedCurve(std::vector<double> times, std::vector<double> values, Shape shape, bool is_closed,
                const std::vector<bool>& is_held = {});
     // Returns the value at a time; before the first knot and after the last, the value at that
@@ -52,10 +52,10 @@ class KeyedCurve {
 class CameraPath {
   public:
     // Makes a path. Errors: bad_argument for fewer than two keys and for a faulty key; the message
-    // names the key (1 is the first). Faults are a time that does not rise or is not finite, a
-    // place, a point to look at or a field of view that only some keys have, azimuth, tilt or turns
-    // beside both a place and a point to look at, turns of the first key, and values out of the
-    // ranges of a scene.
+    // names the key (1 is the first). Faults are: a time that does not rise or is not finite; a
+    // place, a point to look at or a field of view that only some keys have; azimuth, tilt or turns
+    // in keys that have both a place and a point to look at; turns of the first key; values out of
+    // the ranges of a scene.
     [[nodiscard]] static Result<CameraPath> make(const std::vector<CameraKey>& keys,
                                                  const Camera& usual);
 

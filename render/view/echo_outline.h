@@ -1,5 +1,6 @@
-// render/view/echo_outline.h -- where echo is in a grid, or in all grids of a loop: for each small
-// square of columns, how many reach each of some thresholds, and how high the tops are.
+// render/view/echo_outline.h -- where echo is in a grid, or in all grids of a loop. For each small
+// square of columns, the outline counts the columns that reach each of several thresholds, and
+// holds the height of the tops.
 //
 // Threads   An EchoOutline may be used by one thread at a time.
 // Errors    None.

@@ -10,10 +10,10 @@
 //            other than REF show all columns with a value.
 //   place    The camera is so near that the ground under these columns and their tops fill 84 % of
 //            the width or of the height of the picture. The solution is exact, not iterated.
-//   azimuth  From the south; a long region is seen from its long side, at most 45 degrees from the
-//            south.
+//   azimuth  The camera looks from the south. A long region is seen from its long side, at most 45
+//            degrees from the south.
 //   tilt, exaggeration, opacity
-//            From the size of the region: a small region is seen from the side (70 degrees,
+//            The size of the region decides: a small region is seen from the side (70 degrees,
 //            exaggeration 2), a wide region from above (52 degrees), with low tops stretched up to
 //            5 times. Weaker echo is drawn more opaque.
 //   sun      65 degrees to the left of the camera, 40 degrees high.

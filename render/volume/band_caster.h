@@ -5,8 +5,8 @@
 // grid of `stride` pixels first, and then the grid is halved, down to every pixel. Where the
 // picture is nearly straight, the pixels in between are interpolated; elsewhere their rays are
 // cast. The second differences of the colors on the grid say how straight the picture is: in the
-// middle between two neighbors, a straight line is off by an eighth of them. With a stride of at
-// most the width of a cell, no cell falls between the first rays.
+// middle between two neighbors, a straight line is off by an eighth of the second difference. With
+// a stride of at most the width of a cell, no cell falls between the first rays.
 //
 // Threads   Immutable. Many threads may work on the bands of one pass; a pass may begin only when
 //           the previous pass has ended.

@@ -1,13 +1,13 @@
 // render/volume/corner_table.h -- the codes of four neighboring columns in one word for each cell.
 //
-// A sample needs the eight codes around it. In a grid file they are in up to eight bricks; here
-// they are in two consecutive words, which one load of 64 bits reads. Word (x, y, z) holds the
-// codes of the cells (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of level z, the first in its
-// low byte. Beyond the last cell of the grid along an axis, that cell is repeated. Cells of bricks
-// without any value are 0, whatever their state.
+// A sample needs the eight codes around it. In a grid file these codes are in up to eight bricks;
+// in this table they are in two consecutive words, which one load of 64 bits reads. Word (x, y, z)
+// holds the codes of the cells (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of level z, the
+// first in its low byte. Beyond the last cell of the grid along an axis, that cell is repeated.
+// Cells of bricks without any value are 0, whatever their state.
 //
-// The table takes four bytes for each cell of bricks with values, and time to fill. It is worth it
-// if there are many samples for each cell, which serves() decides.
+// The table takes four bytes for each cell of bricks with values, and time to fill. The table saves
+// time if there are many samples for each cell, which serves() decides.
 //
 // Threads   fill() may be called by one thread at a time; then many threads may read.
 #pragma once
@@ -28,7 +28,7 @@ class CornerTable {
     // measurements).
     [[nodiscard]] static bool serves(const grid::BrickView& view, double samples);
 
-    // Takes the codes of a grid for which serves() is true. It is faster if the last grid had the
+    // Takes the codes of a grid for which serves() is true. This is faster if the last grid had the
     // same size.
     void fill(const grid::BrickView& view, int threads);
 

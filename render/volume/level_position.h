@@ -1,9 +1,9 @@
 // render/volume/level_position.h -- converts a height into a position among the levels, with a
 // fraction.
 //
-// The position 2.25 is a quarter of the way from level 2 to level 3. It is 0 below the first level,
-// and nz - 1 above the last. Evenly spaced levels need one multiplication. For other levels, a
-// table of buckets leads to the interval in a few steps.
+// The position 2.25 is a quarter of the way from level 2 to level 3. The position is 0 below the
+// first level, and nz - 1 above the last. Evenly spaced levels need one multiplication. For other
+// levels, a table of buckets leads to the interval in a few steps.
 //
 // Accuracy  Single precision, 1e-3 of a level over 1,024 levels.
 // Threads   Immutable.

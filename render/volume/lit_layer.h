@@ -11,7 +11,7 @@
 //
 // Threads   Pure; the same bits for any number of threads.
 // Accuracy  The hue stays within 1.5 degrees of OKLab, except in colors that are nearly gray. On
-//           real volumes it does so for 95 % of the echo, and the mean lightness (L*) of the echo
+//           real volumes this holds for 95 % of the echo, and the mean lightness (L*) of the echo
 //           stays within 1 (tests/render/lit_layer_test.cpp).
 #pragma once
 

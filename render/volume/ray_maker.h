@@ -1,7 +1,7 @@
 // render/volume/ray_maker.h -- makes rays in positions of cells from pixels, clipped to the box of
 // the cells.
 //
-// It uses SIMD by Highway, with the same bits on every target.
+// The code uses SIMD by Highway, with the same bits on every target.
 //
 // Threads   Immutable.
 #pragma once

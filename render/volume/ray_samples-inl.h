@@ -124,8 +124,8 @@ struct FromBricks {
                                       : singly<std::uint16_t>(volume.codes, columns, rise);
     }
 
-    // Loads the codes of both levels of a column as one number. They lie side by side unless the
-    // place is in the uppermost level of a brick.
+    // Loads the codes of both levels of a column as one number. The two codes are side by side
+    // unless the place is in the uppermost level of a brick.
     static HWY_INLINE Corners paired(const std::byte* codes, const Columns& columns) {
         const Ints i;
         const Halves words = halves_of([&](int lane) {
@@ -190,7 +190,8 @@ HWY_INLINE FloatVec mean_of_all(const Corners& corners, const Places& at) {
                at.y.beyond);
 }
 
-// Returns the weighted mean of the cells that have values, and the share of their weights.
+// Returns the weighted mean of the cells that have values. Sets `valued` to the sum of their
+// weights.
 HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Places& at, FloatVec& valued) {
     const Floats f;
     const FloatVec one = hn::Set(f, 1.0F);
@@ -215,7 +216,7 @@ HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Places& at, Float
     return hn::Div(sum, hn::IfThenElse(hn::Gt(valued, hn::Zero(f)), valued, one));
 }
 
-// Returns the bin of the transfer function for a code, which may lie between two codes.
+// Returns the bin of the transfer function for a code, which may have a fraction.
 HWY_INLINE IntVec bin_of(const PacketVolume& volume, FloatVec code) {
     const Floats f;
     const FloatVec position = hn::Add(hn::Set(f, volume.transfer->bin_offset()),

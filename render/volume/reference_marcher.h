@@ -1,7 +1,7 @@
 // render/volume/reference_marcher.h -- the slicer's oracle: slow, in double, one ray at a time.
 //
 // It draws the picture in the limit of infinitely many slices, by the rules of
-// render/volume/slicer.h but with none of its tables: the value of each sample looks up the color
+// render/volume/slicer.h but with none of its tables: each sample looks up its value in the color
 // table itself. Steps are sampled at their middles, so the error falls with the square of their
 // length where colors are smooth, and with the length where colors are stepped. A ray that falls
 // below the box has met the earth, which hides everything beyond its curve.
@@ -29,8 +29,8 @@ class ReferenceMarcher {
     // Returns red, green and blue, premultiplied, and alpha, all 0..1. There are `steps` steps
     // between the nearest and the farthest depth of the box.
     [[nodiscard]] std::array<double, 4> ray(Pixel pixel, int steps) const;
-    // Does the same, and also returns the sum of the light factors, weighted by the seen opacity.
-    // `shades` may be null; then all factors are 1.
+    // Returns what ray() returns, and the sum of the light factors along the ray, weighted by the
+    // seen opacity. `shades` may be null; then all factors are 1.
     struct Lit {
         std::array<double, 4> color{};
         double light = 0;

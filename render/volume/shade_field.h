@@ -1,5 +1,5 @@
-// render/volume/shade_field.h -- how much lighter or darker than its own color each part of a
-// volume is drawn.
+// render/volume/shade_field.h -- how much each part of a volume is drawn lighter or darker than its
+// own color.
 //
 // On a grid of 2 x 2 columns and single levels, made once for each time step, this holds the factor
 //   shade = S T + 0.25 s (1 - |n v|)^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)

@@ -1,4 +1,5 @@
-// render/volume/slice_mask.h -- which slices of which part of the picture may show anything.
+// render/volume/slice_mask.h -- tells, for each part of the picture, the slices that may show
+// anything.
 //
 // The picture is divided into square tiles. Each tile has a bit for each step (between two slices).
 // The bit says whether any point of that step under any pixel of the tile may find a visible value.

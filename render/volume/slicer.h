@@ -2,7 +2,7 @@
 // front to back.
 //
 // The depth of the grid's box is divided into `slices` equal steps. Every ray samples the volume at
-// the planes between them, and where it enters and leaves the box.
+// the planes between these steps, and where the ray enters and leaves the box.
 //   sample   Trilinear over the 8 cells around the point, without the cells that have no value. The
 //            sample's value is the weighted mean of the cells with a value, and its share is the
 //            sum of their weights. So echo tapers to nothing over one cell toward cells without a
@@ -10,8 +10,8 @@
 //            the outermost centers, the outermost cells continue.
 //   step     The entry of the TransferFunction for the values at its two ends. Its optical depth is
 //            multiplied by the mean of their shares and by the length of the ray through the step,
-//            also where the box cuts the step. An end without any value takes the value of the
-//            other end. Colors mix in sRGB, as drawn.
+//            also where the box cuts the step. If one end has no value, the value of the other end
+//            is used for both. Colors mix in sRGB, as drawn.
 //   light    If the scene asks for it, one factor for each sample (stormcellar/render/light.h); a
 //            step takes the mean of both its ends.
 //   skipped  Stretches of a ray in bricks whose range of values is clear (this is exact), and
@@ -72,8 +72,8 @@ class VolumeSlicer {
 
     // Draws a grid, which must have the geometry's spec.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
-    // These do the same in two steps, into memory that no other thread uses: prepare() makes the
-    // tables for a grid, and cast() casts the rays.
+    // prepare() and cast() draw the picture of draw() in two steps, into memory that no other
+    // thread uses: prepare() makes the tables for a grid, and cast() casts the rays.
     void prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const;
     void cast(const grid::BrickView& view, int threads, SlicerRoom& room) const;
 

@@ -1,8 +1,9 @@
 // render/volume/step_integrals.h -- the second-order integrals of a transfer function, for many
 // steps at once.
 //
-// A step over `distance` bins begins in the middle of one bin and ends in the middle of another. So
-// it shows half a bin, whole bins, and half a bin again, each with its share of the step.
+// A step over `distance` bins begins in the middle of one bin and ends in the middle of another
+// bin. So the step shows half a bin, then whole bins, then half a bin, each with its share of the
+// step.
 //
 // Threads   Pure.
 // Accuracy  Double precision, each sum in the order of the step: the same bits on every machine.

@@ -23,8 +23,9 @@
 
 namespace stormcellar::render {
 
-// The look of a step of the reference length whose whole width holds values. A step of another
-// length, or with another share of values, has the same color and that multiple of the depth.
+// The look of a step of the reference length whose whole width holds values. For a step of another
+// length or another share of values, the color is the same, and the depth is multiplied by the
+// ratio of the lengths and by the share.
 struct TransferEntry {
     float red = 0, green = 0, blue = 0;  // 0..1, not premultiplied
     float depth = 0;                     // optical depth
@@ -48,7 +49,7 @@ class TransferFunction {
         return static_cast<int>(
             std::clamp(bin_offset_ + bin_slope_ * code, 0.0F, bin_count - 1.0F));
     }
-    // Returns the value whose look a bin has. Bin 0 has none.
+    // Returns the value whose look a bin has. Bin 0 has no such value.
     [[nodiscard]] double value_of(int bin) const { return lowest_ + (bin - 0.5) * bin_width_; }
     [[nodiscard]] double bin_width() const { return bin_width_; }
     // Returns the look of a step from one bin to another, the nearer one first.

@@ -8,16 +8,16 @@
 //
 // If the grid has details (stormcellar/grid/cell_details.h), they are floats too: age (s, from the
 // time coordinate), beam_height_offset and gate_distance (m) and sample_weight (1), with _FillValue
-// where nothing is known. If a mosaic has them, site_count (short) says how many sites see a cell
-// and site_weight (float) is the sum of their weights; both are 0 where no site sees the cell.
+// where nothing is known. If a mosaic has details, site_count (short) says how many sites see a
+// cell and site_weight (float) is the sum of their weights; both are 0 where no site sees the cell.
 //
 // Several grids, of different moments on the same cells and at the same time, become one file with
-// one field each. Then the variables of a moment have its name in front (REF_status, VEL_age), and
-// the method, the effects, the predicted error, the beam model and the averaging are attributes of
-// the field instead of the file; audits are left out.
+// one field each. Then the names of variables that belong to a moment begin with its name
+// (REF_status, VEL_age), and the method, the effects, the predicted error, the beam model and the
+// averaging are attributes of the field instead of the file; audits are left out.
 //
-// The time is the frame time if the grid was made for one, else the start of the volume. The
-// coordinates are in CF units, with the grid mapping of the projection on WGS84
+// The time is the frame time if the grid was made for a frame time, else the start of the volume.
+// The coordinates are in CF units, with the grid mapping of the projection on WGS84
 // (export/grid_coordinates.h). Global attributes hold the provenance.
 //
 // The file is made in memory and appears whole or not at all (stormcellar/base/file_system.h). The
@@ -50,9 +50,9 @@ struct GridWriteOptions {
 // internal if netCDF refuses.
 [[nodiscard]] Status write_grid(FileSystem& file_system, const std::filesystem::path& path,
                                 const grid::Grid& grid, const GridWriteOptions& options = {});
-// Does the same with the grids of several moments. A single grid gives the file of write_grid().
-// Errors: also bad_argument for no grid, for two grids of one moment, and for grids whose cells or
-// times differ.
+// Writes the grids of several moments to one file. A single grid gives the same file as
+// write_grid(). Errors: those of write_grid(); bad_argument for no grid, for two grids of one
+// moment, and for grids whose cells or times differ.
 [[nodiscard]] Status write_grids(FileSystem& file_system, const std::filesystem::path& path,
                                  std::span<const grid::Grid> grids,
                                  const GridWriteOptions& options = {});

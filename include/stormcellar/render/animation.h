@@ -49,8 +49,8 @@ inline constexpr NumberRange last_frame_dwell_s{0, 60};
 struct AnimationOptions {
     double frames_per_second = 8;
     double last_frame_dwell_s = 1;  // the last frame stays this much longer
-    // Pairs of keyword and text. "Title" becomes the title if the format has one; all others go
-    // into its comment.
+    // Pairs of keyword and text. A video has the text of "Title" as its title and all texts in its
+    // comment.
     std::vector<std::pair<std::string, std::string>> metadata{};
 };
 
@@ -66,10 +66,10 @@ struct AnimationOptions {
 class AnimationWriter : public Interface {
   public:
     // Creates a writer. `file_system` must outlive it. Errors: bad_argument for an ending that this
-    // build does not know (the message lists the endings that it knows) options outside their
-    // range, or metadata with a zero byte or a keyword that has not 1 to 79 characters; unsupported
-    // if the module for videos is missing; the system's reason if the file cannot be written, which
-    // is checked here before any frame is drawn.
+    // build does not know (the message lists the endings that it knows), options outside their
+    // range, or metadata with a zero byte or a keyword that is empty or longer than 79 characters;
+    // unsupported if the module for videos is missing; the system's reason if the file cannot be
+    // written, which is checked here before any frame is drawn.
     static Result<std::unique_ptr<AnimationWriter>> create(
         const std::string& output, const AnimationOptions& options,
         FileSystem& file_system = real_file_system());

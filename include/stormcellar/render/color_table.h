@@ -3,7 +3,7 @@
 // A table is a list of stops that rise in value. From one stop to the next the color goes from
 // `color` to `until`. In a stepped table, which shows classes, both are the same; in a smooth
 // table they differ. Colors blend in sRGB, as drawn. A value below the first stop has no color. A
-// value above the last stop has that stop's first color. A class includes its lower bound.
+// value above the last stop has that stop's `color`. A class includes its lower bound.
 //
 // The alpha of a color counts in flat products (a composite over a map). In a volume, `extinction`
 // says how opaque echo is: points of optical depth per kilometer of the drawn scene, with straight
@@ -59,16 +59,15 @@ struct ColorTable {
 // colors.
 inline constexpr std::size_t most_stops = 4096;
 
-// Checks a table. Returns bad_argument, with a message that is read after the name of the table,
-// unless there are 1 to most_stops stops that rise strictly, the ends of the bar enclose them,
-// there are extinction points that rise strictly, all numbers are finite, and no extinction is
-// negative.
+// Checks a table. Returns bad_argument unless there are 1 to most_stops stops that rise strictly,
+// the ends of the bar enclose them, there are extinction points that rise strictly, all numbers are
+// finite, and no extinction is negative.
 [[nodiscard]] Status validate(const ColorTable& table);
 
 // Returns true if no color blends, so that the table shows classes.
 [[nodiscard]] bool is_stepped(const ColorTable& table);
 
-// Returns the color of a value; none below the first stop and for NaN.
+// Returns the color of a value, or none for NaN and below the first stop.
 [[nodiscard]] std::optional<Rgba8> color_of(const ColorTable& table, float value);
 // Returns the extinction per meter of the drawn scene, times `opacity`; 0 for a value without a
 // color.

@@ -25,9 +25,9 @@ enum class PngAlpha { when_needed, always };
     const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {},
     PngAlpha alpha = PngAlpha::when_needed);
 
-// Does the same for pictures of few colors, such as map tiles, with a smaller file in less time. An
-// image of up to 256 colors gets a palette (8 bits or fewer for a pixel); any other is RGBA.
-// Errors: those of encode_png().
+// Encodes a picture of few colors, such as a map tile, as a smaller file and in less time than
+// encode_png(). An image of up to 256 colors gets a palette (8 bits or fewer for a pixel); any
+// other image becomes RGBA. Errors: those of encode_png().
 [[nodiscard]] Result<std::vector<std::byte>> encode_png_of_few_colors(const Image& image);
 
 }  // namespace stormcellar::render

@@ -73,7 +73,7 @@ struct ProductFacts {
 [[nodiscard]] std::string product_title(const Scene& scene);
 // Returns the scene's table, or else the product's, or else the moment's.
 [[nodiscard]] const ColorTable& colors_of(const Scene& scene);
-// Returns the unit of the product's values: "dBZ", "km"; empty for a number without one.
+// Returns the unit of the product's values: "dBZ", "km"; empty for a number without a unit.
 [[nodiscard]] std::string unit_shown(const Scene& scene);
 // Returns the unit in which the picture writes the product's values.
 [[nodiscard]] ShownUnit written_unit(const Scene& scene);

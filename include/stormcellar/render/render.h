@@ -21,10 +21,10 @@ namespace stormcellar::render {
 struct FrameCache;  // render/frame/frame_cache.h
 
 // Draws a picture. If a loop passes the same cache for all its frames, the map and the colors are
-// prepared only once and memory is allocated only once; the pixels are the same with or without it.
-// A ppi needs a view of a sweep (BrickView::sweep), every other product a view of a grid. Errors:
-// bad_argument if the view has another moment than the scene or is of the wrong kind, for heights
-// beyond the grid, and for a section outside the grid; those of check_frame().
+// prepared only once and memory is allocated only once; the pixels are the same with or without a
+// cache. A ppi needs a view of a sweep (BrickView::sweep), every other product a view of a grid.
+// Errors: bad_argument if the view has another moment than the scene or is of the wrong kind, for
+// heights beyond the grid, and for a section outside the grid; those of check_frame().
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          FrameCache* cache = nullptr);

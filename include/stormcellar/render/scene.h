@@ -63,8 +63,8 @@ struct Camera {
     double zoom = 1;           // 1: the whole grid fits into the image
     double field_of_view_deg = 0;           // across the image at zoom 1; 0: orthographic
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
-    // The point in the middle of the picture. A camera with a place of its own turns to it and
-    // ignores its azimuth and tilt; a camera that looks from outside keeps both.
+    // The point in the middle of the picture. A camera with a place of its own turns to this point
+    // and ignores its azimuth and tilt; a camera that looks from outside keeps both.
     std::optional<Eye> look_at = std::nullopt;
 };
 
@@ -98,8 +98,8 @@ struct Scene {
     bool haze = false;           // volumes: air that was not seen is drawn as a veil
     bool smooth = false;         // maps: values go smoothly from cell to cell
     double opacity = 1;          // scales the transfer function's opacity; 0.001..1000
-    // Spacing of range rings: 1 to 1000 km, or this value, which chooses 50 km or more by the size
-    // of the grid.
+    // Spacing of range rings: 1 to 1000 km, or usual_rings, which lets the size of the grid choose
+    // the spacing.
     static constexpr double usual_rings = 0;
     double range_ring_spacing_m = usual_rings;
     bool labels = true;  // color bar, title, time, map

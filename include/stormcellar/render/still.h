@@ -80,8 +80,8 @@ struct StillFormat {
 [[nodiscard]] std::span<const StillFormat> still_formats();
 // Finds a format by the ending of a file's name. Returns null if no format has this ending.
 [[nodiscard]] const StillFormat* still_format_of(std::string_view file_name);
-// still_endings() returns the endings of all formats; known_still_formats() the names with them:
-// "PNG (.png), JPEG (.jpg, .jpeg), ...".
+// still_endings() returns the endings of all formats; known_still_formats() returns the names with
+// their endings: "PNG (.png), JPEG (.jpg, .jpeg), ...".
 [[nodiscard]] std::vector<std::string_view> still_endings();
 [[nodiscard]] std::string known_still_formats();
 

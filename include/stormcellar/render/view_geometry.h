@@ -8,8 +8,8 @@
 //              than 1 % of the drop within 1,000 km.
 // Camera       Orthographic or perspective. A camera without a place of its own looks at the middle
 //              of the box that holds the grid (the cells and the ground below them). At zoom 1 that
-//              box just fits into the picture. Its look_at, if given, moves the picture and keeps
-//              its scale.
+//              box just fits into the picture. If such a camera has a look_at, it moves the picture
+//              and keeps the scale.
 // Pixels       (0, 0) is the top left corner of the picture, (0.5, 0.5) the middle of its first
 //              pixel.
 // Depth        Meters along forward(), from the camera (perspective) or from the middle
@@ -69,7 +69,7 @@ class ViewGeometry {
     [[nodiscard]] Pixel project(double x_m, double y_m, double height_m) const;
     [[nodiscard]] Pixel project(const Vec3& drawn) const;
     [[nodiscard]] double depth_of(const Vec3& drawn) const;
-    // Returns the point of drawn space under a pixel at a depth. It is linear in the depth.
+    // Returns the point of drawn space under a pixel at a depth. The point is linear in the depth.
     [[nodiscard]] Vec3 point(Pixel pixel, double depth_m) const;
     // Returns how far point() moves for each meter of depth.
     [[nodiscard]] Vec3 along(Pixel pixel) const;
@@ -123,9 +123,9 @@ class ViewGeometry {
     double near_m_ = 0, far_m_ = 0;
 };
 
-// Returns the camera with the azimuth and the tilt that turn it from its eye to its look_at. Right
-// above or below that point, the azimuth does not change. A camera without an eye or a look_at is
-// returned unchanged.
+// Returns the camera with the azimuth and the tilt that turn it from its eye to its look_at. If the
+// eye is right above or below the look_at, the azimuth does not change. A camera without an eye or
+// a look_at is returned unchanged.
 [[nodiscard]] Camera aimed(const Camera& camera, double vertical_exaggeration,
                            bool curved_earth = false);
 
