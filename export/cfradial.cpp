@@ -40,7 +40,7 @@ namespace {
 
 using level2::Volume;
 
-// The first and the last time of the radials. If none is plausible, both are the start of the
+// The first and the last time of the radials. If no time is plausible, both are the start of the
 // volume.
 struct Coverage {
     UtcTime start, end;  // whole seconds that include the volume

@@ -13,7 +13,7 @@ using level2::GateStatus;
 using level2::Moment;
 using level2::SweepMoment;
 
-// The fill value is negative, because no code is.
+// Marks elements without a code. All codes are 0 or more, so the fill value is negative.
 constexpr int fill_code = -1;
 // The flags of CFP, codes 0 to 7, are stored in its status variable as this number plus the code.
 constexpr int first_filter_flag = 16;

@@ -49,7 +49,8 @@ std::vector<Value> of_each_radial(const CfradialParts& parts, Function function)
     return values;
 }
 
-// Writes a float, with _FillValue if it is not known. If it is never known, makes no variable.
+// Writes a variable of floats, with _FillValue for each unknown value. If all values are unknown,
+// makes no variable.
 int write_known(const CfradialParts& parts, const char* name, int dimension, const char* long_name,
                 const char* units, const std::vector<Known>& values) {
     const auto known = [](const Known& value) { return value.has_value(); };
@@ -64,7 +65,7 @@ int write_known(const CfradialParts& parts, const char* name, int dimension, con
     return variable;
 }
 
-// Level II writes 0 for an unknown number.
+// Returns none for 0, which Level II writes for an unknown number.
 Known unless_zero(float value) {
     return value == 0 ? std::nullopt : Known{value};
 }

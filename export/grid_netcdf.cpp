@@ -43,8 +43,8 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
     return fmt::format("{}", fmt::join(parts, separator));
 }
 
-// Returns the cells in the order of the file: x fastest, then y, then z. It goes row by row, so
-// that both reads and writes stay within the processor's cache.
+// Returns the cells in the order of the file: x fastest, then y, then z. The copy goes row by row,
+// so that both reads and writes stay within the processor's cache.
 template <class Cell, class From>
 std::vector<Cell> in_file_order(const grid::GridSpec& spec, From from) {
     std::vector<Cell> cells(spec.cell_count());
@@ -249,7 +249,8 @@ std::string audit_text(const Grid& grid) {
     return joined(lines, "\n");
 }
 
-// Writes the facts that all grids of the file share. For a single grid, also writes its own.
+// Writes the facts that all grids of the file share. For a single grid, also writes the facts of
+// its moment.
 void write_provenance(NetcdfBuilder& file, std::span<const Grid> grids) {
     constexpr int global = NetcdfBuilder::file;
     const Grid& grid = grids.front();

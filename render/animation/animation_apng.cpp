@@ -1,5 +1,5 @@
 // An APNG file is a PNG file whose further frames are private chunks. stormcellar/render/png_file.h
-// encodes each frame as a picture, and this file takes that picture apart again.
+// encodes each frame as a picture, and the code here takes that picture apart again.
 //
 // Source: W3C PNG specification, third edition, sections 5.6 and 11.3.6 (acTL, fcTL, fdAT).
 #include <algorithm>
@@ -140,9 +140,8 @@ class ApngEncoder final : public FrameEncoder {
     }
 
   private:
-    // Returns the image data of a PNG file in one piece. For the first frame it also keeps the
-    // other chunks: signature and header, which come before acTL, and all other chunks before the
-    // data.
+    // Returns the image data of a PNG file in one piece. For the first frame, also keeps the other
+    // chunks: signature and header, which come before acTL, and all other chunks before the data.
     Bytes take_apart(std::span<const std::byte> png) {
         constexpr std::size_t signature_size = 8;
         Bytes data;

@@ -53,7 +53,7 @@ class TemporaryTree {
         return fail(code, "{}", error.message());
     }
     void own() { made_ = true; }    // the directory was made elsewhere
-    void keep() { made_ = false; }  // it has another name now
+    void keep() { made_ = false; }  // the directory has its final name now
     [[nodiscard]] const fs::path& path() const { return path_; }
 
   private:
@@ -134,7 +134,8 @@ class PngDirectoryWriter final : public AnimationWriter {
         return tl::unexpected(*error_);
     }
 
-    // Moves the old directory aside first, and moves it back if the new one cannot take its place.
+    // Moves the old directory aside first, and moves it back if the new directory cannot take its
+    // place.
     Status place() {
         const auto target = look_at(directory_);
         if (!target) return pass_on(target);

@@ -43,7 +43,7 @@ constexpr std::array codecs{
           {{{"b", "4M"}, {"crf", "8"}, {"deadline", "good"}, {"cpu-used", "2"}}}},
 };
 
-// Returns the first codec of the list that this FFmpeg has.
+// Returns the first codec for this container that this FFmpeg has; null if there is none.
 const Codec* choose_codec(VideoContainer container) {
     const auto chosen = std::ranges::find_if(codecs, [container](const Codec& codec) {
         return codec.container == container && avcodec_find_encoder_by_name(codec.name) != nullptr;
@@ -68,7 +68,7 @@ class VideoEncoder final : public FrameEncoder {
         return encode_last();
     }
 
-    // Video players do not hold the last picture, so repeat it instead.
+    // Video has no dwell for the last picture, so repeat that picture instead.
     Result<std::vector<std::byte>> finish() override {
         const auto repeats =
             static_cast<int>(std::lround(options_.last_frame_dwell_s * options_.frames_per_second));
@@ -114,7 +114,8 @@ class VideoEncoder final : public FrameEncoder {
         encoder.time_base = av_inv_q(encoder.framerate);
         encoder.thread_count = encoder_threads;
         encoder.flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
-        // A loop is short, so one key picture in ten seconds is enough for seeking.
+        // A loop is short, so one key picture in ten seconds, or in twelve pictures if they last
+        // longer, is enough for seeking.
         encoder.gop_size = std::max(12, static_cast<int>(10 * options_.frames_per_second));
     }
 

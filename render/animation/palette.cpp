@@ -157,7 +157,8 @@ std::size_t nearest_point(const std::vector<Point>& points, const Point& point) 
     return best;
 }
 
-// Returns the mean of each group, or its exact color if one makes up half of the group.
+// Returns the mean of each group, or the exact color that makes up half of the group, if there is
+// one.
 std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> points) {
     std::vector<Moments> groups;
     std::vector<const Sample*> largest;

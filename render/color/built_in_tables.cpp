@@ -93,8 +93,8 @@ constexpr ColorClass cfp_classes[] = {
     {30, 0xD9D93B}, {35, 0xF2A93B}, {40, 0xEE6C2D}, {45, 0xD62F2F}, {50, 0xF2C1E0},
 };
 
-// From dark blue to light yellow, because every kind of color vision distinguishes light from dark
-// and blue from yellow. The steps are about equal along a path through Lab.
+// The colors go from dark blue to light yellow, because every kind of color vision distinguishes
+// light from dark and blue from yellow. The steps are about equal along a path through Lab.
 constexpr ColorClass height_classes[] = {
     {least_height, 0x003482},
     {0.5, 0x144D94},
@@ -197,7 +197,8 @@ ColorTable table_of_classes(const SteppedTable& stepped) {
     return table;
 }
 
-// Returns a table that exists: tests look up each name that this file and the moments' rows have.
+// Returns the table of a name, which must exist. Tests look up each name that this file and the
+// rows of moments use.
 const ColorTable& table_named(std::string_view name) {
     return *std::ranges::find(built_in_tables(), name, &ColorTable::name);
 }

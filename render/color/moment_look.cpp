@@ -124,7 +124,8 @@ constexpr std::array smooth_tables{
     SmoothTable{"smooth-clear-air", Moment::ref, clear_air_anchors, 55},
 };
 
-// Tables blend in sRGB, so that the way between two anchors is cut into short pieces.
+// Makes the table. Tables blend in sRGB, so the way from anchor to anchor in OKLab is cut into
+// short pieces.
 ColorTable blended_table(const SmoothTable& smooth) {
     const std::span<const Anchor> anchors = smooth.anchors;
     ColorTable table;

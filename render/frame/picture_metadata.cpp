@@ -12,7 +12,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Replaces other characters, because names of files may hold any.
+// Replaces characters that are not printable ASCII, because names of files may hold any character.
 std::string ascii_text(std::string_view text) {
     std::string safe = printable(text);
     std::replace_if(

@@ -90,8 +90,8 @@ ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick, Rg
 ColorBar lying_bar(const BarScale& scale, const Rect& box,
                    const std::function<double(const std::string&)>& width_of, double gap,
                    Rgba8 ground) {
-    // Makes an upright bar and turns it on its side. It gets fewer numbers until none touches the
-    // next.
+    // Makes an upright bar and turns it on its side. The bar gets fewer numbers until no number
+    // touches the next.
     const Rect upright = {0, 0, box.height, box.width};
     const auto crowded = [&](const std::vector<BarTick>& ticks) {
         for (std::size_t i = 1; i < ticks.size(); ++i) {

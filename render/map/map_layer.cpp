@@ -231,7 +231,7 @@ class Tracer {
     bool has_waiting_ = false;
 };
 
-// Returns the set of a kind to draw: the coarsest that is fine enough, else the finest.
+// Returns the set of a kind to draw: the coarsest set that is fine enough, else the finest set.
 const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) {
     const MapSet* best = nullptr;
     for (const MapSet& set : map.sets()) {
@@ -245,8 +245,8 @@ const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) 
     return best;
 }
 
-// Returns the part of the ground whose cities are shown. Seen at a slant, it ends with the grid,
-// because the ground beyond fades.
+// Returns the part of the ground whose cities are shown. Seen at a slant, this part ends with the
+// grid, because the ground beyond the grid fades.
 Box box_of_cities(const ViewGeometry& geometry, const Box& shown) {
     if (is_from_above(geometry)) return shown;
     return {std::max(shown.west, -geometry.half_x_m()), std::max(shown.south, -geometry.half_y_m()),

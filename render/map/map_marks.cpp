@@ -201,8 +201,8 @@ class Planner {
     }
 
     // Places the scale of heights at the leftmost upright edge of the box in the picture. If two
-    // edges qualify, it takes the farther one, which is higher in the picture. The edge is an
-    // outline of the box, so no echo is ever behind it.
+    // edges qualify, the scale is at the farther edge, which is higher in the picture. The edge is
+    // an outline of the box, so no echo is ever behind it.
     void plan_heights() {
         std::optional<GroundPoint> edge;
         Point edge_at;

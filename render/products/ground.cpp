@@ -26,8 +26,9 @@ class ColumnFinder {
         return holding(p.x_m / cell_width_m_ + 0.5 * nx_, p.y_m / cell_height_m_ + 0.5 * ny_);
     }
 
-    // These do the same in two steps: places_of() converts the points of a row to places counted in
-    // columns, and holding() returns the column that holds such a place.
+    // places_of() and holding() do the work of at() in two steps: places_of() converts the points
+    // of a row to places counted in columns, and holding() returns the column that holds such a
+    // place.
     void places_of(const GroundRow& row, std::vector<double>& x, std::vector<double>& y) const {
         x.resize(row.x_m.size());
         y.resize(row.y_m.size());

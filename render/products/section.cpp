@@ -14,7 +14,8 @@
 namespace stormcellar::render {
 namespace {
 
-// The two indices around a place along an axis, and the share of the second; none beyond the cells.
+// The two indices around a place along an axis, and the share of the second index; none beyond the
+// cells.
 struct Neighbours {
     int first = 0, second = 0;
     double second_share = 0;
@@ -51,8 +52,8 @@ grid::Sample sample_of(const ColumnCells& cells, float half_period, int level) {
     return {cells.status[i], cells.values[i], 0, half_period};
 }
 
-// Returns for each level the common state of all four columns. Returns value if they differ or hold
-// values.
+// Returns the common state of all four columns for each level. The state is `value` where the
+// columns differ or hold values.
 std::vector<grid::CellStatus> states_of_all(const std::array<Corner, 4>& corners) {
     std::vector<grid::CellStatus> states = corners.front().cells.status;
     for (const Corner& corner : corners) {

@@ -42,7 +42,7 @@ class WindowPlaces {
         if (window_.plane == Plane::degrees) return std::clamp(at, -90.0, 90.0);
         return mercator_latitude_deg(at);
     }
-    // The inverse functions.
+    // Return the place, in pixels, of a longitude or a latitude.
     [[nodiscard]] double x_of(double longitude_deg) const {
         const double at = window_.plane == Plane::degrees ? longitude_deg
                                                           : longitude_deg / degrees_per_mercator_m;
@@ -62,7 +62,7 @@ class WindowPlaces {
 };
 
 struct PixelBox {
-    int left = 0, top = 0, right = 0, bottom = 0;  // the last two are beyond
+    int left = 0, top = 0, right = 0, bottom = 0;  // `right` and `bottom` are just beyond
     [[nodiscard]] bool is_empty() const { return left >= right || top >= bottom; }
 };
 
@@ -128,7 +128,8 @@ class PlaceColors {
 };
 
 // A square of pixels. The corners are the centers of its first pixels and of the pixels just beyond
-// it to the right and below: corners[0] is the top left one, [1] top right, [2] and [3] below.
+// it to the right and below: corners[0] is at the top left, [1] at the top right, [2] and [3] are
+// below them.
 struct Mesh {
     int left = 0, top = 0, side = 0;
     std::array<ColumnPoint, 4> corners{};

@@ -158,7 +158,7 @@ double azimuth_for(const std::vector<Column>& columns) {
     const double middle = 0.5 * (xx + yy);
     const double apart = std::hypot(0.5 * (xx - yy), xy);
     if (!(middle + apart > long_ratio * long_ratio * (middle - apart))) return usual_azimuth_deg;
-    // The long axis, counterclockwise from east; the camera looks from the right of it.
+    // The long axis, counterclockwise from east. The camera looks from the right side of this axis.
     const double axis_deg = 0.5 * std::atan2(xy, 0.5 * (xx - yy)) / degree;
     const double turn_deg = std::clamp(-axis_deg, -farthest_turn_deg, farthest_turn_deg);
     return usual_azimuth_deg + 5 * std::round(turn_deg / 5);

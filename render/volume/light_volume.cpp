@@ -45,8 +45,8 @@ Held held(float position, int size) {
 }
 
 // The path of the light through the coarse cells: plane by plane along the main axis, from the
-// plane `first` on, by `step`. From one plane to the next it moves by (du, dv) cells across, and
-// crosses length_m of air.
+// plane `first` on, by `step`. From one plane to the next the light moves by (du, dv) cells across,
+// and crosses length_m of air.
 struct LightWay {
     std::size_t main, u, v;
     int step, first;

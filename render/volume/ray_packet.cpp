@@ -219,7 +219,7 @@ class Caster {
     }
 
     // Adds the step between two slices. The two bins at its ends select an entry of the transfer
-    // function. An end without a value takes the bin of the other end.
+    // function. If one end has no value, the bin of the other end is used for both.
     HWY_INLINE bool add_step(const SliceFinds& front, const SliceFinds& back) {
         const Floats f;
         const Ints i;

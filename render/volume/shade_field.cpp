@@ -202,8 +202,8 @@ class ShadeField::Baker {
     }
 
     // The last pass computes the factor of each coarse cell with any echo within reach of the
-    // smoothing; all others have 1. Skipping cells below 1 dB too saved 2 % of the time, but erred
-    // by up to 3 L* in weak snow.
+    // smoothing; all other cells have the factor 1. Skipping cells below 1 dB too saved 2 % of the
+    // time, but erred by up to 3 L* in weak snow.
     void shade(int x) {
         const Vec3 sun_drawn = sun_direction(light_);
         const std::array<float, 3> sun = {static_cast<float>(sun_drawn[0]),

@@ -115,8 +115,8 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
     });
 }
 
-// Adds boxes for the visible parts of a brick. The codes of the whole brick exclude most bricks;
-// only for the others are the codes of the blocks computed.
+// Adds boxes for the visible parts of a brick. The codes of the whole brick exclude most bricks.
+// The codes of blocks are computed only for the other bricks.
 void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& transfer,
                           const std::array<int, 3>& brick, Boxes& boxes) const {
     const std::size_t index = view.brick_index(brick[0], brick[1], brick[2]);
@@ -234,9 +234,9 @@ SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
     return outline;
 }
 
-// Finds the tiles and rows of the box, and widens the box by half a tile on each side. After that,
-// one ray through the middle of a tile stands for all rays of the tile: if the ray misses the
-// widened box, all of them miss the box. Returns false for a box beside the picture or behind the
+// Finds the tiles and rows of the box, and widens the box by half a tile on each side. Then one ray
+// through the middle of a tile is enough for the whole tile: if that ray misses the widened box,
+// all rays of the tile miss the box. Returns false for a box beside the picture or behind the
 // camera.
 bool SliceMask::place_in_picture(Box& box) const {
     const Outline outline =

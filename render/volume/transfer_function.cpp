@@ -137,9 +137,9 @@ TransferFunction::TransferFunction(const ColorTable& table, const grid::Quantiza
     bin_slope_ = static_cast<float>(step / bin_width_);
     bin_offset_ = static_cast<float>((code_zero - lowest_) / bin_width_ + 1 + bin_slack);
 
-    // Computes the look of each bin, from its middle value. Then counts visible bins, so that
-    // shows() answers for any range with one subtraction. Then makes the entries for all pairs of
-    // bins.
+    // Computes the look of each bin from the middle value of the bin. Then counts visible bins, so
+    // that shows() answers for any range with one subtraction. Then makes the entries for all pairs
+    // of bins.
     BinLooks look;
     for (int i = 1; i < bin_count; ++i) {
         const auto at = static_cast<std::size_t>(i);

@@ -189,10 +189,10 @@ TEST(CfradialLayout, GatesThatNoAxisCanHoldHaveAxesOfTheirOwn) {
         return layout ? layout->axes.size() : 0;
     };
     EXPECT_EQ(axes(2125, 500), 1U);
-    EXPECT_EQ(axes(2375, 250), 1U) << "a gate further";
-    EXPECT_EQ(axes(2000, 250), 2U) << "half a gate off";
-    EXPECT_EQ(axes(2125, 300), 2U) << "no multiple";
-    EXPECT_EQ(axes(2125, 2250), 2U) << "nine times";
+    EXPECT_EQ(axes(2375, 250), 1U) << "begins a gate farther";
+    EXPECT_EQ(axes(2000, 250), 2U) << "begins half a gate nearer";
+    EXPECT_EQ(axes(2125, 300), 2U) << "300 m is no multiple of 250 m";
+    EXPECT_EQ(axes(2125, 2250), 2U) << "nine times 250 m";
     EXPECT_EQ(axes(2125, 0), 2U);
     EXPECT_EQ(axes(2125, -250), 2U);
     EXPECT_EQ(axes(2125 + 250 * 9000, 250), 2U) << "thousands of gates away";

@@ -54,7 +54,7 @@ TEST_F(Cfradial, EveryGateKeepsItsCodeAndWhyItHasNoValue) {
     EXPECT_EQ(reader.text("REF", "ancillary_variables"), "REF_status");
     EXPECT_EQ(reader.text("REF_status", "flag_meanings"),
               "valid below_threshold range_folded no_data");
-    EXPECT_FALSE(reader.has_attribute("REF_status", "_FillValue")) << "it would hide a state";
+    EXPECT_FALSE(reader.has_attribute("REF_status", "_FillValue")) << "_FillValue hides a state";
     EXPECT_EQ(reader.values("range", 4), (Values{2125, 2375, 2625, 2875}));
 }
 
@@ -172,7 +172,7 @@ TEST_F(Cfradial, SweepsAndRadialsAreWhereTheirIndicesSay) {
     const double fill = static_cast<double>(NC_FILL_FLOAT);
     EXPECT_EQ(reader.values("nyquist_velocity", 5), (Values{fill, fill, fill, fill, 27.5}));
     EXPECT_EQ(reader.values("radar_measured_sky_noise", 5)[0], -80.5);
-    EXPECT_FALSE(reader.has_variable("unambiguous_range")) << "no radial knows it";
+    EXPECT_FALSE(reader.has_variable("unambiguous_range")) << "no radial has one";
     EXPECT_EQ(reader.values("volume_number", 1), Values{116});
     EXPECT_EQ(reader.number(nullptr, "scan_id"), 212);
 }
@@ -198,7 +198,7 @@ TEST_F(Cfradial, AnImpossibleTimeMovesNothingElse) {
     Reader reader(path_);
     EXPECT_EQ(reader.text("time", "units"), "seconds since 2022-03-17T00:08:52Z");
     EXPECT_EQ(reader.text(nullptr, "ray_times_increase"), "false");
-    EXPECT_LT(reader.values("time", 3)[1], -1e9) << "as it came";
+    EXPECT_LT(reader.values("time", 3)[1], -1e9) << "decoded times do not change";
 }
 
 TEST_F(Cfradial, AVolumeWithoutRadialsIsAFileWithoutRadials) {
@@ -207,7 +207,7 @@ TEST_F(Cfradial, AVolumeWithoutRadialsIsAFileWithoutRadials) {
     EXPECT_EQ(reader.length("time"), 0U);
     EXPECT_EQ(reader.length("sweep"), 0U);
     EXPECT_EQ(reader.length("range"), 0U);
-    EXPECT_EQ(reader.text("time", "units"), "seconds since 2022-03-17T00:08:42Z") << "the header's";
+    EXPECT_EQ(reader.text("time", "units"), "seconds since 2022-03-17T00:08:42Z") << "header time";
     EXPECT_EQ(reader.text(nullptr, "volume"), "partial");
     EXPECT_EQ(reader.text(nullptr, "notes"), "metadata without radials");
     EXPECT_NEAR(reader.values("latitude", 1)[0], 35.333, 0.01) << "from the station table";

@@ -65,7 +65,7 @@ TEST(ClimatologyNetcdf, SaysWhatWasSeenAndHowOftenItRained) {
     const auto frequency = file.values("frequency", 4 * thresholds);
     EXPECT_EQ(frequency.at(0), 1);         // 0 dBZ in both frames
     EXPECT_EQ(frequency.at(1), fill);      // the blind column
-    EXPECT_EQ(frequency.at(2 * 10), 0.5);  // 50 dBZ in one
+    EXPECT_EQ(frequency.at(2 * 10), 0.5);  // 50 dBZ in one of two frames
     EXPECT_EQ(frequency.at(2 * 11), 0);    // 55 dBZ never
     const auto tops = file.values("echo_top_frequency", 8);
     EXPECT_EQ(tops.at(0), 0.5);  // at or above 1000 m
@@ -94,7 +94,7 @@ TEST(ClimatologyNetcdf, HasEachCellWhereTheyWereCounted) {
     EXPECT_EQ(frequency.at(0), 0) << "seen at 1000 m, and never an echo";
     EXPECT_EQ(frequency.at(1), fill);
     EXPECT_EQ(frequency.at(2), 1) << "0 dBZ at 2000 m in both frames";
-    EXPECT_EQ(frequency.at(4 * 10 + 2), 0.5) << "50 dBZ in one";
+    EXPECT_EQ(frequency.at(4 * 10 + 2), 0.5) << "50 dBZ in one frame";
     EXPECT_THAT(file.text("cell_maximum", "ancillary_variables"), HasSubstr("cell_not_seen"));
 }
 

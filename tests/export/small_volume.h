@@ -33,7 +33,7 @@ inline level2::SweepMoment small_moment(level2::Moment name, const std::vector<R
     return made;
 }
 
-// Makes the same moment with codes of 16 bits.
+// Makes the moment of small_moment() with codes of 16 bits.
 inline level2::SweepMoment wide_moment(level2::Moment name, const std::vector<Row>& rows) {
     level2::SweepMoment made = small_moment(name, rows);
     made.word_size_bits = 16;

@@ -141,7 +141,7 @@ TEST(BaseMap, TheBuiltInMapIsSmallAndWhole) {
         }
     }
     EXPECT_GT(points, 100'000U);
-    EXPECT_EQ(sets.size(), map->sets().size()) << "a set is there twice";
+    EXPECT_EQ(sets.size(), map->sets().size()) << "a set appears twice";
     for (int detail = 0; detail < map_detail_count; ++detail) {
         for (const MapKind kind :
              {MapKind::state, MapKind::lake, MapKind::country, MapKind::coast}) {
@@ -215,8 +215,8 @@ TEST(BaseMap, LinesAreWhereTheyAreKnownToBe) {
     }
 }
 
-// Returns true if a place is within the rings of the coast: a line from it crosses an odd number of
-// their edges.
+// Returns true if a place is within the rings of the coast: a line from the place crosses an odd
+// number of edges of the rings.
 bool is_land(const BaseMap& map, int detail, grid::GeoPoint place) {
     bool is_within = false;
     for (const MapSet& set : map.sets()) {

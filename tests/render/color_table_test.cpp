@@ -71,7 +71,7 @@ TEST(ColorTable, ExtinctionIsStraightBetweenItsPoints) {
     EXPECT_DOUBLE_EQ(extinction_per_m(smooth(), 99, 1), 1.5e-3);
     ColorTable late = smooth();
     late.stops.front().from = 3;
-    EXPECT_EQ(extinction_per_m(late, 2.5, 1), 0) << "what has no color is clear";
+    EXPECT_EQ(extinction_per_m(late, 2.5, 1), 0) << "a value without a color is clear";
 }
 
 }  // namespace

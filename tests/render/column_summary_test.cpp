@@ -67,7 +67,7 @@ TEST(ColumnSummary, StatusOfTheMaximum) {
     column.has_no_echo = true;
     EXPECT_EQ(column.status(), CellStatus::no_echo);
     column.has_range_folded = true;
-    EXPECT_EQ(column.status(), CellStatus::range_folded) << "what is under the fold is unknown";
+    EXPECT_EQ(column.status(), CellStatus::range_folded) << "folded echo may hide any state";
     column.max_code = 3;
     EXPECT_EQ(column.status(), CellStatus::value);
 }

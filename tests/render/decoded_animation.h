@@ -28,8 +28,8 @@ struct DecodedAnimation {
     int loop_count = -1;                            // 0: forever; -1: the decoder does not say
 };
 
-// Writes a loop. A test fails if it cannot be written. This is inline, because tests of stills have
-// no writer of loops.
+// Writes a loop. The test fails if the loop cannot be written. The function is inline, because
+// tests of stills have no writer of loops.
 inline void write_animation(const std::string& path, const std::vector<Image>& frames,
                             const AnimationOptions& options = {}) {
     const auto writer = AnimationWriter::create(path, options);
@@ -44,7 +44,7 @@ void expect_frames(const DecodedAnimation& animation, const std::vector<Image>& 
 
 // Decodes with libwebp's WebPAnimDecoder. The XMP packet is metadata "XMP".
 [[nodiscard]] DecodedAnimation decode_webp(const std::filesystem::path& path);
-// Decodes GIF, APNG, MP4 and WebM with FFmpeg; only if the build has it.
+// Decodes GIF, APNG, MP4 and WebM with FFmpeg; only in a build with FFmpeg.
 [[nodiscard]] DecodedAnimation decode_with_ffmpeg(const std::filesystem::path& path);
 // Decodes with libpng's simplified reader. Returns an image of size 0 if it cannot be read.
 [[nodiscard]] Image decode_png_file(const std::filesystem::path& path);

@@ -69,7 +69,7 @@ TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
     // A value and no echo: the heavier state counts, and the value is unchanged.
     EXPECT_EQ(at(700).status[1], CellStatus::value);
     EXPECT_FLOAT_EQ(at(700).values[1], 40);
-    EXPECT_EQ(at(750).status[1], CellStatus::value) << "not less than no echo";
+    EXPECT_EQ(at(750).status[1], CellStatus::value) << "equal weights: the value counts";
     EXPECT_EQ(at(800).status[1], CellStatus::no_echo);
 }
 
@@ -160,7 +160,7 @@ TEST(Vil, OfAnEvenColumnIsItsClosedForm) {
     const FlatField field = vil_field(bricks.view(), 2);
     EXPECT_NEAR(field.values[0], 3.44e-6 * std::pow(10, 4.5 * 4 / 7) * 10000, 1e-4);
     EXPECT_NEAR(field.values[1], 3.44e-6 * std::pow(10, 5.6 * 4 / 7) * 10000, 1e-3);
-    EXPECT_EQ(field.values[2], field.values[1]) << "capped at 56 dBZ: hail is no water";
+    EXPECT_EQ(field.values[2], field.values[1]) << "capped at 56 dBZ, for hail";
     EXPECT_EQ(field.status[3], CellStatus::no_echo);
     EXPECT_EQ(field.status[4], CellStatus::not_seen);
     EXPECT_EQ(field.status[5], CellStatus::range_folded);

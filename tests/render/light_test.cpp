@@ -124,7 +124,7 @@ TEST(LightVolume, UnderASlabIsTheClosedForm) {
         EXPECT_NEAR(light.sun_at(8, 8, z), std::exp(-k * 1000 * (15 - z)), 1e-4);
     }
     for (const int z : {7, 3, 0})
-        EXPECT_NEAR(light.sun_at(8, 8, z), std::exp(-k * 8000), 1e-4) << "below it nothing is lost";
+        EXPECT_NEAR(light.sun_at(8, 8, z), std::exp(-k * 8000), 1e-4) << "below the slab";
 }
 
 // The shadow of a tower points away from the sun, and is longer if the sun is lower.
@@ -138,7 +138,7 @@ TEST(LightVolume, ATowersShadowFallsAwayFromTheSun) {
     EXPECT_LT(light.sun_at(19, 16, 0), 0.3F) << "10 km to the east";
     EXPECT_GT(light.sun_at(25, 16, 0), 0.9F) << "36 km to the east";
     EXPECT_GT(light.sun_at(12, 16, 0), 0.99F) << "to the west";
-    EXPECT_GT(light.sun_at(19, 22, 0), 0.9F) << "beside it";
+    EXPECT_GT(light.sun_at(19, 22, 0), 0.9F) << "beside the shadow";
     EXPECT_GT(light.sun_at(19, 16, 14), 0.9F) << "above the shadow";
 }
 

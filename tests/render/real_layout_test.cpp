@@ -175,7 +175,7 @@ TEST_F(RealLayout, LabelsAreWholeAndApart) {
     }
 }
 
-// The row "no echo or < 18.5 dBZ" was smaller than the others (2026-11-25).
+// The row "no echo or < 18.5 dBZ" was smaller than the other rows (2026-11-25).
 TEST_F(RealLayout, RowsOfALegendAreOfOneSize) {
     for_all(Product::echo_top, [&](const Domain& domain, const Scene& scene) {
         double size = 0;
@@ -195,7 +195,8 @@ TEST_F(RealLayout, MarksAreApart) {
     std::size_t names = 0;
     for (const Product product : {Product::composite, Product::volume}) {
         for_all(product, [&](const Domain& domain, const Scene& scene) {
-            if (scene.width > 1920 && scene.units.distance != Unit::km) return;  // as at 1920
+            // Wider pictures are laid out as at 1920, so one choice of units is enough.
+            if (scene.width > 1920 && scene.units.distance != Unit::km) return;
             const LabelLayout layout = labels(domain, scene);
             const ViewGeometry geometry =
                 picture_geometry(domain.spec, scene, layout.width, layout.height);
@@ -225,7 +226,7 @@ TEST_F(RealLayout, MarksAreApart) {
             names += marks.ground_texts.size();
         });
     }
-    EXPECT_GT(names, 1000U) << "what is not written cannot overlap";
+    EXPECT_GT(names, 1000U) << "names without room cannot overlap";
 }
 
 TEST_F(RealLayout, PanelsAreWholeAndApart) {

@@ -242,7 +242,7 @@ TEST(RenderFrame, AVolumeTooLargeToAddressIsRefused) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
     scene.product = Product::composite;
-    EXPECT_TRUE(check_frame(view, {}, scene)) << "maps are";
+    EXPECT_TRUE(check_frame(view, {}, scene)) << "a map may be wide";
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST(SafeTables, VelocityIsLighterWithSpeedAndItsSidesDiffer) {
     EXPECT_TRUE(lightness_rises(table, count / 2, count)) << "towards";
 }
 
-// Shows that the test above can fail: the tables of the Weather Service do.
+// Shows that the previous test can fail, because the tables of the Weather Service would fail it.
 TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     EXPECT_LT(least_step(nws_reflectivity(), sights[1]), 4);
     EXPECT_LT(least_step(nws_reflectivity(), sights[2]), 4);

@@ -87,7 +87,7 @@ TEST_P(ShadesOfTheme, GroundsDiffer) {
         EXPECT_GE(contrast(ground->not_seen, shades.hatch), 1.35);
         const auto all = {ground->seen, ground->seen_aloft, ground->not_seen};
         for (const Rgba8& one : all) {
-            // Nearly gray: no echo is.
+            // Grounds are nearly gray, unlike any echo.
             EXPECT_LE(*std::max_element(one.begin(), one.begin() + 3) -
                           *std::min_element(one.begin(), one.begin() + 3),
                       26);

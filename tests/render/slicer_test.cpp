@@ -20,8 +20,9 @@ Layer slice(const grid::BrickView& view, const ViewGeometry& geometry, int slice
 }
 
 // In closed form, a slab of one value and height H, seen at tilt t with exaggeration e, has the
-// opacity 1 - exp(-k H e / cos t) wherever a ray crosses it from top to bottom. Its value is the
-// middle of a bin.
+// opacity 1 - exp(-k H e / cos t) wherever a ray crosses it from top to bottom. The slab has the
+// value in the middle of a bin of the transfer function, because every value of a bin looks like
+// the middle.
 TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     const grid::GridSpec spec = small_spec(200, 16);
     constexpr double dbz = 41.875 + 0.5 * 0.3125;
@@ -46,7 +47,8 @@ TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     }
 }
 
-// Tests where one cell appears in the picture, from all sides, which fixes the orientation.
+// Tests where one cell appears in the picture, from several directions, which fixes the
+// orientation.
 void expect_cells_where_geometry_puts_them(const grid::GridSpec& spec) {
     struct Place {
         int ix, iy, iz;

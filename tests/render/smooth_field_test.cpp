@@ -119,7 +119,7 @@ TEST(SmoothField, IsTheCellAtItsCenterAndStaysBetweenTheCellsAround) {
             EXPECT_EQ(smooth.at(x, y).value, field.values[cell]);
         }
     }
-    EXPECT_EQ(smooth.at(-0.5, -0.4).status, field.status[0]) << "the edge goes on";
+    EXPECT_EQ(smooth.at(-0.5, -0.4).status, field.status[0]) << "cells at the edge are repeated";
     FlatField steep(4, 4);
     for (std::size_t i = 0; i < steep.values.size(); ++i)
         steep.put(i, CellStatus::value, i % 4 < 2 ? 10 : 60);
@@ -139,7 +139,7 @@ TEST(SmoothField, OfOneCellIsThatCell) {
 TEST(SmoothField, IsForMapsOfValuesThatDoNotWrap) {
     Scene scene;
     scene.smooth = true;
-    EXPECT_FALSE(is_smoothed(scene)) << "a volume";
+    EXPECT_FALSE(is_smoothed(scene)) << "a volume is no map";
     scene.product = Product::composite;
     EXPECT_TRUE(is_smoothed(scene));
     scene.moment = level2::Moment::vel;

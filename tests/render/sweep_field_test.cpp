@@ -153,10 +153,10 @@ TEST_F(SweepField, ThePictureHasTheColorsOfTheGates) {
         }
     }
     EXPECT_GT(valued, 1000);
-    EXPECT_GT(colored, 0.97 * valued) << "the line around the ground covers the others";
+    EXPECT_GT(colored, 0.97 * valued) << "the line around the ground covers some pixels";
 }
 
-// The footer says how much of the circle there is, and whether the view shows the whole range.
+// The footer says how much of the circle was seen, and whether the view shows the whole range.
 TEST_F(SweepField, TheFooterTellsTheSweepAndTheView) {
     const auto text_of = [&](const grid::GridSpec& spec, double zoom) {
         Scene zoomed = scene();

@@ -27,7 +27,7 @@ inline grid::GridSpec small_spec(int n, int levels, double spacing_m = 1000,
     return spec;
 }
 
-// Returns such a spec in degrees. Its cells are narrower than they are high.
+// Returns small_spec() in degrees. Cells are narrower from west to east than from south to north.
 inline grid::GridSpec small_degrees_spec(int n, int levels) {
     grid::GridSpec spec = small_spec(n, levels);
     spec.projection = grid::Projection::latitude_longitude;

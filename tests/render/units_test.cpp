@@ -38,15 +38,15 @@ TEST(Units, NamesInAnyOrderAndCase) {
     EXPECT_EQ(unit_names(us), "knots,miles,kft");
     EXPECT_EQ(unit_names(units("FT,mi,KT")), "knots,miles,feet");
     EXPECT_EQ(unit_names({}), "m/s,km");
-    EXPECT_EQ(unit_names(units("mph")), "mph,km") << "what is not named stays";
+    EXPECT_EQ(unit_names(units("mph")), "mph,km") << "km stays the default";
 }
 
-TEST(Units, KilometersAreOfWhatNoOtherIsOf) {
+TEST(Units, KilometersApplyToTheQuantityWithoutAnotherUnit) {
     EXPECT_EQ(units("km,kft").distance, Unit::km);
     EXPECT_EQ(units("km,kft").height, Unit::kft);
     EXPECT_EQ(unit_names(units("km,nmi")), "m/s,nautical-miles,km");
     EXPECT_EQ(refusal("km,miles,kft"), "miles and km are both units of distances; give one of them")
-        << "km would say nothing";
+        << "miles and kft leave no quantity for km";
 }
 
 TEST(Units, WrongNamesAreRefused) {
@@ -92,7 +92,7 @@ TEST(LengthText, RingsAreRoundInTheUnit) {
         return drawn_ring_spacing(grid::default_spec(35, -97), scene);
     };
     EXPECT_DOUBLE_EQ(spacing(50e3, "km"), 50e3);
-    EXPECT_DOUBLE_EQ(spacing(37e3, "km"), 37e3) << "kilometers stay as asked for";
+    EXPECT_DOUBLE_EQ(spacing(37e3, "km"), 37e3) << "kilometers are not rounded";
     EXPECT_DOUBLE_EQ(spacing(50e3, "miles"), 30 * 1609.344);
     EXPECT_DOUBLE_EQ(spacing(50e3, "nmi"), 25 * 1852.0);
     EXPECT_DOUBLE_EQ(spacing(160e3, "miles"), 100 * 1609.344);
@@ -111,7 +111,7 @@ TEST(Units, LegendsAndTitlesHaveThem) {
     EXPECT_EQ(legend_of(scene).bar_heading, "dBZ");
     scene.product = Product::echo_top;
     EXPECT_EQ(legend_of(scene).bar_heading, "kft");
-    EXPECT_EQ(unit_shown(scene), "km") << "values stay";
+    EXPECT_EQ(unit_shown(scene), "km") << "the stored values stay in km";
     scene.product = Product::cappi;
     EXPECT_EQ(product_title(scene), "Reflectivity at 9.843 kft above sea level (CAPPI)");
 }

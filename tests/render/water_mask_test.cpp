@@ -41,8 +41,8 @@ TEST(WaterMask, IsStraightBetweenTheCentersOfItsCells) {
     EXPECT_EQ(WaterMask{}.water_at({0, 0}), 0);
 }
 
-// Four rectangles of land that meet at 40 N 100 W, as the map's tiles do, and a lake in one of
-// them.
+// The map has four rectangles of land that meet at 40 N 100 W, like tiles of the built-in map, and
+// a lake in one rectangle.
 TEST(WaterMask, OfAMapHasNoSeamsBetweenTiles) {
     using Ring = std::vector<grid::GeoPoint>;
     const auto quarter = [](double south, double west, double north, double east) {
