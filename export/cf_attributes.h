@@ -1,8 +1,8 @@
 // export/cf_attributes.h -- the names and attributes of the variables of a grid, in the terms of
 // CF; internal.
 //
-// This is the only table of these texts. NetCDF files (export/grid_netcdf.h) and all other
-// descriptions of a grid in these terms use it.
+// This file is the only source of these names and attributes. NetCDF files (export/grid_netcdf.h)
+// and all other descriptions of a grid in terms of CF use it.
 //
 // Units     CF units, named in the attributes.
 // Threads   Pure functions.

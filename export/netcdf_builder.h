@@ -1,7 +1,7 @@
 // export/netcdf_builder.h -- builds a netCDF-4 file in memory; internal to export.
 //
-// The first failure is kept: later calls do nothing, and finish() returns it. So a writer may
-// describe the whole file and check once.
+// The builder keeps the first failure: later calls do nothing, and finish() returns the failure. So
+// a writer may describe the whole file and check only the result of finish().
 //
 // Threads   The netCDF library is not thread-safe, so hold library_mutex() while a builder lives.
 #pragma once

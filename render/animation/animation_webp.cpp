@@ -1,6 +1,6 @@
-// Writes WebP loops with libwebp's animation encoder. They are lossless, because colors are data
-// and lossy WebP would halve their resolution. Method 1 and effort 50 give most of the compression
-// for little time (docs/decisions.md).
+// Writes WebP loops with libwebp's animation encoder. The loops are lossless, because colors are
+// data and lossy WebP would halve their resolution. Method 1 and effort 50 give most of the
+// compression for little time (docs/decisions.md).
 #include <climits>
 #include <cmath>
 

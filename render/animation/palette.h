@@ -28,7 +28,7 @@ class ColorHistogram {
     ColorHistogram();
     void add(const Image& frame);
 
-    // Returns at most `size` (2 to 256) colors. Each added pixel is near one of them.
+    // Returns at most `size` (2 to 256) colors. Each added pixel is near one of these colors.
     [[nodiscard]] std::vector<Rgb8> palette(std::size_t size) const;
 
   private:

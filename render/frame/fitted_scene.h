@@ -11,7 +11,7 @@
 namespace stormcellar::render {
 
 // Fits the view of a volume; for other products the scene does not change. `outline` has the echo
-// of all grids that will be seen; `view` and `facts` belong to one of them. Errors: those of
+// of all grids that will be seen; `view` and `facts` belong to one of these grids. Errors: those of
 // layout_of() and check_frame().
 [[nodiscard]] Result<FittedView> fit_scene(const EchoOutline& outline, const grid::BrickView& view,
                                            const FrameFacts& facts, const FitParts& parts,

@@ -1,6 +1,6 @@
 // render/frame/picture_metadata.h -- the metadata that a file of a picture or a loop contains.
 //
-// It consists of keywords and texts in printable ASCII, and is the same for the same picture on
+// The metadata are keywords and texts in printable ASCII. They are equal for the same picture on
 // every machine.
 //   Title               domain and times
 //   Description         the picture in a sentence

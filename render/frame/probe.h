@@ -22,7 +22,7 @@
 namespace stormcellar::render {
 
 struct Probe {
-    grid::GeoPoint place;  // the point that was asked for
+    grid::GeoPoint place;  // the requested point
     grid::CellStatus status = grid::CellStatus::not_seen;
     float value = 0;        // if the status is value
     bool at_least = false;  // the true value may be larger

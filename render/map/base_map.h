@@ -2,7 +2,7 @@
 //
 // scripts/make-map-data makes it from public-domain data (docs/data-sources.md), for the area that
 // the weather radars of the United States can see. Lines come in three levels of detail; a picture
-// uses one of them.
+// uses one level.
 //
 // Format, version 2. Little-endian; `v` is an unsigned LEB128 number of at most 32 bits, `z` a
 // zigzag one (0, -1, 1, -2...). Longitudes and latitudes are in units of 1/U degrees on WGS84.
@@ -27,7 +27,7 @@
 // Threads   Immutable once made. A BaseMap refers to the bytes that it was made from.
 // Errors    empty, truncated, corrupt (also by its checksum), unsupported (another version).
 //           Contradictions in bytes with a correct checksum are corrupt too; points_of() finds the
-//           last of them.
+//           last of these contradictions.
 // Accuracy  As accurate as the sources (docs/data-sources.md); the format adds 1/(2 U) degrees, 6
 //           m.
 #pragma once

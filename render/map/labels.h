@@ -34,7 +34,7 @@ struct LabelLayout : LabelParts {
     const Shades* shades = &shades::dark;
 };
 
-// The facts about the picture that its labels show, besides those of its grid.
+// The facts about the picture that its labels show, besides the facts about its grid.
 struct DrawnFacts {
     Legend legend;
     double ring_spacing_m = 50e3;  // as drawn

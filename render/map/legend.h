@@ -28,7 +28,7 @@ struct Legend {
     double shown_per_value = 1;         // factor from the table's numbers to the bar's numbers
 };
 
-// Makes the legend of a valid scene, whose table must outlive it.
+// Makes the legend of a valid scene. The table of the scene must outlive the legend.
 [[nodiscard]] Legend legend_of(const Scene& scene);
 
 }  // namespace stormcellar::render

@@ -2,15 +2,15 @@
 // heights, north and a scale bar.
 //
 // Marks are planned first and drawn later, so that none overlaps another. The north arrow and the
-// scale bar take a corner, the lower left one unless a site is there. Then come the names of sites,
-// heights, distances, and cities, the largest first. A name without room is left out; then the mark
-// of a site is still drawn, but the mark of a city is not. Everything is inside the picture, and
-// plans are in pixels of the picture.
+// scale bar take a corner, the lower left corner unless a site is there. Then come the names of
+// sites, heights, distances, and cities, the largest first. A name without room is left out; then
+// the mark of a site is still drawn, but the mark of a city is not. Everything is inside the
+// picture, and plans are in pixels of the picture.
 //
-// The length of the scale bar is valid across the middle of the picture. It is 1, 2 or 5 times a
-// power of ten, by the distance on WGS84 (to 1 % at worst). There is no bar if the middle of the
-// view shows no ground. Planning asks the view only for the places of points and the ground under
-// pixels.
+// The length of the scale bar is valid across the middle of the picture. The length is 1, 2 or 5
+// times a power of ten, measured along WGS84 (to 1 % at worst). There is no bar if the middle of
+// the view shows no ground. Planning asks the view only for the places of points and the ground
+// under pixels.
 //
 // Threads   Plain data; pure functions, except that they draw on the canvas.
 #pragma once

@@ -19,9 +19,9 @@ namespace stormcellar::render {
 [[nodiscard]] bool chooses_light(const SceneOptions& options);
 
 // Fits the scene to the echo of all grids that will be seen; `view` and `facts` belong to one of
-// them. `orbits` says that the camera will move around the echo. If `last` holds a view that is
-// near the fitted view, the scene gets that view instead. The view of the scene is then stored in
-// `last`. Errors: those of fit_scene().
+// these grids. `orbits` says that the camera will move around the echo. If `last` holds a view that
+// is near the fitted view, the scene gets that view instead. The view of the scene is then stored
+// in `last`. Errors: those of fit_scene().
 [[nodiscard]] Result<FittedView> fit_picture(const EchoOutline& outline,
                                              const grid::BrickView& view, const FrameFacts& facts,
                                              const SceneOptions& options, Scene& scene,

@@ -9,9 +9,9 @@
 //                for each pixel
 //   surface      equally bright in every direction; gradient_light: lighter toward the sun and
 //                darker away from it
-//   light        the same everywhere; shadow_light: the light of sun and sky that gets through;
-//                scattering_light: the light that gets through and is scattered once toward the
-//                camera
+//   light        equally strong everywhere; shadow_light: the light of sun and sky that gets
+//                through; scattering_light: the light that gets through and is scattered once
+//                toward the camera
 // Kinds of light that the scene does not have (stormcellar/render/light.h) are not_asked, so the
 // exact picture lacks them too. Camera, exaggeration and the curve of the earth belong to the
 // scene, because they define what is shown. Sizes are color differences (CIEDE2000). The exact form

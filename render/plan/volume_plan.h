@@ -22,7 +22,7 @@
 
 namespace stormcellar::render {
 
-// A scene that is drawn with several choices. All arguments must outlive it.
+// A scene that is drawn with several choices. All arguments must outlive the VolumeScene.
 class VolumeScene {
   public:
     // `width` and `height` are the size of the picture without its labels.

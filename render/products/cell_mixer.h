@@ -1,11 +1,11 @@
 // render/products/cell_mixer.h -- mixes the cells of a grid for a place between them.
 //
-// This is the status rule (docs/geometry.md, grid/sweep/mixture.h) with the weights of the cells:
-// not seen if more than half is not seen; else range folded if that is the largest part; else no
-// echo if that outweighs the values; else the weighted mean of the values. Cells with no echo do
-// not lower a value, because a grid does not hold the detection limits of its cells. PHI is
-// averaged on its circle of 360 degrees. For VEL, whose circle a grid does not hold, the value that
-// weighs most is the result.
+// The mixer applies the status rule (docs/geometry.md, grid/sweep/mixture.h) with the weights of
+// the cells. The result is not seen if more than half of the weight is not seen; else range folded
+// if that is the largest part; else no echo if that outweighs the values; else the weighted mean of
+// the values. Cells with no echo do not lower a value, because a grid does not hold the detection
+// limits of its cells. PHI is averaged on its circle of 360 degrees. For VEL, whose circle a grid
+// does not hold, the value that weighs most is the result.
 //
 // Threads   Plain values.
 #pragma once
@@ -44,7 +44,7 @@ class CellMixer {
     std::size_t count_ = 0;
 };
 
-// The two levels around a height, and the share of the upper one. They are the same level if the
+// The two levels around a height, and the share of the upper one. Both are the same level if the
 // height is at a level, or below the first or above the last level but within its cells.
 struct LevelPair {
     int lower = 0, upper = 0;

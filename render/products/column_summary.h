@@ -21,7 +21,8 @@ struct ColumnSummary {
     bool has_range_folded = false;
 
     // Returns the state of the column maximum: a value if any cell has one; else range folded if
-    // any cell is, because the echo behind it is unknown; else no echo if any cell was seen.
+    // any cell is range folded, because the echo behind it is unknown; else no echo if any cell was
+    // seen.
     [[nodiscard]] grid::CellStatus status() const {
         if (max_code > 0) return grid::CellStatus::value;
         if (has_range_folded) return grid::CellStatus::range_folded;
@@ -30,7 +31,7 @@ struct ColumnSummary {
 };
 
 // Returns true if all bricks of this column of bricks are uniform. Then all columns of cells in
-// them are equal and have no value.
+// these bricks are equal and have no value.
 [[nodiscard]] bool is_uniform_stack(const grid::BrickView& view, int bx, int by);
 
 // Returns the states of 16 cells of a column in a brick of states, from this cell of the brick

@@ -26,9 +26,9 @@
 //               (sweep_field.h).
 //   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
 //                               seen".
-// For products of reflectivity, a column without a value is range folded if any cell is, because
-// the echo behind it is unknown; else no echo (below the threshold) if any cell was seen; else not
-// seen.
+// For products of reflectivity, a column without a value is range folded if any cell is range
+// folded, because the echo behind it is unknown; else no echo (below the threshold) if any cell was
+// seen; else not seen.
 //
 // Units     Heights are above mean sea level.
 // Threads   Pure functions; the same bits for any number of threads.

@@ -1,7 +1,7 @@
 // render/products/ground.h -- paints flat things: the ground of the 3D view, and 2D products.
 //
-// Both are opaque pictures, painted pixel by pixel. Each pixel shows the column whose cell it falls
-// into. If the picture has a map, the ground continues beyond the grid, darker (or, on a light
+// Both are opaque pictures, painted pixel by pixel. Each pixel shows the column whose cell contains
+// the pixel. If the picture has a map, the ground continues beyond the grid, darker (or, on a light
 // page, lighter). Without a map, the page is seen there. Land and water have shades of their own.
 //
 // Threads   Pure functions; the same bits for any number of threads.

@@ -54,8 +54,8 @@ SmoothField::Place SmoothField::at(double x, double y) const {
     return {status, value_at(west, south, beyond_x, beyond_y)};
 }
 
-// Returns the value between the cells (x, y) and (x + 1, y + 1). At least one of the four has a
-// value.
+// Returns the value between the cells (x, y) and (x + 1, y + 1). At least one of these four cells
+// has a value.
 float SmoothField::value_at(int x, int y, float beyond_x, float beyond_y) const {
     // The 4 x 4 cells, row by row. Beyond the edge of the field, the cells at the edge are
     // repeated.
@@ -70,8 +70,8 @@ float SmoothField::value_at(int x, int y, float beyond_x, float beyond_y) const 
             values[k] = field_.values[cell];
         }
     }
-    // The range of the middle four cells bounds the result. Their mean stands in for each of the
-    // four without a value.
+    // The range of the middle four cells bounds the result. Each of these four cells without a
+    // value gets the mean of the others.
     constexpr std::array<std::size_t, 4> middle = {5, 6, 9, 10};
     float sum = 0, count = 0, least = 0, largest = 0;
     for (const std::size_t k : middle) {

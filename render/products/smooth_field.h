@@ -4,8 +4,8 @@
 // cell, by a cubic of Catmull and Rom through 4 x 4 cells that never leaves the range of the four
 // cells around a place. The state is decided first, and values are mixed only with values:
 //   state    If all four cells are a value or no echo, the result is a value if the cells with
-//            values weigh half or more (bilinear weights), else no echo. Otherwise it is the state
-//            of the nearest cell.
+//            values weigh half or more (bilinear weights), else no echo. Otherwise the result has
+//            the state of the nearest cell.
 //   value    In the cubic, each of the four cells without a value has the mean of the others, and
 //            each of the twelve cells around them without a value has the value of the nearest of
 //            the four.

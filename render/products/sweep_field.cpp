@@ -14,7 +14,7 @@ constexpr double mesh_m = 8000;  // between two points that are found exactly
 constexpr int widest_mesh = 16;  // in pixels or columns
 
 // Finds azimuth and arc from the radar for a raster of points. Columns and rows are counted from
-// the middle of the first point; `to_geo` gives the place of any of them.
+// the middle of the first point; `to_geo` gives the place of any point.
 class RasterFromSite {
   public:
     template <class ToGeo>

@@ -1,6 +1,6 @@
 // render/still/still_format.h -- the encoders behind stormcellar/render/still.h; internal.
 //
-// Each returns the whole file in memory. Errors have a reason and no name of a file.
+// Each encoder returns the whole file in memory. Errors have a reason and no name of a file.
 #pragma once
 
 #include "stormcellar/render/still.h"

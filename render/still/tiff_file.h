@@ -7,7 +7,8 @@
 //
 // Source    TIFF 6.0 (Adobe, 1992); "Cloud Optimized GeoTIFF" of GDAL's COG driver; OGC 19-008r4
 //           (GeoTIFF 1.1) for the tags of georeferencing.
-// Threads   Pure; tiles are packed on several threads. The same bits for any number of them.
+// Threads   Pure; tiles are packed on several threads, with the same bits for any number of
+//           threads.
 #pragma once
 
 #include <array>

@@ -4,10 +4,10 @@
 // The outline says where echo is, in one grid or in all grids of a loop; for a loop the view does
 // not move. fit_view() chooses the parts that the caller leaves to it:
 //   shown    The columns that reach a threshold: the highest of 40, 30, 20 and 5 dBZ that is
-//            reached on 60 km2 or more. If there is none, all columns with a value. Their 2 to 98 %
-//            ranges in both directions, widened by 12 % and 5 km, give the region to show. If the
-//            threshold is 40 dBZ, columns in the region that reach 35 dBZ are shown too. Moments
-//            other than REF show all columns with a value.
+//            reached on 60 km2 or more. If there is no such threshold, all columns with a value.
+//            The 2 to 98 % ranges of these columns in both directions, widened by 12 % and 5 km,
+//            give the region to show. If the threshold is 40 dBZ, columns in the region that reach
+//            35 dBZ are shown too. Moments other than REF show all columns with a value.
 //   place    The camera is so near that the ground under these columns and their tops fill 84 % of
 //            the width or of the height of the picture. The solution is exact, not iterated.
 //   azimuth  The camera looks from the south. A long region is seen from its long side, at most 45

@@ -255,8 +255,8 @@ void ViewGeometry::ground_of_row(int y, GroundRow& row) const {
     }
 }
 
-// A row of pixels is level, because right() is level. So all of its rays fall alike and meet a flat
-// ground at one depth.
+// A row of pixels is level, because right() is level. So all rays of the row fall alike and meet a
+// flat ground at one depth.
 void ViewGeometry::flat_ground_of_row(Pixel first, GroundRow& row) const {
     const double fall = along(first)[2];
     const double depth = -(point(first, 0)[2] - ground_m_ * exaggeration_) / fall;

@@ -174,9 +174,9 @@ bool BandCaster::bends(int x, int y, int stride, float most) const {
     return y >= stride && y + stride < height_ && bends_along(0, stride);
 }
 
-// Fills the half-way pixels of one cell of the grid. It interpolates them if the picture bends at
-// none of the cell's corners, and otherwise casts their rays. Beyond the last column and row of the
-// picture there are no pixels to interpolate from, so those rays are cast.
+// Fills the half-way pixels of one cell of the grid. Interpolates these pixels if the picture bends
+// at none of the cell's corners, and otherwise casts their rays. Beyond the last column and row of
+// the picture there are no pixels to interpolate from, so those rays are cast.
 void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const {
     if (x + stride < width_ && y + stride < height_ && !bends.any(x, y)) {
         return interpolate(x, y, stride);

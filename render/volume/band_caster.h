@@ -2,7 +2,7 @@
 // rays must be cast.
 //
 // Where cells are larger than pixels, the picture is smooth between them. So rays are cast on a
-// grid of `stride` pixels first, and then the grid is halved, down to every pixel. Where the
+// grid of `stride` pixels first, and then the stride is halved, down to every pixel. Where the
 // picture is nearly straight, the pixels in between are interpolated; elsewhere their rays are
 // cast. The second differences of the colors on the grid say how straight the picture is: in the
 // middle between two neighbors, a straight line is off by an eighth of the second difference. With

@@ -62,9 +62,9 @@ void CornerTable::fill_bricks(const grid::BrickView& view, int bx, int by) {
         fill_brick(view, columns, bz);
 }
 
-// Writes the words of one brick. They also need the first columns of the neighbors to the east and
-// north. A brick without values is skipped unless an earlier grid left words in it; in a brick that
-// only touches a neighbor with values, only the columns along that border are written.
+// Writes the words of one brick. The words also need the first columns of the neighbors to the east
+// and north. A brick without values is skipped unless an earlier grid left words in it; in a brick
+// that only touches a neighbor with values, only the columns along that border are written.
 void CornerTable::fill_brick(const grid::BrickView& view, const Columns& columns, int bz) {
     const auto [bx, by, past_x, past_y] = columns;
     const int levels = std::min(brick_edge, view.spec->nz() - bz * brick_edge);

@@ -1,8 +1,8 @@
 // render/volume/lanes-inl.h -- vectors of numbers, one lane for each of several rays.
 //
-// This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target. The
-// result of a ray does not depend on the rays beside it. So the number of lanes, which depends on
-// the target, changes no bit.
+// This file is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target.
+// The result of a ray does not depend on the rays beside it. So the number of lanes, which depends
+// on the target, changes no bit.
 #if defined(STORMCELLAR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_LANES_INL
 #undef STORMCELLAR_LANES_INL

@@ -2,9 +2,9 @@
 //
 // The object holds, on a coarse grid (4 x 4 columns, 2 levels), the transmittance of the echo
 // toward the sun and, as the mean over nine directions, toward the sky. The object is made once for
-// each time step. Each direction is a sweep from plane to plane along its steepest axis, which
-// reads the previous plane bilinearly. This blurs a shadow by about one coarse cell for each coarse
-// cell that it crosses.
+// each time step. For each direction, the light is carried from plane to plane along the steepest
+// axis. Each plane reads the previous plane bilinearly, which blurs a shadow by about one coarse
+// cell for each coarse cell that it crosses.
 //
 // Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
 // Threads   Immutable. The same bits for any number of threads.

@@ -103,7 +103,7 @@ struct Stretch {
         last = std::min(last, to);
     }
     // Keeps the part where c t^2 + b t + a <= 0, for c >= 0. This part is between the two roots.
-    // They are computed as q / c and a / q, so that no root is the difference of nearly equal
+    // The roots are computed as q / c and a / q, so that no root is the difference of nearly equal
     // numbers.
     void keep_below(double a, double b, double c) {
         if (c <= 0) {

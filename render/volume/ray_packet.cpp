@@ -41,7 +41,7 @@ HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const FloatVec high =
         hn::Add(term(9.6181291e-3F, 1.3333558e-3F), hn::Mul(hn::Set(f, 1.5403530e-4F), square));
     const FloatVec power = hn::Add(low, hn::Mul(high, hn::Mul(square, square)));
-    // 2^-whole is made directly from the bits of a float, whose exponent it is.
+    // 2^-whole is a float with the exponent -whole, so its bits are set directly.
     const IntVec scale = hn::ShiftLeft<23>(hn::Sub(hn::Set(i, 127), whole));
     return hn::Sub(hn::Set(f, 1.0F), hn::Mul(power, hn::BitCast(f, scale)));
 }

@@ -1,7 +1,7 @@
 // render/volume/ray_samples-inl.h -- the values that the rays of all lanes find at one slice.
 //
-// This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target. The
-// eight codes around a point are loaded one ray after the other and put together in general
+// This file is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target.
+// The eight codes around a point are loaded one ray after the other and put together in general
 // registers, because gathers cost more on today's machines.
 #if defined(STORMCELLAR_RAY_SAMPLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_RAY_SAMPLES_INL

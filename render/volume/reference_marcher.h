@@ -1,6 +1,6 @@
 // render/volume/reference_marcher.h -- the slicer's oracle: slow, in double, one ray at a time.
 //
-// It draws the picture in the limit of infinitely many slices, by the rules of
+// The marcher draws the picture in the limit of infinitely many slices, by the rules of
 // render/volume/slicer.h but with none of its tables: each sample looks up its value in the color
 // table itself. Steps are sampled at their middles, so the error falls with the square of their
 // length where colors are smooth, and with the length where colors are stepped. A ray that falls

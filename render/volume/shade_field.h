@@ -35,7 +35,7 @@ class ShadeField {
     static constexpr int cells_across = 2;
     static constexpr float of_code = 1.0F / 128;
 
-    // `light` may be null if neither shadow nor scattering is asked for.
+    // `volume` may be null if `light` asks for neither shadow nor scattering.
     ShadeField(const grid::BrickView& view, const ColorTable& table, const ViewGeometry& geometry,
                const Light& light, const LightVolume* volume, int threads);
 

@@ -8,10 +8,10 @@
 //            sum of their weights. So echo tapers to nothing over one cell toward cells without a
 //            value, whatever their state, and no state ever adds a color. Up to half a cell beyond
 //            the outermost centers, the outermost cells continue.
-//   step     The entry of the TransferFunction for the values at its two ends. Its optical depth is
-//            multiplied by the mean of their shares and by the length of the ray through the step,
-//            also where the box cuts the step. If one end has no value, the value of the other end
-//            is used for both. Colors mix in sRGB, as drawn.
+//   step     The entry of the TransferFunction for the values at its two ends. The optical depth of
+//            the entry is multiplied by the mean of the shares at the two ends and by the length of
+//            the ray through the step, also where the box cuts the step. If one end has no value,
+//            the value of the other end is used for both. Colors mix in sRGB, as drawn.
 //   light    If the scene asks for it, one factor for each sample (stormcellar/render/light.h); a
 //            step takes the mean of both its ends.
 //   skipped  Stretches of a ray in bricks whose range of values is clear (this is exact), and
@@ -54,14 +54,14 @@ struct VolumeOptions {
     int slices = 256;  // at least 1
     Integration integration = Integration::second_order;
     double opacity = 1;  // scales the table's extinction; above 0
-    // If cells are larger than pixels, the picture is interpolated between rays whose channels
-    // differ by no more than this (of 1). 0: a ray for each pixel.
+    // If cells are larger than pixels, pixels between rays are interpolated where the expected
+    // error of each channel is at most this (0..1). 0: a ray for each pixel.
     double pixel_tolerance = 0;
     Light light = {};  // none: the table's own colors
 };
 
-// Draws grids of one quantization in one view, and makes their common tables once. It is immutable,
-// and many threads may call draw().
+// Draws grids of one quantization in one view, and makes their common tables once. A VolumeSlicer
+// is immutable, and many threads may call draw().
 class VolumeSlicer {
   public:
     // The geometry must outlive this object; `cache` may be null. `threads` threads make the shared

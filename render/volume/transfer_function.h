@@ -52,7 +52,7 @@ class TransferFunction {
     // Returns the value whose look a bin has. Bin 0 has no such value.
     [[nodiscard]] double value_of(int bin) const { return lowest_ + (bin - 0.5) * bin_width_; }
     [[nodiscard]] double bin_width() const { return bin_width_; }
-    // Returns the look of a step from one bin to another, the nearer one first.
+    // Returns the look of a step from one bin to another, the nearer bin first.
     [[nodiscard]] const TransferEntry& entry(int bin, int other_bin) const {
         return entries_[static_cast<std::size_t>(bin) * bin_count +
                         static_cast<std::size_t>(other_bin)];

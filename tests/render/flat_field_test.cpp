@@ -176,8 +176,8 @@ TEST(Vil, TakesTheMeanOfZInALayerAndLeavesOutWhatWasNotSeen) {
     single[5] = valued(40);
     const auto bricks = columns_of({hidden, single});
     const FlatField field = vil_field(bricks.view(), 1);
-    EXPECT_NEAR(field.values[0], 3.44e-6 * full * 500, 1e-6) << "its own half of both layers";
-    EXPECT_NEAR(field.values[1], 3.44e-6 * halved * 1000, 1e-6) << "both layers with Z / 2";
+    EXPECT_NEAR(field.values[0], 3.44e-6 * full * 500, 1e-6) << "half of both layers";
+    EXPECT_NEAR(field.values[1], 3.44e-6 * halved * 1000, 1e-6) << "both layers have Z / 2";
 }
 
 // The echo top and the height of the maximum, found in a slow and obvious way from single cells.

@@ -24,8 +24,8 @@ Image hazy(const grid::BrickView& view, const ViewGeometry& geometry, int thread
     return picture;
 }
 
-// The camera looks straight down, and nothing was seen in the western half. There the path of a ray
-// through unseen air is the height of the box.
+// The camera looks straight down, and nothing was seen in the western half. In that half, the path
+// of a ray through unseen air is the height of the box.
 TEST(Haze, IsAsThickAsTheWayThroughAirThatWasNotSeen) {
     const grid::GridSpec spec = small_spec(48, 16);
     const auto bricks = bricks_of(make_grid_of(spec, [](int ix, int, int iz) {

@@ -1,13 +1,13 @@
 // stormcellar/render/color_table.h -- the look of values: their colors, and how opaque echo is.
 //
 // A table is a list of stops that rise in value. From one stop to the next the color goes from
-// `color` to `until`. In a stepped table, which shows classes, both are the same; in a smooth
-// table they differ. Colors blend in sRGB, as drawn. A value below the first stop has no color. A
-// value above the last stop has that stop's `color`. A class includes its lower bound.
+// `color` to `until`. In a stepped table, which shows classes, the two colors are equal; in a
+// smooth table they differ. Colors blend in sRGB, as drawn. A value below the first stop has no
+// color. A value above the last stop has that stop's `color`. A class includes its lower bound.
 //
 // The alpha of a color counts in flat products (a composite over a map). In a volume, `extinction`
 // says how opaque echo is: points of optical depth per kilometer of the drawn scene, with straight
-// lines between them. It is zero below the first point and constant above the last.
+// lines between them. The extinction is zero below the first point and constant above the last.
 //
 // Units     Values are in the unit of the moment; extinction is per kilometer or per meter, as
 //           named.
@@ -55,7 +55,7 @@ struct ColorTable {
     bool operator==(const ColorTable&) const = default;
 };
 
-// The largest number of stops in a table. It bounds the size of files; no display shows more
+// The largest number of stops in a table. The limit bounds the size of files; no display shows more
 // colors.
 inline constexpr std::size_t most_stops = 4096;
 

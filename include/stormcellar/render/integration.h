@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 
 //   riemann       Uses only the nearer value. The error is of first order in the step.
-//   first_order   Mixes all values between the two ends, each weighted by its extinction. It
+//   first_order   Mixes all values between the two ends, each weighted by its extinction. The mix
 //                 ignores that the near part of the step hides the far part.
 //   second_order  Uses all values in their order: the integral over a straight change from one end
 //                 to the other (Engel, Kraus, Ertl 2001). The error is of second order.

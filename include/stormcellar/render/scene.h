@@ -94,7 +94,7 @@ struct Scene {
     // The accuracy of a drawn volume (render/volume/slicer.h).
     Integration integration = Integration::second_order;
     double pixel_tolerance = 0;  // 0..0.1
-    Light light;                 // off unless asked for
+    Light light;                 // off by default
     bool haze = false;           // volumes: air that was not seen is drawn as a veil
     bool smooth = false;         // maps: values go smoothly from cell to cell
     double opacity = 1;          // scales the transfer function's opacity; 0.001..1000
