@@ -149,7 +149,7 @@ void unpack(const SweepMoment* moment, const RangeAxis& axis, std::size_t radial
     }
 }
 
-// If the axis repeats or shifts measured gates, writes how to restore them for each sweep.
+// Writes, for each sweep, how to restore the measured gates, if the axis repeats or shifts gates.
 void write_placement(const CfradialParts& parts, const CfradialField& field) {
     std::vector<int> repeats;
     std::vector<int> first;

@@ -192,7 +192,8 @@ class ClimatologyFile {
         return seen == 0 ? fill : static_cast<float>(hits) / static_cast<float>(seen);
     }
 
-    // The dimension of thresholds follows the group, so each group is one block.
+    // Writes the frequencies. The dimension of thresholds follows the group, so each group is one
+    // block.
     void write_frequency(const Places& places) {
         std::vector<float> shares;
         for (const TallyGroup& group : groups_) {

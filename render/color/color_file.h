@@ -54,7 +54,8 @@ inline constexpr double greatest_color_value = 1e6;
 // Reads a .pal or .toml file; the ending selects the format, in any case. Errors: bad_argument for
 // another ending.
 [[nodiscard]] Result<ColorTable> read_color_file(const std::filesystem::path& file);
-// Returns a built-in table by its name, or reads a file if the text ends in .pal or .toml.
+// Returns a built-in table by its name, or reads a file if the text ends in .pal or .toml. Errors:
+// bad_argument for an unknown name.
 [[nodiscard]] Result<ColorTable> colors_from(const std::string& name_or_file);
 
 // Returns the extinction for a table whose stops are set: default_extinction() if the table is for

@@ -20,8 +20,8 @@ void add_block(ColorBar& bar, const Rect& box, double low_y, double high_y, Rgba
     bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, color});
 }
 
-// The bounds of classes are round numbers in the unit of the table. In another unit they are
-// rounded, to whole numbers from 10 on and to tenths below.
+// Returns the text of the bound of a class. Bounds are round numbers in the unit of the table. In
+// another unit they are rounded, to whole numbers from 10 on and to tenths below.
 std::string bound_text(double value, const BarScale& scale) {
     const double shown = value * scale.shown_per_value;
     if (scale.shown_per_value == 1) return fmt::format("{:g}", shown);

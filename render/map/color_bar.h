@@ -35,9 +35,9 @@ struct BarScale {
 
 // Makes a bar that rises with the value. For stepped tables, classes have equal heights, with ticks
 // at their lower bounds (at every second, third ... if there is no room). For tables with blends,
-// the bar is linear in the value from the first stop to `end`, with ticks at round values. A box
-// with fewer pixels than classes loses classes, but not its ends. Translucent colors show the
-// `ground` below.
+// the bar is linear in the value from `bar_begin` (by default the first stop) to `end`, with ticks
+// at round values. A box with fewer pixels than classes loses classes, but not its ends.
+// Translucent colors show the `ground` below.
 [[nodiscard]] ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick,
                                  Rgba8 ground);
 // Makes a horizontal bar by the rules of color_bar(), rising to the right. The numbers are at least

@@ -23,7 +23,8 @@ class SiteMap {
 
     [[nodiscard]] GroundPoint site() const { return site_; }
 
-    // An azimuthal equidistant map shows a ring nearly as a circle; other maps do not.
+    // Returns the point at an azimuth and a distance from the site. An azimuthal equidistant map
+    // shows a ring nearly as a circle; other maps do not.
     [[nodiscard]] GroundPoint about(double azimuth_rad, double arc_m) const {
         if (grid::facts_of(map_.spec().projection).is_polar) {
             return {site_.x_m + arc_m * std::sin(azimuth_rad),

@@ -35,10 +35,11 @@ struct MapLines {
     double left = 0, top = 0;
 };
 
-// Returns the spacing of the rings. A requested spacing is rounded to the nearest round number in
-// the unit of distances, then doubled until there are at most 20 rings. Without a request
-// (Scene::usual_rings) the spacing starts at 50 km and is doubled until at most six rings reach the
-// nearest side of the grid. The spacing is less than 50 km if the grid is too small for one ring.
+// Returns the spacing of the rings. The spacing is rounded to a round number in the unit of
+// distances (kilometers are not rounded), then doubled until there are at most 20 rings. Without a
+// request (Scene::usual_rings) the spacing starts at 50 km and is doubled until at most six rings
+// reach the nearest side of the grid. The spacing is less than 50 km if the grid is too small for
+// one ring.
 [[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene);
 
 // Draws a thin line around the ground.

@@ -4,7 +4,8 @@
 //
 // Threads   Any thread, once the options are read.
 // Errors    bad_argument. The message names the option. If several places have the name, the
-//           message lists them. If the name is unknown, the message gives the nearest known name.
+//           message lists them. If the name is unknown, the message suggests a similar name, if
+//           there is one.
 #pragma once
 
 #include <string>

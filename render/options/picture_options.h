@@ -84,8 +84,8 @@ struct NamesValue {
 using PictureValue =
     std::variant<FlagValue, WholeValue, NumberValue, NumbersValue, TextValue, NamesValue>;
 
-// The products that use an option: only one product, all but one, those with a threshold, maps, or,
-// if none of these is set, all.
+// The products that use an option: only one product, all products but one, products with a
+// threshold, maps, or, if none of these is set, all products.
 struct ProductUse {
     std::optional<Product> only{};
     std::optional<Product> all_but{};

@@ -1,6 +1,7 @@
 // render/plan/volume_effects.h -- the ladder of a volume's picture: its steps, rungs and effects.
 //
-// Each step has a lowest rung and effects, each of which turns on the next rung:
+// Each step has a lowest rung and effects. Each effect turns on the next rung. The list gives the
+// lowest rung of each step, then each effect with its rung:
 //   slices       32 ... 2048; each effect doubles the number: slices_64, slices_128, ...
 //   integration  the nearer value of each step; value_span: all values between the ends of the
 //                step; step_attenuation: all values in their order, so that near values hide far

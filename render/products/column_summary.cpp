@@ -51,8 +51,8 @@ void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) 
     }
 }
 
-// Most runs are clear air from the bottom to the top, or air that was not seen: 16 equal bytes.
-// Returns true if the run is one of these.
+// Summarizes a run of 16 equal bytes of clear air or of air that was not seen. Most runs are of
+// this kind. Returns false for any other run.
 bool note_plain_bytes(ColumnSummary& column, const std::byte* codes, int first_level) {
     std::array<std::uint64_t, 2> run{};
     static_assert(sizeof(run) == brick_edge);

@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The weights of four neighbors at a share of the way between the middle two.
+// Returns the weights of four neighbors at a share of the way between the middle two.
 std::array<float, 4> cubic_weights(float t) {
     const float t2 = t * t, t3 = t2 * t;
     return {0.5F * (-t + 2 * t2 - t3), 0.5F * (2 - 5 * t2 + 3 * t3), 0.5F * (t + 4 * t2 - 3 * t3),

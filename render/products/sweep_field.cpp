@@ -33,7 +33,8 @@ class RasterFromSite {
         });
     }
 
-    // Between the points of the mesh, the plane about the radar is taken as straight.
+    // Returns azimuth and arc of a point. Between the points of the mesh, the plane about the radar
+    // is taken as straight.
     [[nodiscard]] grid::PolarPoint at(int x, int y) const {
         const int column = x / step_;
         const int row = y / step_;

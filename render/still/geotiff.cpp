@@ -88,7 +88,8 @@ std::vector<GeoKey> geo_keys(const grid::GridSpec& spec) {
     return keys;
 }
 
-// The corner of the first pixel is half a cell beyond the center of the column in the north-west.
+// Places the raster. The corner of the first pixel is half a cell beyond the center of the column
+// in the north-west.
 void place_raster(const grid::GridSpec& spec, TiffFacts& facts) {
     if (spec.in_degrees()) {
         const grid::GridProjection projection(spec);
@@ -179,7 +180,7 @@ TiffRaster halved(const TiffRaster& from) {
     return half;
 }
 
-// GDAL reads texts as XML, and then reads the result as XML again, so escape twice.
+// Escapes a text twice, because GDAL reads texts as XML, and then reads the result as XML again.
 std::string gdal_escaped(std::string_view text) {
     return xml_escaped(xml_escaped(text));
 }

@@ -72,8 +72,8 @@ bool write_jpeg(jpeg_compress_struct& jpeg, JpegErrors& errors, const Image& ima
     return true;
 }
 
-// Source: XMP specification, part 3: the marker APP1 with a name, a zero byte and the packet. If
-// the texts do not fit into one marker, only the title is kept.
+// Returns the content of the marker APP1: a name, a zero byte and the XMP packet (XMP
+// specification, part 3). If the texts do not fit into one marker, only the title is kept.
 std::string xmp_marker(const PictureTexts& texts) {
     if (texts.empty()) return {};
     const auto marker = [](const PictureTexts& kept) {

@@ -175,8 +175,9 @@ double exaggeration_for(const Region& region) {
     return 0.5 * std::round(2 * std::clamp(wanted, 2.0, 5.0));
 }
 
-// In the usual curve of opacity, weak echo is a thin veil. If nothing else is shown, it is drawn
-// more opaque. Clear air has its own colors, which are opaque enough.
+// Returns the factor of the opacity. In the usual curve of opacity, weak echo is a thin veil. If
+// nothing else is shown, weak echo is drawn more opaque. Clear air has its own colors, which are
+// opaque enough.
 double opacity_for(const Region& region) {
     constexpr std::array<double, all_columns + 1> factors = {1, 1, 2, 4, 1, 1};
     const double wide = 1 + 0.8 * wideness(region);

@@ -34,7 +34,7 @@ bool CornerTable::serves(const grid::BrickView& view, double samples) {
     return view.quantization.code_bytes == 1 && cells <= most_cells && samples >= 12 * cells;
 }
 
-// calloc() gives zero memory that takes no room until it is touched.
+// Makes room for the words. calloc() gives memory of zeros that takes no room until it is touched.
 void CornerTable::make_room(const grid::BrickView& view) {
     stride_y_ = view.spec->nz() + 1;
     stride_x_ = view.spec->ny * stride_y_;

@@ -41,7 +41,8 @@ class UnitTable {
 double linear_of_srgb(double level) {
     return level <= 0.04045 ? level / 12.92 : std::pow((level + 0.055) / 1.055, 2.4);
 }
-// The table's places are square roots of linear light, because sRGB is steep near black.
+// Returns the sRGB level for the square root of linear light. Tables of this function have equal
+// steps in the root, because sRGB is steep near black.
 double srgb_of_root(double root) {
     const double linear = root * root;
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;

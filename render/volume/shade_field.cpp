@@ -143,7 +143,7 @@ class ShadeField::Baker {
         }
     }
 
-    // The first pass: coarse columns, smoothed along themselves.
+    // Makes the first pass: averages coarse columns, and smooths each along itself.
     void average(int x) {
         std::vector<float> sums(as_index(sizes_[2])), counts(as_index(sizes_[2]));
         for (int y = 0; y < sizes_[1]; ++y) {
@@ -190,7 +190,7 @@ class ShadeField::Baker {
         smooth_rows(values_.data() + column(x, 0), as_index(sizes_[2]), sizes_[1],
                     as_index(sizes_[2]));
     }
-    // Each piece of work has some columns of all rows.
+    // Smooths all rows along x. Each piece of work has some columns of all rows.
     void smooth_along_x(int threads) {
         constexpr int columns = 16;
         for_each_piece((sizes_[1] + columns - 1) / columns, threads, [&](int piece) {

@@ -45,7 +45,8 @@ class SliceMask {
         Vec3 low, high;  // in drawn space, widened by half a tile at the box's farthest corner
         int first_tile, last_tile, first_row, last_row;
     };
-    // The motion of the rays along each axis; `per_step` is 1 / step, if the ray moves at all.
+    // The motion of the rays along each axis; `per_step` is 1 / step where the rays move along the
+    // axis.
     struct Direction {
         Vec3 per_step;
         bool moves[3];

@@ -134,7 +134,7 @@ TEST(LightVolume, ATowersShadowFallsAwayFromTheSun) {
         return ix >= 60 && ix < 68 && iy >= 60 && iy < 68 ? valued(60) : Cell{};
     }));
     const LightVolume light = volume_of(bricks, spec, lit_by("shadow", 270, 45), 1);
-    // The tower is 16 km high: at the ground its shadow reaches 16 km to the east.
+    // The tower is 16 km high, so its shadow on the ground reaches 16 km to the east.
     EXPECT_LT(light.sun_at(19, 16, 0), 0.3F) << "10 km to the east";
     EXPECT_GT(light.sun_at(25, 16, 0), 0.9F) << "36 km to the east";
     EXPECT_GT(light.sun_at(12, 16, 0), 0.99F) << "to the west";
