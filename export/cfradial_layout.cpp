@@ -38,8 +38,8 @@ std::size_t most_gates(const SweepMoment& moment) {
 
 // Returns the number of the first element that the moment's first gate fills. Element 0 has its
 // center at `axis_first_m`; the number is below 0 if the gate begins before that element. An
-// element belongs to the gate if its center is beyond the gate's near edge. A gate of the axis's
-// own spacing begins at its own center.
+// element belongs to the gate if its center is beyond the gate's near edge. A gate with the spacing
+// of the axis fills the element at the gate's center.
 std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
                            const SweepMoment& moment) {
     const std::int64_t doubled = 2 * (moment.first_gate_m - axis_first_m) - moment.gate_spacing_m;

@@ -196,8 +196,8 @@ void write_details(NetcdfBuilder& file, const Field& one, const Dimensions& size
     }
 }
 
-// Writes the counts and weights of a mosaic. Both are known everywhere, and are 0 where no site
-// sees a cell.
+// Writes the counts and weights of a mosaic. Counts and weights are known everywhere, and are 0
+// where no site sees a cell.
 void write_overlap(NetcdfBuilder& file, const Field& one, const Dimensions& size,
                    int deflate_level) {
     const Grid& grid = one.grid;
@@ -240,7 +240,7 @@ void write_sites(NetcdfBuilder& file, const Grid& grid) {
     file.numbers(NetcdfBuilder::file, "station_antenna_altitude_m", altitudes_m);
 }
 
-// Returns a line for each class of ranges, over all sweeps.
+// Returns the audit of a grid: a line for each class of ranges, over all sweeps.
 std::string audit_text(const Grid& grid) {
     const std::string_view unit = grid::difference_unit(grid.moment);
     std::vector<std::string> lines = {"grid minus gates, scanned as the radar did"};
@@ -249,8 +249,8 @@ std::string audit_text(const Grid& grid) {
     return joined(lines, "\n");
 }
 
-// Writes the facts that all grids of the file share. For a single grid, also writes the facts of
-// its moment.
+// Writes the facts that all grids of the file share. For a single grid, also writes the facts that
+// differ between moments.
 void write_provenance(NetcdfBuilder& file, std::span<const Grid> grids) {
     constexpr int global = NetcdfBuilder::file;
     const Grid& grid = grids.front();

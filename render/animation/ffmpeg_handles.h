@@ -1,4 +1,4 @@
-// render/animation/ffmpeg_handles.h -- owners for FFmpeg's objects, and its errors as ours;
+// render/animation/ffmpeg_handles.h -- owns FFmpeg's objects, and converts FFmpeg's errors to ours;
 // internal.
 #pragma once
 

@@ -4,9 +4,9 @@
 // into entries. If a loop has no more colors than fit into the palette, the palette holds exactly
 // these colors. Otherwise variance-based splitting (Wan, Wong and Prusinkiewicz 1988) groups cells
 // of 4x4x4 colors, and two rounds of k-means (Lloyd 1982) improve the groups. If one color makes up
-// half of a group, the group has that color, so that background, text and legend stay exact. There
-// is no dithering, because its dots would move from frame to frame. Alpha is ignored. The same
-// input gives the same palette.
+// at least half of a group, the group has that color, so that background, text and legend stay
+// exact. There is no dithering, because its dots would move from frame to frame. Alpha is ignored.
+// The same input gives the same palette.
 //
 // Threads   One thread at a time for each object.
 #pragma once
@@ -32,9 +32,9 @@ class ColorHistogram {
     [[nodiscard]] std::vector<Rgb8> palette(std::size_t size) const;
 
   private:
-    // 4x4x4 neighboring colors, with a leader: the color that may have most of the pixels. A
-    // majority vote finds it (Boyer and Moore 1981): a color with more than half of the pixels
-    // always ends as the leader.
+    // 4x4x4 neighboring colors, with a leader: the color that may have more than half of the
+    // pixels. A majority vote finds the leader (Boyer and Moore 1981): a color with more than half
+    // of the pixels always wins.
     struct Cell {
         std::uint64_t count = 0;
         std::array<std::uint64_t, 3> sum{};

@@ -4,7 +4,8 @@
 //   name, unit, moment = "REF"   All optional. The moment sets the unit and the opacity.
 //   stepped = true|false         Classes, or, by default, colors that blend to the color of the
 //                                next point.
-//   end                          Where the color bar ends. range_folded: the color of that state.
+//   end                          Where the color bar ends.
+//   range_folded                 Color of range folded cells.
 //   [[point]]                    At least 2 (1 if stepped), with rising values:
 //     value, color = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
 //     until                      The color to which this point blends, instead of the next point's

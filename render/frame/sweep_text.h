@@ -12,7 +12,7 @@
 namespace stormcellar::render {
 
 // Returns "Cut 1: 720 radials, gates of 0.25 km up to 460 km". If a part of the circle was not
-// seen, adds how much was; if the view does not show all of the sweep, adds its range.
+// seen, adds the share that was seen; if the view does not show all of the sweep, adds its range.
 [[nodiscard]] std::string sweep_text(const grid::SweepLookup& sweep, const grid::GridSpec& spec,
                                      const ViewGeometry& geometry);
 

@@ -60,9 +60,9 @@ class LabelBuilder {
     [[nodiscard]] LabelStyle quiet(double size) const { return {size, false, shades_.quiet_text}; }
     [[nodiscard]] LabelStyle strong(double size) const { return {size, true, shades_.text}; }
 
-    // Places a text. To fit into `room` pixels it is made smaller (down to three quarters) and then
-    // cut with an ellipsis. Returns the width of the text as placed; 0 if the text is empty or has
-    // no room at all.
+    // Places a text. To fit into `room` pixels, the text is made smaller (down to three quarters)
+    // and then cut with an ellipsis. Returns the width of the text as placed; 0 if the text is
+    // empty or has no room at all.
     double put(std::string text, double x, double baseline, double room, const LabelStyle& style,
                Align align = Align::left);
     void block(const Rect& box, Rgba8 color, bool hatched = false) {

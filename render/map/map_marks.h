@@ -34,7 +34,7 @@ struct MarkText {
 };
 
 struct ScaleBar {
-    Point left;  // its left end
+    Point left;  // left end of the bar
     double length = 0;
     double metres = 0;
     Rect box;  // of bar and text

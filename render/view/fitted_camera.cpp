@@ -176,8 +176,8 @@ double exaggeration_for(const Region& region) {
 }
 
 // Returns the factor of the opacity. In the usual curve of opacity, weak echo is a thin veil. If
-// nothing else is shown, weak echo is drawn more opaque. Clear air has its own colors, which are
-// opaque enough.
+// nothing else is shown, weak echo is drawn more opaque. A wide region is drawn more opaque too.
+// Clear air has its own colors, which are opaque enough.
 double opacity_for(const Region& region) {
     constexpr std::array<double, all_columns + 1> factors = {1, 1, 2, 4, 1, 1};
     const double wide = 1 + 0.8 * wideness(region);

@@ -29,7 +29,8 @@ struct PixelSteps {
 class BandCaster {
   public:
     // All arguments must outlive the object. `rgba` has four floats for each pixel of the whole
-    // picture, and `light` one if the volume has a light; else it is null.
+    // picture, and `light` has one float for each pixel if the volume has a light; else `light` is
+    // null.
     BandCaster(const PacketVolume& volume, const RayMaker& maker, const SliceMask& mask, int width,
                int height, float* rgba, float* light);
 

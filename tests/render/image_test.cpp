@@ -11,7 +11,7 @@ TEST(Image, IsFilledAndRowZeroComesFirst) {
     EXPECT_EQ(image.at(0, 0), (Rgba8{1, 2, 3, 255}));
     EXPECT_EQ(image.at(2, 1), (Rgba8{9, 8, 7, 6}));
     ASSERT_EQ(image.rgba.size(), 24U);
-    EXPECT_EQ(image.rgba[20], 9) << "the last pixel of the last row is last";
+    EXPECT_EQ(image.rgba[20], 9) << "rows are stored from the top down";
 }
 
 TEST(Over, AnOpaqueColorHidesWhatIsBelow) {

@@ -109,7 +109,8 @@ TEST(Theme, NamesAreReadBack) {
               "there is no theme 'ligth'; did you mean 'light'?");
 }
 
-// nearest_level() promises the results of std::lround(), also for halves and their neighbors.
+// nearest_level() must give the results of std::lround(), also for halves and the numbers next to
+// them.
 TEST(NearestLevel, IsThatOfTheLibrary) {
     for (int i = 0; i <= 510; ++i) {
         const double half = i / 2.0;

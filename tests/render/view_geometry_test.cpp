@@ -84,7 +84,7 @@ TEST(ViewGeometry, TheGroundUnderAPixelProjectsBackToIt) {
     EXPECT_FALSE(view_from(30, 90).ground({200.5, 333.5}));
 }
 
-// ground_of_row() promises the numbers of ground(), to the bit.
+// ground_of_row() must give the numbers of ground(), to the bit.
 TEST(ViewGeometry, TheGroundOfARowIsThatOfItsPixels) {
     const Camera from_above{180, 0, 1}, aslant{211, 63, 1.7}, level{180, 90, 1};
     Camera perspective{140, 71, 1};

@@ -2,7 +2,8 @@
 // Each view has its own map and legend.
 //
 // The views show one place and time, such as the moments of a volume. The panels have one size and
-// are in rows, in the given order. The size of the picture determines how many are in a row.
+// are in rows, in the given order. The number of panels and the shape of the picture determine how
+// many are in a row.
 //
 // Units     Pixels.
 // Threads   Any thread may call; render_panels() uses `threads` threads of its own. A FrameCache
