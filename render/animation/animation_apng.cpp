@@ -16,7 +16,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double apng_ticks_per_second = 500;  // a delay has 16 bits, which is 131 s
+constexpr double apng_ticks_per_second = 500;  // delays have 16 bits: at most 131 s
 constexpr std::uint8_t dispose_none = 0, blend_source = 0, blend_over = 1;
 
 using Bytes = std::vector<std::byte>;

@@ -13,8 +13,8 @@ namespace {
 using ffmpeg::failure;
 using ffmpeg::Handle;
 
-// The number is fixed, because encoders divide their work among the threads, which changes the
-// result.
+// The number of threads is fixed, because encoders divide their work among the threads, which
+// changes the result.
 constexpr int encoder_threads = 2;
 
 struct Codec {

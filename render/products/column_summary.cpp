@@ -17,8 +17,8 @@ using grid::BrickView;
 using grid::CellStatus;
 static_assert(std::endian::native == std::endian::little);
 
-// Notes that a column was seen in a run of up to 16 cells, from this level on, and which states it
-// holds.
+// Notes that a run of up to 16 cells of a column was seen from this level on, and the states in the
+// run.
 void note_states(ColumnSummary& column, int lowest_seen, bool has_no_echo, bool has_range_folded) {
     column.lowest_seen = std::min(column.lowest_seen, static_cast<std::uint16_t>(lowest_seen));
     column.has_no_echo = column.has_no_echo || has_no_echo;

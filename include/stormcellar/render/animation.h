@@ -8,7 +8,8 @@
 //   .apng  lossless; alpha is kept; metadata as tEXt chunks
 //   .mp4   H.264 (CRF 16, BT.709), or MPEG-4 part 2 if FFmpeg has no H.264 encoder
 //   .webm  VP9, or VP8
-//   NAME/  a directory of frame_0000.png, frame_0001.png, ...; alpha is kept
+//   NAME/  a directory of frame_0000.png, frame_0001.png, ...; alpha is kept; metadata as tEXt
+//          chunks
 // .mp4 and .webm need a build with STORMCELLAR_VIDEO. A module that is installed with the program
 // writes them; it is loaded when a video writer is created.
 //
@@ -21,7 +22,8 @@
 // takes two renames; a crash between them can leave the old directory under a temporary name. The
 // same frames give the same bytes, with the same versions of the libraries.
 //
-// Memory    The compressed frames are held until finish(), and one or two frames as pixels.
+// Memory    The compressed frames of a file are held until finish(); the frames of a directory are
+//           written at once. One or two frames are held as pixels.
 // Units     Seconds; frames per second.
 // Threads   A writer may be used by one thread at a time. Creating a video writer silences FFmpeg's
 //           log in the whole process; its messages come back in the errors.
