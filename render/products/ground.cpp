@@ -55,7 +55,7 @@ bool is_dot(int x, int y, double scale) {
     return (x + shift) % period < size && y % period < size;
 }
 
-// Seen at a slant, the ground continues by this share of the grid's half width.
+// Seen at a slant, the ground continues by this many half widths of the grid.
 constexpr double slanted_reach = 1.5;
 // Seen from straight above, the ground continues as far as maps reach.
 constexpr double farthest_m = 2e6;

@@ -85,7 +85,7 @@ class Axes {
         const std::string from = "A  " + place_text(section_.line.from);
         const std::string to = place_text(section_.line.to) + "  B";
         put(from, left_, baseline, 0, true);
-        // If there is no room for both ends, the second is left out.
+        // If there is no room for both ends, the text of the second end is left out.
         const double room = right_ - left_;
         const double size = 10 * scale_;
         if (fonts_.width(from + to, size, true) + 12 * scale_ <= room) {

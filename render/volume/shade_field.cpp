@@ -297,7 +297,7 @@ class ShadeField::Baker {
     const LightVolume* volume_;
     std::array<int, 3> sizes_;
     std::array<float, 3> per_m_{};
-    // From the camera to the first cell, and from that cell to others, in drawn space.
+    // Vectors from the camera to the first cell, and from that cell to other cells, in drawn space.
     std::array<float, 3> forward_{}, from_eye_m_{};
     std::array<float, 2> cell_m_{};
     std::vector<float> height_m_;

@@ -1,8 +1,8 @@
 // Tests the promises of the planner of pictures, with scenes of real volumes and of a simulated
 // storm. If an effect that the planner left off is forced on, the picture changes by at most the
 // budget. If an effect that the planner turned on is forced off, the picture changes by more than a
-// tenth of the budget, in at least one scene for each effect. The chosen picture differs from the
-// exact chain's picture by at most the budget.
+// tenth of the budget, in at least one scene for each effect but step_attenuation. The chosen
+// picture differs from the exact chain's picture by at most the budget.
 #include "render/plan/volume_plan.h"
 
 #include <cmath>
@@ -164,8 +164,8 @@ TEST(PictureHonesty, EveryEffectMattersSomewhere) {
         EXPECT_GT(part, stated_part) << effect;
 }
 
-// The plan reports the size of light that the scene does not ask for, but its choice does not
-// change.
+// The plan reports the size of light that the scene does not ask for, but the choice of the plan
+// does not change.
 TEST(PictureHonesty, LightIsOffUnlessTheSceneAsksForIt) {
     STORMCELLAR_NEED_DATA();
     // Light is visible where echo is opaque; scattering differs from shadows where echo is thick.
