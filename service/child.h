@@ -22,7 +22,7 @@
 
 namespace stormcellar {
 
-// The reading end of a pipe, read by lines. Never blocks.
+// Reads lines from the reading end of a pipe. Never blocks.
 class LineReader {
   public:
     static constexpr std::size_t longest_line = 4096;  // the rest of a longer line is dropped

@@ -1,8 +1,8 @@
 // service/http_daemon.h -- starts libmicrohttpd on a listening socket, for the status of the daemon
 // and for the data server.
 //
-// It is a library of its own (stormcellar::http_daemon), because the other services do not link
-// libmicrohttpd.
+// This file is a library of its own (stormcellar::http_daemon), because the other services do not
+// link libmicrohttpd.
 //
 // Threads   Any thread.
 #pragma once

@@ -1,8 +1,9 @@
 // service/log.h -- writes log lines of a service to stderr. Only programs and their services call
-// it; the daemon calls it through daemon/log/log.h.
+// these functions; the daemon calls them through daemon/log/log.h.
 //
 // If stderr is the journal, each line begins with the prefix "<N>", from which the journal takes
-// the level; otherwise with the time and the level. Control characters are escaped.
+// the level. Otherwise each line begins with the time and the level. Control characters are
+// escaped.
 //
 // Threads   Any thread may call every function.
 #pragma once
@@ -32,7 +33,7 @@ void say(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... v
     if (is_logged(level)) write_log(level, fmt::format(text, std::forward<Arguments>(values)...));
 }
 
-// Logs the first of several failures in a row. Logs a further failure only after a success.
+// Logs a failure, unless the status before it was also a failure.
 class FirstFailure {
   public:
     void note(const Status& status) {

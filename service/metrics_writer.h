@@ -37,12 +37,12 @@ class MetricsWriter {
     // of the last values, if there are any, and sum and count of all values.
     void sample(const Timings& timings, Labels labels = {});
     // Writes a sample of a histogram with one label. `counts` has the number of values between each
-    // bound and the bound before it, and at last the number above all bounds; `sum` is the sum of
-    // all values.
+    // bound and the bound before it, and as its last element the number above all bounds; `sum` is
+    // the sum of all values.
     void sample(std::span<const double> bounds, std::span<const std::uint64_t> counts, double sum,
                 const Label& label);
 
-    // Each writes a family of one sample without labels.
+    // Each of the next functions writes a family of one sample without labels.
     void gauge(std::string_view name, std::string_view help, double value) {
         family(name, Type::gauge, help);
         sample(value);

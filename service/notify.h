@@ -46,9 +46,9 @@ class Reloading {
 [[nodiscard]] std::string reloading_state();
 
 // Decides when to feed the watchdog: four times a period, and only while no thread has been at one
-// step (pulse.h) for longer than a whole period. So a main loop that still runs does not hide
-// another thread that hangs. Each step that hangs is reported once; without a watchdog, a step
-// hangs after `without_watchdog`.
+// step (pulse.h) for longer than a whole period. So a hanging thread is noticed even if the main
+// loop still runs. Each step that hangs is reported once; without a watchdog, a step hangs after
+// `without_watchdog`.
 class WatchdogFeed {
   public:
     static constexpr std::chrono::seconds without_watchdog{180};
@@ -56,7 +56,7 @@ class WatchdogFeed {
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
     [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest = std::nullopt);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // Returns true if the step hangs, and if this call is the first to say so.
+    // Returns true if the step hangs and no earlier call has returned true for this step.
     [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
 
   private:

@@ -20,9 +20,8 @@ struct ServiceTurns {
     std::function<bool()> reload;
 };
 
-// Reports READY and takes a turn each second. Reloads on SIGHUP; returns false if the service
-// cannot go on after that. Ends on SIGTERM or SIGINT, which it logs (service/log.h), and returns
-// true.
+// Reports READY and takes a turn each second. Reloads on SIGHUP, and returns false if the service
+// cannot go on after that. On SIGTERM or SIGINT, logs the signal (service/log.h) and returns true.
 [[nodiscard]] bool take_turns(const ServiceTurns& service, const Signals& signals,
                               Notifier& notifier);
 

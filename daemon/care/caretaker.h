@@ -1,11 +1,11 @@
 // daemon/care/caretaker.h -- looks after stored data, in a thread of its own.
 //
-// At the start it examines every database and checks the header of every grid. Then it works in
-// rounds: it makes the newest missing grids again, and reads and verifies every grid, one a second.
-// An hour after the last grid, the next round begins. It repairs damage
-// (pipeline/care/mend_cache.h) and logs it. Between grids it compares overlapping sites
-// (pipeline/mosaic/site_watch.h) as mosaics become complete. Files that arrive come first: it
-// begins nothing while jobs wait.
+// At the start the caretaker examines every database and checks the header of every grid. Then it
+// works in rounds. In each round it makes the newest missing grids again, and reads and verifies
+// every grid, one a second. An hour after the last grid, the next round begins. The caretaker
+// repairs damage (pipeline/care/mend_cache.h) and logs it. Between grids it compares overlapping
+// sites (pipeline/mosaic/site_watch.h) as mosaics become complete. Arriving files have priority:
+// the caretaker begins no step while jobs wait.
 //
 // Threads   The functions of CareLinks are called from this object's thread and must be safe to
 //           call from it. The destructor waits for the step that has begun (one grid or one pair of
@@ -56,7 +56,7 @@ class Caretaker {
 
   private:
     void run();
-    // Both return false if the thread must end.
+    // The next two functions return false if the thread must end.
     bool look_at_all();
     bool round();
     void examine_databases();
@@ -72,7 +72,8 @@ class Caretaker {
     bool pause(std::chrono::milliseconds least);
     // Waits for `time`. Returns true at once when the thread must end, else false.
     bool is_stopped_within(std::chrono::milliseconds time) STORMCELLAR_REQUIRES(mutex_);
-    // Does the same as pause(), and compares sites in between.
+    // Waits for `least`, and then until the service is idle. In the meantime, compares the sites
+    // that are due. Returns false if the thread must end.
     bool rest(std::chrono::milliseconds least);
 
     CareOf of_;

@@ -1,9 +1,9 @@
 // daemon/care/row_keeper.h -- keeps the rows of the catalog in step with the files on disk.
 //
-// After a scan it examines every file of the catalog, in a thread of its own, and marks missing
-// files as gone. If the rows exceed their limit, it deletes the oldest rows of gone files. If the
-// configuration limits how long rows of gone files are kept, it deletes older ones once an hour.
-// The work takes at most a tenth of the time, however often scans run.
+// After a scan the keeper examines every file of the catalog, in a thread of its own, and marks
+// missing files as gone. If the rows exceed their limit, it deletes the oldest rows of gone files.
+// If the configuration limits how long rows of gone files are kept, it deletes rows beyond that
+// limit once an hour. The work takes at most a tenth of the time, however often scans run.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -1,5 +1,5 @@
 // daemon/care/state_keeper.h -- makes the state directory and its catalog directory, and locks the
-// state. It makes them again if somebody deletes them while the service runs.
+// state. If somebody deletes the directories while the service runs, the keeper makes them again.
 //
 // Once the directories exist, the rest of the service restores their contents: databases with the
 // next files, the status when it is next published, the socket within 15 s.

@@ -114,7 +114,7 @@ void read_size(TomlTable& ingest, GridConfig& config) {
     config.ny = counts[1];
 }
 
-// Checks the rules of the grid room here, so that the complaint has the line.
+// Checks the rules of the grid library already here, so that a complaint names the line of the key.
 void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.spacing_m;
@@ -149,7 +149,7 @@ int processors() {
     return std::max(1, static_cast<int>(count));
 }
 
-// Reads the moments. `moment` is the older key, from when there was only one.
+// Reads the moments. `moment` is an older key that names a single moment.
 void read_moments(TomlTable& ingest, GridConfig& config) {
     const auto one = ingest.text("moment");
     const auto several = pipeline::read_moments(ingest, "moments");
@@ -243,7 +243,7 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
     }
 }
 
-// Returns why the directory cannot be used for a machine's partials; empty if it can.
+// Returns why the directory cannot be used for a machine's partials; empty if it can be used.
 std::string reason_against(const std::filesystem::path& directory, const FixedConfig& config) {
     const std::string name = directory.filename().native();
     if (!cache::is_domain_name(name) || cache::is_part(name)) {

@@ -1,7 +1,7 @@
 // daemon/config/descriptor_plan.h -- divides the file descriptors of the process among its parts.
 //
-// Each open database and each growing volume takes descriptors. Their numbers are limited from the
-// start, so that the watcher, the cache, the sockets, the status and the workers always have
+// Each open database and each growing volume takes descriptors. The plan limits the numbers of
+// both, so that the watcher, the cache, the sockets, the status and the workers always have
 // descriptors left.
 //
 // Threads   Pure: may be called from any thread.
@@ -14,10 +14,10 @@ namespace stormcellar::daemon {
 
 struct DescriptorPlan {
     std::size_t databases = 0;  // open at the same time; three descriptors each
-    // Limit that applies to growing files, to volumes in chunks, and to the last volumes of sites,
-    // separately for each of the three. Each of these takes one descriptor.
+    // Limit on growing files. The same limit applies separately to volumes in chunks and to the
+    // last volumes of sites. Each file or volume takes one descriptor.
     std::size_t growing = 0;
-    // Minimum that is left for everything else.
+    // Minimum that is left for all other parts.
     std::size_t reserved = 0;
 
     // Divides `limit` descriptors. With 1,024 or more, the feed of all sites fits.

@@ -3,7 +3,7 @@
 //
 // A scene file of stormcellar (docs/rendering.md) defines the pictures of a loop; the daemon does
 // not read it. The keys of [[loop]] override the same keys of the scene file.
-// daemon/stormcellard.toml explains them.
+// daemon/stormcellard.toml explains all keys.
 //
 // Threads   Plain data and pure functions: may be called from any thread.
 #pragma once
@@ -41,7 +41,7 @@ struct LoopState {
     bool operator==(const LoopState&) const = default;
 };
 
-// Selects if the scene files of loops must exist. A running service accepts a missing file: only
+// Says whether the scene files of loops must exist. A running service accepts a missing file: only
 // the loop of that scene stops and reports a problem.
 enum class SceneFiles { as_named, must_exist };
 

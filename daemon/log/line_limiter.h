@@ -46,8 +46,8 @@ class LineLimiter {
         LogLevel level;       // the most severe one
         std::uint64_t lines;
     };
-    // Returns the number of lines held back in minutes that are over, for each kind, and forgets
-    // them.
+    // For each kind, returns the number of lines held back in past minutes, and forgets that
+    // number.
     std::vector<HeldBack> take_held_back(SteadyTime now);
     // Returns the number of remembered subjects.
     [[nodiscard]] std::size_t subjects() const { return each_.size(); }

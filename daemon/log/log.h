@@ -11,8 +11,8 @@
 //   STORMCELLAR_LOOP, STORMCELLAR_DOMAIN
 //   STORMCELLAR_REASON     the kind of an error, as in the metrics
 //   STORMCELLAR_HELD_BACK  number of lines that this line sums up
-// Otherwise they go to stderr with time and level. If stderr is the journal but its socket accepts
-// nothing, they go to stderr with the "<N>" level prefix of syslog.
+// Otherwise lines go to stderr with time and level. If stderr is the journal but its socket accepts
+// nothing, lines go to stderr with the "<N>" level prefix of syslog.
 //
 // Lines above debug are limited (line_limiter.h). The caller passes names from outside through
 // printable() before it puts them into a message; members of About are escaped here where

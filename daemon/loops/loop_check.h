@@ -1,7 +1,8 @@
 // daemon/loops/loop_check.h -- checks that `stormcellar loop` accepts a [[loop]] and its scene.
 //
-// It runs `stormcellar loop --check`, since the daemon reads no scenes and links no renderer. The
-// program draws and writes nothing; neither the cache nor the directories of outputs need to exist.
+// The check runs `stormcellar loop --check`, since the daemon reads no scenes and links no
+// renderer. That program draws and writes nothing; neither the cache nor the directories of outputs
+// need to exist.
 //
 // Threads   Main thread only (service/child.h).
 #pragma once

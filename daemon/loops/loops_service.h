@@ -1,9 +1,9 @@
 // daemon/loops/loops_service.h -- a service that only keeps the [[loop]] tables: `stormcellard
 // --loops-only`.
 //
-// It runs beside a stormcellard that was started with --no-loops, with a lower priority and its own
-// limits. It reads neither the drop directory nor the catalog nor grids. It runs the loops
-// (daemon/loops/loop_supervisor.h) and publishes their state:
+// The service runs beside a stormcellard that was started with --no-loops, with a lower priority
+// and its own limits. It reads neither the drop directory nor the catalog nor grids. It runs the
+// loops (daemon/loops/loop_supervisor.h) and publishes their state:
 //   STATE/loops/status.json        {"state","pid","version","started","updated","loops"}, the
 //                                  fields as in daemon/status/status.h; written at most once a
 //                                  second, and at the end

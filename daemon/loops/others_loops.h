@@ -17,8 +17,8 @@ namespace stormcellar::daemon {
 [[nodiscard]] std::vector<LoopState> loops_of(std::string_view document);
 
 // Returns each configured loop with its state from STATE/loops/status.json. A loop that is missing
-// in the file is returned as not running. So are all loops if the file does not exist or if the
-// process that wrote it is gone.
+// in the file is returned as not running. If the file does not exist, or if the process that wrote
+// it is gone, all loops are returned as not running.
 [[nodiscard]] std::vector<LoopState> others_loops(const std::filesystem::path& state,
                                                   const std::vector<LoopConfig>& configured);
 

@@ -1,7 +1,8 @@
 // daemon/partials/machine_directory.h -- watches for partials in the directory of one machine.
 //
 // The directory has the layout of a cache. Files with other names, for example temporary files of
-// rsync, are ignored. This class writes nothing into the directory. A replaced file is news again.
+// rsync, are ignored. This class writes nothing into the directory. A partial is news until
+// take_news() returns it, and again when its file is replaced.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -34,8 +35,8 @@ class MachineDirectory final : public WatchListener {
     bool take_lost() { return std::exchange(is_lost_, false); }
     [[nodiscard]] bool is_blind() const { return watcher_.is_blind(); }
 
-    // Returns the newest partial that is news, which is then no longer news; none if there is no
-    // news.
+    // Returns the newest partial that is news; none if there is no news. The returned partial is no
+    // longer news.
     std::optional<cache::GridName> take_news();
     // Makes the next scan report the partial as news again.
     void forget(const cache::GridName& name) { seen_.erase(name); }

@@ -135,7 +135,7 @@ void PartialsKeeper::take_lost(Machine& machine) {
     }
 }
 
-// Ingests the newest partial of each machine. Returns true if any machine had one.
+// Ingests the newest waiting partial of each machine. Returns true if any partial waited.
 bool PartialsKeeper::take_one() {
     bool took = false;
     std::exception_ptr failure;

@@ -3,9 +3,9 @@
 //
 // As soon as a partial is complete, the keeper copies it into the cache and makes the frames that
 // the partial changes, the newest partial first. It checks a damaged or truncated file again when
-// the file changes; if the file was written less than 30 s ago, also at the next scan. It copies a
-// partial again if the cache has lost it. While no partials wait, it checks the frames around older
-// partials, and makes a frame again if the frame lacks one of its partials.
+// the file changes; if the file was written less than 30 s ago, also at the next scan. If the cache
+// has lost a partial, the keeper copies it again. While no partials wait, it checks the frames
+// around older partials, and makes a frame again if the frame lacks one of its partials.
 //
 // A partial is accepted if its station is known, as for raw files ([ingest] stations), or is listed
 // for its machine or its mosaic. A station that [partials.stations] lists for some machines is
@@ -62,8 +62,8 @@ class PartialsKeeper {
     ~PartialsKeeper();
 
     [[nodiscard]] std::vector<MachineFacts> facts() const;
-    // Returns how many scans every directory has had at least. A scan counts once the turn that
-    // made it has ended.
+    // Returns the number of scans of the directory that was scanned least often. A scan counts when
+    // the turn that made it has ended.
     [[nodiscard]] std::uint64_t scans() const { return published_scans_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 

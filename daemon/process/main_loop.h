@@ -16,8 +16,8 @@
 
 namespace stormcellar::daemon {
 
-// Takes all pending signals and calls `reload` for each SIGHUP. Any other signal asks for the end:
-// logs it, and returns true. If `signals` is null, returns false.
+// Takes all pending signals and calls `reload` for each SIGHUP. Any other signal asks the service
+// to end: logs that signal and returns true. If `signals` is null, returns false.
 [[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
 // Sleeps until a descriptor is ready, `until` has come, or a signal interrupts the sleep. Ignores

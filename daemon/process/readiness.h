@@ -1,9 +1,9 @@
 // daemon/process/readiness.h -- checks that the service has everything it needs to report READY.
 //
-// Programs that wait for READY (systemd, or a script that starts LDM next) rely on this: the state
-// and the cache can be written, and the status is served. Until then the service works as far as it
-// can, reports what is missing, and checks again every second. READY does not wait for the drop
-// directory, which belongs to LDM and may appear late.
+// READY means that the state and the cache can be written, and that the status is served. Programs
+// that wait for READY (systemd, or a script that starts LDM next) rely on this. Until then the
+// service works as far as it can, reports what is missing, and checks again every second. READY
+// does not wait for the drop directory, which belongs to LDM and may appear late.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -38,8 +38,8 @@ class Readiness {
     // returns true. Otherwise returns false.
     bool look(SteadyTime now);
     [[nodiscard]] const std::string& missing() const { return missing_; }
-    // Returns true if missing() has changed since this last returned true. Returns false while the
-    // waits are still short, because the problem may be over at once.
+    // Returns true if missing() has changed since is_news() last returned true. Returns false while
+    // the waits are still short, because the problem may be over at once.
     [[nodiscard]] bool is_news();
 
   private:

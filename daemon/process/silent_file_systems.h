@@ -21,7 +21,8 @@ namespace stormcellar::daemon {
 // Returns the name of a silent file system by its type from statfs(2); none if the file system is
 // not known to be silent.
 [[nodiscard]] std::optional<std::string_view> silent_file_system(std::uint32_t type);
-// Returns the same for the file system of a directory; none also if statfs(2) fails.
+// Returns the name of the file system of a directory if that file system is silent; none if it is
+// not known to be silent, or if statfs(2) fails.
 [[nodiscard]] std::optional<std::string_view> silent_file_system_of(
     const std::filesystem::path& directory);
 

@@ -10,9 +10,9 @@
 //
 // Changes are found by polling the stamps, which also works for files that are never closed and on
 // file systems without events. At most `limit` files are kept. At the limit, a new file takes the
-// place of a file of the station with the most files, if its own station has at least two fewer;
-// otherwise the caller leaves it to the next scan. This class only keeps books: the caller passes
-// the time (of a monotonic clock) and the stamps.
+// place of a file of the station with the most files, if the new file's station has at least two
+// fewer; otherwise the caller leaves the new file to the next scan. This class only does
+// bookkeeping: the caller passes the time (of a monotonic clock) and the stamps.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -42,7 +42,7 @@ class GrowingFiles {
     static constexpr std::size_t most_looks = 512;
     static constexpr std::size_t most_looks_at_once = 64;
     // If a writer keeps its file open and writes often, the file never settles, but its sweeps must
-    // be shown soon. The price: a large file that is being copied is ingested once in vain.
+    // be shown soon. As a side effect, a large file that is being copied is ingested once in vain.
     static constexpr Duration busy = std::chrono::seconds{3};
     // A followed file is finished after this many times `quiet`. Its sweeps are shown anyway, and
     // finishing it too early is expensive: if more data come, the whole file is read again.
@@ -78,8 +78,8 @@ class GrowingFiles {
     using Look = std::function<FileFound(const std::filesystem::path&)>;
     std::vector<Due> poll(SteadyTime now, const Look& look);
 
-    // Returns incomplete files that do not change, with the time that remains until each is
-    // finished without its end: at most `most` files, the soonest first.
+    // Returns incomplete files that do not change, with the time that remains until the volume of
+    // each file is finished without its end. Returns at most `most` files, the soonest first.
     struct Wait {
         std::string file;
         Duration left{};
@@ -91,7 +91,8 @@ class GrowingFiles {
         return files_.contains(path.native());
     }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
-    // Returns when the file was last ingested and found incomplete; none for any other file.
+    // Returns when the file was last ingested and found incomplete; none if it is not kept here as
+    // an incomplete file.
     [[nodiscard]] std::optional<SteadyTime> found_incomplete_at(
         const std::filesystem::path& path) const;
 

@@ -134,8 +134,8 @@ void Intake::hold(Job& job) {
     job.newest_ns = 0;
 }
 
-// Returns the time of a close, never earlier than the last one, so that files keep their order even
-// if the wall clock is set back.
+// Returns the time of a close, never earlier than the last close, so that files keep their order
+// even if the wall clock is set back.
 std::int64_t Intake::closed_now_ns() {
     const std::int64_t now_ns = clock_.wall_ns();
     newest_closed_ns_ = now_ns >= newest_closed_ns_ ? now_ns : newest_closed_ns_ + 1;
@@ -300,7 +300,7 @@ void Intake::job_ended(const Finished& finished) {
         if (rest->has_next_turn) return give_next_turn(finished);
         if (!rest->is_followed) again = finished.ended + reread_;
         if (is_relieved) {
-            // Another chunk represents its volume.
+            // Another chunk now represents the volume of this file.
         } else if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
                                             rest->is_followed, station_of(path))) {
             leave_to_scan(path);

@@ -1,8 +1,9 @@
 // daemon/queue/intake.h -- turns the watcher's reports into jobs that are due.
 //
-// It owns the list of files already seen (seen_files.h), the files that are not complete yet
-// (growing_files.h) and the schedule, and keeps the three consistent. No file is lost if one of
-// them is full: the file is forgotten, and needs_scan() says when a scan must find it again.
+// The intake owns the list of files already seen (seen_files.h), the files that are not complete
+// yet (growing_files.h) and the schedule, and keeps the three consistent. If one of the three is
+// full, the intake forgets a file, and needs_scan() says when a scan must find that file again. So
+// no file is lost.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -136,7 +137,7 @@ class Intake final : public WatchListener {
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;
-    // Growing files of which each job reads only the new data, so that it need not wait.
+    // Growing files whose jobs read only the new data, so that these jobs need not wait.
     std::set<std::filesystem::path> followed_;
     // Chunks whose job is not collected yet, each with the chunk that now represents their volume.
     std::map<std::filesystem::path, std::filesystem::path> relieved_;

@@ -1,7 +1,7 @@
 // daemon/queue/ready_jobs.h -- chooses which of the ready jobs runs next.
 //
-// A job is LIVE if its file changed while we watched, or less than ten minutes ago. All others are
-// the BACKLOG. Live jobs have four classes, each with this many turns in a round:
+// A job is LIVE if its file changed while we watched, or less than ten minutes ago. All other jobs
+// are the BACKLOG. Live jobs have four classes, each with this many turns in a round:
 //   going on   known station, a volume of which sweeps have closed       8
 //   fresh      other files of known stations, reported by an event       4
 //   found      other files of known stations, found by a scan or a poll  1
@@ -15,7 +15,7 @@
 // line. So no station can hold up another station, however much it sends. In the class "going on",
 // jobs of a station are served oldest first, so that the end of a volume comes before sweeps of the
 // next volume: the end is little work, and would otherwise wait as long as new chunks arrive. All
-// other jobs are served newest first. This class only keeps books.
+// other jobs are served newest first. This class only does bookkeeping.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -10,11 +10,12 @@
 //
 // Memory is bounded: at most `limit` entries, and a quarter as many files that wait for another
 // attempt. At the limit, a new job takes the place of the least valuable job of the station with
-// the most jobs, if its own station has at least two fewer. Otherwise it takes the place of a less
-// valuable job of its own station, or is refused. Jobs of the backlog are the least valuable; then
-// come files that a scan found, files that an event reported, and volumes that are going on. Within
-// each kind, the oldest is the least valuable. Once there is room, the caller finds dropped files
-// again by a scan. This class only keeps books: the caller passes the current time.
+// the most jobs, if the new job's station has at least two fewer. Otherwise the new job takes the
+// place of a less valuable job of its own station, or is refused. Jobs of the backlog are the least
+// valuable; then come files that a scan found, files that an event reported, and volumes that are
+// going on. Within each kind, the oldest is the least valuable. Once there is room, the caller
+// finds dropped files again by a scan. This class only does bookkeeping: the caller passes the
+// current time.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -103,8 +104,8 @@ class Schedule {
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     // Returns when the next job is to be registered; none if all are registered.
     [[nodiscard]] std::optional<SteadyTime> next_unregistered_time() const;
-    // Returns when the first of the waiting jobs that may run now began to wait; none if there are
-    // none.
+    // Among the waiting jobs that may run now, returns when the first job began to wait; none if
+    // there is no such job.
     [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
     [[nodiscard]] std::size_t waiting_count() const {
         return ready_.count() + delayed_.size() - retrying_;

@@ -50,7 +50,7 @@ class Sink : public Interface {
     // Ingests a file. A faulty file gives a rejected outcome. An error means that the file could
     // not be ingested for another reason (for example, the catalog or the cache cannot be written),
     // and should be tried again. If `tries` says that this is the last attempt, rejects the file
-    // instead where that can be stored.
+    // instead, provided that the rejection can be stored.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) = 0;
     // Returns the files that were being ingested when the process last ended, and how long each
@@ -70,14 +70,14 @@ class Sink : public Interface {
     virtual void set_pressed(bool /*pressed*/) {}
     // Long functions call this now and then, from the thread that runs them, to show progress.
     using OnStep = std::function<void()>;
-    // Marks known files that no longer exist, after a scan. Returns how many. May run beside
-    // take().
+    // Marks known files that no longer exist as gone, and returns the number of these files. Call
+    // after a scan. May run beside take().
     virtual Result<int> mark_missing(const OnStep& step) = 0;
     // Deletes rows of files that are gone and were last registered before `before`. Returns how
     // many. May run beside take().
     virtual Result<int> forget_gone(UtcTime /*before*/, const OnStep& /*step*/) { return 0; }
-    // Deletes the oldest rows of gone files if all rows exceed their limit. Returns how many. May
-    // run beside take().
+    // Deletes the oldest rows of gone files if all rows exceed their limit. Returns the number of
+    // deleted rows. May run beside take().
     virtual Result<std::int64_t> roll_rows(const OnStep& /*step*/) { return 0; }
     // Returns the present state of the catalog. May be called beside the other functions.
     [[nodiscard]] virtual CatalogState catalog_state() { return {}; }

@@ -3,9 +3,9 @@
 // A file that kills the process (it takes all memory, or triggers a fault) would do so again at
 // each start, until systemd no longer starts the service. So a path is recorded before its file is
 // opened, and removed when the file has been processed. After a start, files that are still
-// recorded wait: 2 s after the first end of the process, then 8 s, 32 s and so on to 512 s. Files
-// with equally many ends wait 10 s more, one after the other. After `most_ends` ends a file is not
-// opened again until its size or its time has changed.
+// recorded wait: 2 s after the first end of the process, then 8 s, 32 s and so on to 512 s. Among
+// files with equally many ends, each waits 10 s longer than the file before it. After `most_ends`
+// ends a file is not opened again until its size or its time has changed.
 //
 // The list need not survive a power cut, so no write waits for the disk. Each ingested file costs
 // two writes of some hundred bytes. If the list is missing, no file is held back.

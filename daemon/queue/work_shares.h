@@ -7,7 +7,7 @@
 // a second each second. (A site of a real feed takes half a second every five minutes.) All other
 // stations together use at most all workers but one. A single light station also uses at most all
 // workers but one. If there is only one worker, it serves every station. All unknown stations count
-// as one station, which is never light. This class only keeps books.
+// as one station, which is never light. This class only does bookkeeping.
 //
 // Threads   One thread at a time.
 #pragma once

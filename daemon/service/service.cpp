@@ -22,8 +22,8 @@ constexpr std::chrono::milliseconds between_memory_looks{250};
 // Time between searches for a missing drop directory.
 constexpr std::chrono::seconds between_drop_looks{1};
 
-// Returns how much free memory the process keeps for reuse; it returns more to the system. Volumes
-// that are decoded one after another leave less free memory than this.
+// Returns how much free memory the process keeps for reuse; further free memory goes back to the
+// system. Volumes that are decoded one after another leave less free memory than this.
 constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }

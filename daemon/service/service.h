@@ -12,7 +12,7 @@
 //   SIGHUP           the configuration is read again; paths, grid and queue limit stay until a
 //                    restart
 // Loops run as other programs, which end with the service (daemon/loops/loop_supervisor.h), unless
-// another process runs the loops. A thread of its own brings the cache within its budgets every few
+// another process runs the loops. A separate thread brings the cache within its budgets every few
 // seconds.
 //
 // Threads   run() once; request_stop(), is_idle() and sites_compared() from any thread.
@@ -134,7 +134,7 @@ class Service {
     std::atomic<bool> stop_requested_ = false;
     std::atomic<bool> idle_ = false;
     Mutex compared_mutex_;
-    // Not reported yet.
+    // Reports that are not in the log and the status yet.
     std::vector<pipeline::PairReport> compared_ STORMCELLAR_GUARDED_BY(compared_mutex_);
     Readiness readiness_;
     DropTrouble drop_trouble_;

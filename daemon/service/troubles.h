@@ -62,8 +62,8 @@ class BacklogTrouble {
     bool is_behind_ = false;
 };
 
-// Two processes run the same loops. If only another process runs them, look() copies the state that
-// it reports into the status.
+// Two processes run the same loops. If only another process runs the loops, look() copies the state
+// that this process reports into the status.
 class OthersLoops {
   public:
     // `runs_loops`: this process runs loops. Returns true if the status changed.

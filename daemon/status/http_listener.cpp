@@ -15,7 +15,7 @@ namespace {
 // memory for a request's line and headers, and for the headers of its answer
 constexpr std::size_t request_memory = 8192;
 
-// Checks every Host field, because a client that sends two may mean either.
+// Checks every Host field, because a client that sends two such fields may mean either of them.
 MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
     if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
         !is_loopback_host(value == nullptr ? "" : value)) {
@@ -102,7 +102,7 @@ std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
 }
 
 // Closes the oldest connection if three quarters of the allowed connections are open. Requests are
-// answered at once, so the oldest connection has most likely sent none.
+// answered at once, so the oldest connection has most likely sent no request.
 void HttpListener::make_room() {
     const auto stands = [](const auto& one) { return !one.second.is_cut; };
     const auto standing = std::count_if(open_.begin(), open_.end(), stands);

@@ -63,7 +63,7 @@ Result<ListeningSocket> ListeningSocket::at_path(const std::filesystem::path& pa
     std::memcpy(static_cast<char*>(address.sun_path), name.data(), name.size());
     if (const Status free = make_way(address); !free) return pass_on(free);
     Descriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    // On Linux, bind() gives its file the mode of the socket itself, minus the umask.
+    // On Linux, bind() gives the file at the path the mode of the socket itself, minus the umask.
     if (!made.is_open() || ::fchmod(made.number(), socket_mode) != 0 ||
         ::bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
         ::listen(made.number(), SOMAXCONN) != 0) {

@@ -16,7 +16,7 @@ namespace stormcellar::daemon {
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
-// The failure of a job was logged before, or not yet.
+// Says whether the failure of a job was logged before.
 enum class Named : bool { not_yet, before };
 
 class Reporter {

@@ -1,7 +1,7 @@
 // daemon/status/status.h -- the status of the daemon: counters, latencies, stations.
 //
-// It is rendered as JSON (status_json.h) for STATE/status.json and the status server, and as
-// Prometheus text (metrics_text.h).
+// The status is rendered as JSON (status_json.h) for STATE/status.json and the status server, and
+// as Prometheus text (metrics_text.h).
 //
 // Threads   One thread at a time; StatusFacts is plain data that may be copied to others.
 #pragma once
@@ -116,7 +116,8 @@ class StatusBook {
     void set_catalog(CatalogState state) { facts_.catalog = std::move(state); }
     void set_machines(std::vector<MachineFacts> machines) { facts_.machines = std::move(machines); }
     void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
-    // For stations of the catalog (StationBook::add_known()).
+    // Returns the stations, so that the caller can add stations of the catalog
+    // (StationBook::add_known()).
     [[nodiscard]] StationBook& stations() { return facts_.stations; }
 
     [[nodiscard]] const StatusFacts& facts() const { return facts_; }

@@ -1,13 +1,13 @@
 // daemon/status/status_json.h -- the status as one JSON document.
 //
-// It is written to state/status.json (status_file.h) and served as GET /status.json
+// The document is written to state/status.json (status_file.h) and served as GET /status.json
 // (status_server.h). Times are ISO 8601 UTC; ages and latencies are in seconds; unknown values are
 // null.
 //   state          "starting" | "running" | "stopping" | "stopped"
 //   pid, version, started, updated
 //   drop, cache    the directories (bytes that are not UTF-8 are escaped)
 //   drop_lost      why the drop directory cannot be read (null: it can be read)
-//   unreadable     directories below it that cannot be read: {"count", "directories":
+//   unreadable directories below the drop directory that cannot be read: {"count", "directories":
 //                  [{"directory", "reason"}] of the first 16}; the reason ends with a possible
 //                  remedy
 //   listening      {"socket" (null: none), "http_port" (null: none)}: the configured addresses

@@ -3,7 +3,7 @@
 //
 //   GET /metrics       Prometheus text (metrics_text.h)
 //   GET /status.json   status_json.h
-// Everything else gives 404, 405 or 400. Each answer ends its connection. On a port, a request
+// All other requests give 404, 405 or 400. Each answer ends its connection. On a port, a request
 // whose Host is not a name of the loopback addresses gives 421 (http_listener.h); on the socket any
 // Host is accepted. Answers forbid caching and guessing of the content type. libmicrohttpd answers
 // invalid HTTP (400, 413, 414, 431) itself, with fixed texts and without these header fields.

@@ -34,8 +34,8 @@ struct FileFound {
 // Returns the entry at the path. A path that may not be examined counts as missing. A path that
 // cannot be examined now, for example because descriptors have run out, is `unknown`.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
-// Does the same, but a path that leads through a symbolic link below the directory `beneath` counts
-// as missing (base/beneath.h).
+// Returns the entry at the path. A path that leads through a symbolic link below the directory
+// `beneath` also counts as missing (base/beneath.h).
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path,
                                 const std::filesystem::path& beneath);
 

@@ -58,8 +58,9 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     const DirectoryHandle directory = open_directory(parent, name);
     if (directory) {
         (void)walk_entries(directory.get(), path, depth, visitor);
-    } else if (errno != ENOENT && errno != ENOTDIR &&
-               errno != ELOOP) {  // it was removed meanwhile, which is not a problem
+    } else if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP) {
+        // Report the error. The directory was neither removed (ENOENT) nor replaced by another kind
+        // of entry (ENOTDIR, ELOOP) in the meantime.
         const int error_number = errno;
         visitor.problem(path, {code_of(error_number),
                                fmt::format("{}: {}", path.native(), reason_of(error_number))});
@@ -69,7 +70,7 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     }
 }
 
-// Reports once for each directory why some of its names are not used.
+// Reports the first reason why names of a directory are not used, and ignores further reasons.
 class NameProblem {
   public:
     NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)

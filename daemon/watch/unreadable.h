@@ -24,9 +24,10 @@ struct Unreadable {
     [[nodiscard]] bool operator==(const Unreadable&) const = default;
 };
 
-// Return how to make a directory readable to the service, as the end of a sentence; empty if no
-// remedy is known. remedy_for() is for the drop directory, which the unit may hide (ProtectHome=);
-// remedy_below() is for directories below it, for which the service may lack a group.
+// Return the end of a sentence that says how to make a directory readable to the service; empty if
+// no remedy is known. remedy_for() is for the drop directory, which the unit may hide
+// (ProtectHome=); remedy_below() is for directories below it, for which the service may lack a
+// group.
 [[nodiscard]] std::string remedy_for(const std::filesystem::path& drop, ErrorCode code);
 [[nodiscard]] std::string remedy_below(ErrorCode code);
 

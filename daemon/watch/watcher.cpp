@@ -200,7 +200,8 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
     owed_at_ = began;
     const bool has_time = owed_s_ < most_owed_s;
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
-        // Otherwise the next scan removes the watches, or they end with the directory.
+        // If there is no time now, the next scan removes the watches, or the kernel does so when
+        // the directory ends.
         if (has_time) unwatch_tree(path);
         listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {

@@ -39,7 +39,7 @@ class WatchListener : public Interface {
         return false;
     }
     virtual void file_grew(const std::filesystem::path& /*path*/, const FileStamp& /*stamp*/) {}
-    // A directory was read that has this file.
+    // A directory was read, and this file is in it.
     virtual void file_found(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // A file was deleted or renamed away.
     virtual void file_gone(const std::filesystem::path& path) = 0;
@@ -59,7 +59,7 @@ class WatchListener : public Interface {
     virtual void drop_vanished() = 0;
     // A directory cannot be read, or some of its names are not used (`error.code` permission or
     // io). Also called for the first directory that cannot be watched (no_space if the limit is
-    // reached), and for the first that is on a silent file system (unsupported).
+    // reached), and for the first directory on a silent file system (unsupported).
     virtual void directory_problem(const Error& error) = 0;
 };
 

@@ -1,8 +1,8 @@
 // fetch/bucket/bucket_listing.h -- reads the listing of a public bucket of Level II files.
 //
 // The keys of the bucket are YYYY/MM/DD/STATION/NAME (docs/data-sources.md). A listing is a GET of
-// ?list-type=2&prefix=... (Amazon S3 and compatible servers, ListObjectsV2). It comes in pages;
-// each page has the token to ask for the next page.
+// ?list-type=2&prefix=... (Amazon S3 and compatible servers, ListObjectsV2). A long listing comes
+// in pages; each page but the last has the token to ask for the next page.
 //
 // Threads   Pure functions.
 #pragma once

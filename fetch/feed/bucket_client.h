@@ -53,8 +53,8 @@ class BucketClient {
     // second.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
 
-    // Returns the wait that the server requested in its last answer; 0: none. For functions that
-    // take answers.
+    // Returns the wait that the server requested in its last answer; 0: none. Meant for the
+    // functions that take answers.
     [[nodiscard]] std::chrono::seconds retry_after() const { return retry_after_; }
 
   private:

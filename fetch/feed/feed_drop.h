@@ -1,13 +1,13 @@
 // fetch/feed/feed_drop.h -- the directory into which the feed writes chunks, under LDM's names.
 //
-// A chunk has the path of its key: SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E. It appears there complete
-// or not at all; while it is written, it has a temporary name that stormcellard ignores. Writing
-// does not wait for the disk, because thirty chunks may come in a second and the bucket keeps them
-// for hours. A power cut may lose the last chunks or leave them empty; open() removes empty chunks,
-// so that they are fetched again. The directory is the only record of the written chunks. prune()
-// removes volumes that are too old, and the oldest volumes until the rest fits the limit of bytes.
-// It removes only files with names of chunks; open() also removes temporary files of a killed
-// writer. Only one process may write to a directory.
+// A chunk has the path of its key: SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E. A chunk appears there
+// complete or not at all; while it is written, it has a temporary name that stormcellard ignores.
+// Writing does not wait for the disk, because thirty chunks may come in a second and the bucket
+// keeps chunks for hours. A power cut may lose the last chunks or leave them empty; open() removes
+// empty chunks, so that they are fetched again. The directory is the only record of the written
+// chunks. prune() removes volumes that are too old, and the oldest volumes until the rest fits the
+// limit of bytes. prune() removes only files with names of chunks; open() also removes temporary
+// files of a killed writer. Only one process may write to a directory.
 //
 // Units     Sizes are in bytes. A chunk counts as 16 KiB at least, so that a limit of bytes also
 //           limits the number of files.
@@ -47,7 +47,8 @@ class FeedDrop {
     Status write(const ChunkKey& key, std::span<const std::byte> bytes);
     // Returns true if the chunks exceed the limit of bytes.
     [[nodiscard]] bool is_full() const { return bytes_ > limits_.bytes; }
-    // Removes volumes beyond the limits, at most 200 in a call. Returns how many were removed.
+    // Removes volumes beyond the limits, at most 200 in a call. Returns the number of removed
+    // volumes.
     std::size_t prune(UtcTime now);
 
     // Returns the newest volumes of the station, at most `most`, in ascending order of time.

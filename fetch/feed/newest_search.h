@@ -2,11 +2,11 @@
 //
 // The first listing names the directories that exist. In the order of their numbers, their times
 // rise up to the newest volume; the next directory, if any, has the oldest volume, and from there
-// the times rise again. So the search bisects with the newest time of the first directory: a
-// directory with a newer time is at or before the newest volume, any other directory is after it.
-// This takes some 12 listings, however full the ring is. If a station has jumped to another number,
-// the times may fall more than once, and the search may end at any fall; StationFollower searches
-// further if no chunks follow.
+// the times rise again. So the search bisects with the newest time of the first directory. A
+// directory with a newer time is at or before the newest volume; any other directory after the
+// first is behind the newest volume. This takes some 12 listings, however full the ring is. If a
+// station has jumped to another number, the times may fall more than once, and the search may end
+// at any fall; StationFollower searches further if no chunks follow.
 //
 // Threads   Plain data; one thread at a time.
 #pragma once
@@ -31,8 +31,8 @@ class NewestSearch {
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
 
     // The place at which StationFollower begins: the directory before the newest, so that a
-    // complete volume comes first, or the newest directory if there is none before it. Chunks older
-    // than `from` belong to an earlier round of the ring.
+    // complete volume comes first, or the newest directory if no directory is before it. Chunks
+    // older than `from` belong to an earlier round of the ring.
     struct Start {
         int number = 0;
         UtcTime from;

@@ -4,8 +4,8 @@
 // A turn makes one request at a time: a listing, then the new chunks of the listing in the order of
 // their numbers. A chunk that is in the drop directory with its size is not fetched again, for
 // example after a restart. If a chunk is smaller or larger than listed, or the bucket refuses it,
-// the station gives it up after three tries, and after eight tries if requests fail for another
-// reason. After a failure the station pauses, and then lists again.
+// the station gives the chunk up after three tries. If requests fail for another reason, it gives
+// the chunk up after eight tries. After a failure the station pauses, and then lists again.
 //
 // Threads   The thread of BucketClient::run().
 // Errors    None. status() and the log report failures.

@@ -1,14 +1,14 @@
 // fetch/feed/station_follower.h -- decides what to list next for a station, and finds the new
 // chunks in the answer.
 //
-// It follows one volume. It lists the keys from the first missing chunk on, so that it sees both
-// late and new chunks. When the volume is complete, and at every fourth listing without news, it
-// lists the directory of the next number instead, but only keys from at most an hour before this
-// volume, because older keys belong to an earlier round of the ring. It also follows a later volume
-// in the same directory. If it left the last volume with gaps or without its end, it lists that
-// volume again every 15 s for a minute. If a station is silent, it lists the next directory more
-// often, and also directories where the station may have continued: two numbers further, number 1,
-// and in steps around the whole ring.
+// The follower follows one volume. It lists the keys from the first missing chunk on, so that it
+// sees both late and new chunks. When the volume is complete, and at every fourth listing without
+// news, it lists the directory of the next number instead, but only keys from at most an hour
+// before this volume, because older keys belong to an earlier round of the ring. It also follows a
+// later volume in the same directory. If it left the last volume with gaps or without its end, it
+// lists that volume again every 15 s for a minute. If a station is silent, it lists the next
+// directory more often, and also directories where the station may have continued: two numbers
+// further, number 1, and in steps around the whole ring.
 //
 // The caller asks the bucket, writes the chunks and passes the time.
 //
@@ -49,8 +49,8 @@ class VolumeChunks {
 
 class StationFollower {
   public:
-    // `written` are the volumes to continue with, oldest first, at most two. If there are none, it
-    // searches for the newest volume.
+    // `written` are the volumes to continue with, oldest first, at most two. If there are none, the
+    // follower searches for the newest volume.
     StationFollower(std::string station, const std::vector<VolumeId>& written, SteadyTime now);
 
     [[nodiscard]] fetch::ListingQuestion question(SteadyTime now, bool is_silent);

@@ -4,9 +4,12 @@
 // in time. `stop` ends a transfer within a second or so.
 //
 // Threads   One thread at a time. Any thread may set `stop`.
-// Errors    busy may pass: no connection, a timeout, 429, 500 and above, or `stop` truncated the
-//           body ended early over_budget more bytes than allowed not_found 404 and 410
-//           io        any other answer. Errors of `take` are passed on with their own code.
+// Errors    busy         may pass: no connection, a timeout, 429, 500 and above, or `stop`
+//           truncated    the body ended early
+//           over_budget  more bytes than allowed
+//           not_found    404 and 410
+//           io           any other answer
+//           Errors of `take` are passed on with their own code.
 #pragma once
 
 #include <atomic>

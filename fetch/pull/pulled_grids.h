@@ -40,8 +40,8 @@ class PulledGrids {
                                     PulledLimits limits);
 
     [[nodiscard]] bool has(const cache::GridName& name) const { return grids_.contains(name); }
-    // Returns the entity tag of the grid in the directory; empty if there is none or it cannot be
-    // read.
+    // Returns the entity tag of the grid in the directory; empty if the directory has no such grid
+    // or the tag cannot be read.
     [[nodiscard]] std::string tag_of(const cache::GridName& name);
     // A grid that is being received.
     class Incoming {
@@ -59,8 +59,8 @@ class PulledGrids {
     // Checks the grid and gives it its name. `tag` is the tag that the server named.
     Status keep(Incoming incoming, const std::string& tag);
 
-    // Removes grids that are too old, and then the oldest until the limits of bytes and of grids
-    // are met. Returns how many were removed.
+    // Removes grids that are too old, and then the oldest grids until the limits of bytes and of
+    // grids are met. Returns the number of removed grids.
     std::size_t prune(UtcTime now);
 
     [[nodiscard]] std::size_t count() const { return grids_.size(); }

@@ -45,7 +45,7 @@ class SourcePuller {
     [[nodiscard]] std::chrono::milliseconds pause() const;
     [[nodiscard]] SourceStatus status() const;
     [[nodiscard]] const PullSource& source() const { return source_; }
-    // Returns the larger number of asked_ and bad_, for tests.
+    // Returns the size of asked_ or bad_, whichever is larger; for tests.
     [[nodiscard]] std::size_t remembered() const { return std::max(asked_.size(), bad_.size()); }
     // Returns when a turn, or a transfer in it, last made progress.
     [[nodiscard]] SteadyTime last_beat() const { return beat_.load(); }
