@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int lower_priority = 10;
 constexpr int first_to_go = 500;
 
-// A pipe. Programs inherit neither end, unless spawn() passes it on.
+// A pipe. Programs inherit neither end, unless spawn() passes that end on.
 struct Pipe {
     Pipe() {
         std::array<int, 2> ends{-1, -1};

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 4> words = {"counter", "gauge", "summary", "histogram"};
 
 // Escapes a label value. printable() leaves neither line ends nor invalid UTF-8. Backslashes that
-// it wrote are escaped, too.
+// printable() wrote are escaped, too.
 std::string escaped(std::string_view text) {
     std::string result;
     for (const char letter : printable(text)) {

@@ -72,7 +72,8 @@ void Intake::leave_to_scan(const std::filesystem::path& path) {
     seen_.forget(path);
 }
 
-// Notes if a volume that goes on already has sweeps. Its jobs then come before jobs of new volumes.
+// Notes whether the volume of the file goes on: it has closed sweeps but no end yet. Jobs of such a
+// volume come before jobs of new volumes.
 void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
     if (!goes_on) {
         going_on_.erase(volume_of(path));

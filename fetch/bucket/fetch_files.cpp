@@ -26,7 +26,8 @@ constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // for one pag
 constexpr std::size_t most_pages = 20;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
-// A file that is being downloaded. Its bytes so far are in a hidden file in the same directory.
+// A file that is being downloaded. The bytes that have arrived are in a hidden file in the
+// directory of the download.
 struct Download {
     BucketObject object;
     fs::path target, part;
@@ -64,7 +65,8 @@ std::string part_name_of(const BucketObject& object) {
                        xxh3_64(std::as_bytes(std::span{contents})));
 }
 
-// Returns true if the tag is one quoted word, because it becomes part of a header.
+// Returns true if the tag is one quoted word. Other tags must not be used, because the tag becomes
+// part of a header.
 bool is_plain_tag(std::string_view tag) {
     const auto is_plain = [](char c) { return c > ' ' && c < 0x7F && c != '"'; };
     return tag.size() > 2 && tag.front() == '"' && tag.back() == '"' &&

@@ -11,7 +11,7 @@ constexpr std::chrono::hours clock_set_back{1};
 constexpr std::chrono::seconds grace{60}, between_looks{15};
 // While chunks come, every fourth listing without news is a listing of the next directory, not of
 // the volume. A silent station more likely continues with a new volume, so three of four listings
-// are of the next directory.
+// without news are then of the next directory.
 constexpr int every_fourth = 4;
 // Steps around the ring: the first, and each further step; 13 and 999 have no common divisor.
 constexpr int ring_step = 13, first_step = 3;

@@ -15,7 +15,8 @@ namespace stormcellar::pull {
 namespace {
 
 constexpr std::string_view program = "stormcellar-pull";
-// A thread without a beat for this long hangs; during a transfer it beats at least once a second.
+// A thread without a beat for this long hangs; during a transfer each thread beats at least once a
+// second.
 constexpr std::chrono::minutes longest_silence{5};
 
 constexpr std::string_view usage =

@@ -22,8 +22,8 @@ constexpr std::chrono::minutes list_step{10};
 // to find late grids.
 constexpr std::chrono::minutes short_list{30};
 constexpr int short_lists = 12;
-// Younger grids are asked for again, because a partial is made again within minutes when the rest
-// of its volume comes.
+// Grids younger than this are asked for again, because a machine makes a partial again within
+// minutes when the rest of the volume comes.
 constexpr std::chrono::minutes young{20};
 constexpr std::chrono::seconds between_asking{60};
 // Limits of one turn. Fetching many missing grids takes several turns; a machine that sends junk is
@@ -187,7 +187,7 @@ Status SourcePuller::fetch_missing() {
         if (grids_.has(name)) continue;
         if (!has_room_for(name)) return {};
         if (Status fetched = fetch(name); !fetched) return fetched;
-        // Grids come newest first: if there is no room for this grid, there is none for older
+        // Grids come newest first: if there is no room for this grid, there is no room for older
         // grids.
         if (!make_room_for(name)) return {};
     }
@@ -206,7 +206,8 @@ Status SourcePuller::ask_again(UtcTime now) {
     return {};
 }
 
-// Fetches a grid, unless it is paused. Fails only if the machine must be paused.
+// Fetches a grid, unless requests for this grid are paused. Fails only if the machine must be
+// paused.
 Status SourcePuller::fetch(const cache::GridName& name) {
     const auto known = bad_.find(name);
     if (known != bad_.end() && steady_now() < known->second.next) return {};
@@ -218,7 +219,7 @@ Status SourcePuller::fetch(const cache::GridName& name) {
         bad_.erase(name);
         return {};
     }
-    // The machine has evicted the grid since it listed it.
+    // The machine has evicted the grid since the list was made.
     if (done.error().code == ErrorCode::not_found) return {};
     if (!is_of_the_grid(done.error().code)) return done;
     Bad& bad = bad_[name];

@@ -39,7 +39,7 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     ASSERT_TRUE(shipped) << shipped.error().message;
     const Result<Config> bare = load("[paths]\ndrop = \"/var/spool/ldm/nexrad2\"\n");
     ASSERT_TRUE(bare) << bare.error().message;
-    // The grid room fills in the default list, which the shipped file spells out.
+    // Without the key, the grid library uses its default list, which the shipped file spells out.
     EXPECT_TRUE(bare->fixed.grid.levels_m.empty());
     EXPECT_EQ(shipped->fixed.grid.levels_m, grid::default_spec(0, 0).levels_m);
     shipped->fixed.grid.levels_m.clear();
@@ -260,7 +260,7 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
               "s.toml:6: [log] level: \"loud\" must be one of debug, info, warning, error");
 }
 
-// The configuration rejects the levels that the grid room rejects, and names the line.
+// The configuration rejects the levels that the grid library rejects, and names the line.
 TEST_F(ConfigFile, LevelsThatDoNotRiseAreRefused) {
     EXPECT_TRUE(complaint(std::string(paths) + "[ingest]\nlevels_km = [2, 1]\n")
                     .starts_with("s.toml:6: [ingest] levels_km: "));

@@ -71,7 +71,8 @@ std::vector<catalog::CatalogEntry> rows(const RunningDaemon& daemon, const std::
     return entries ? *entries : std::vector<catalog::CatalogEntry>{};
 }
 
-// Writes as LDM does with -close: opens the file, appends and closes it again for each piece.
+// Writes a file as LDM does with -close: opens the file, appends and closes it again for each
+// piece.
 void append_in_pieces(const fs::path& path, const std::string& text, std::size_t pieces) {
     const std::size_t size = text.size() / pieces + 1;
     for (std::size_t at = 0; at < text.size(); at += size) {
@@ -92,8 +93,8 @@ void take_in_one_volume(RunningDaemon& daemon) {
     })) << daemon.log();
 }
 
-// Grids the file by itself, as `stormcellar grid` does, and returns the bytes of its grid in a
-// cache.
+// Grids the file without the daemon, as `stormcellar grid` does. Returns the grid with the
+// precision that a cache stores.
 grid::BrickGrid gridded_alone(const fs::path& raw, level2::Moment moment) {
     level2::DecodeOptions options;
     options.selection.moments = {moment};

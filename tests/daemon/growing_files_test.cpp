@@ -130,7 +130,8 @@ TEST_F(Growing, AFileThatVanishesIsForgotten) {
     EXPECT_FALSE(files_.next_time());
 }
 
-// The event of its deletion may be lost, and chunks of a volume may wait under its name.
+// The event of the file's deletion may be lost, and chunks of a volume may wait under the name of
+// the file.
 TEST_F(Growing, AnIncompleteFileThatVanishesIsDue) {
     files_.add_incomplete("a", small, t0);
     EXPECT_EQ(due_at(1), "a");

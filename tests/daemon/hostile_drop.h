@@ -66,7 +66,7 @@ class HostileDrop : public ::testing::Test {
         return daemon_.wait_for(
             [&](const nlohmann::json& status) { return status["rejected"] >= files; });
     }
-    // Returns the reason why the file was rejected; empty if it was not.
+    // Returns the reason why the file was rejected; empty if the file was not rejected.
     std::string reason_of(const std::string& name) {
         const nlohmann::json status = daemon_.status();
         for (const nlohmann::json& file : status["rejected_files"]) {

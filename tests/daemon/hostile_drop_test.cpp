@@ -225,7 +225,7 @@ TEST_F(HostileDrop, NamesForgeNoLine) {
     }
 }
 
-// Runs as a user who does not own the files, because root may read everything.
+// Runs the daemon as a user who does not own the files, because root may read everything.
 TEST_F(HostileDrop, WhatMayNotBeReadIsNamedAndTakenOnceItMay) {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can run it as a user without rights";
     put(drop() / "KTLX_closed", volume());

@@ -30,7 +30,7 @@ class IntakeTest : public ::testing::Test {
         return made;
     }
     [[nodiscard]] std::filesystem::path at(const char* name) const { return directory_ / name; }
-    // Writes a file whose stamp the intake may read; its time is long ago.
+    // Writes a file, so that the intake can read a stamp, and sets its time to long ago.
     FileStamp make(const char* name, std::string_view text = "1") {
         write_file(at(name), text);
         FileStamp stamp = look_at(at(name)).stamp;

@@ -77,7 +77,8 @@ TEST_F(IntakeTest, AClockThatJumpsChangesNoWait) {
     }
 }
 
-// Otherwise a backlog with times of the year 2100 would come before all new files.
+// If times in the future counted, a backlog with times of the year 2100 would come before all new
+// files.
 TEST_F(IntakeTest, FilesFromTheFutureGoBeforeNothingThatIsClosedNow) {
     FileStamp stamp = make("future");
     stamp.modified_ns = wall_ns_ + 70LL * 365 * 86'400 * second_ns;

@@ -59,7 +59,7 @@ class JournalSocket : public DatagramSocket {
     // Returns true if the last entry came as a file.
     [[nodiscard]] bool was_file() const { return was_file_; }
 
-    // Returns the bytes of the next entry; none if there is none.
+    // Returns the bytes of the next entry; none if no entry waits.
     std::optional<std::string> receive() {
         if (!is_ready(0)) return std::nullopt;
         std::string bytes(1 << 20, '\0');

@@ -18,7 +18,7 @@ mode_t mode_of(const std::filesystem::path& path) {
 }
 
 // 2026-11-25: the mode of the socket was set by name after its creation, which followed a link if
-// somebody had put one in its place. Now the socket is created with its mode.
+// somebody had put a link in place of the socket. Now the socket is created with its mode.
 TEST(ListeningSocket, ItsModeIsThereWhenItStands) {
     const testing::TemporaryDirectory directory;
     const mode_t umask_before = ::umask(0);

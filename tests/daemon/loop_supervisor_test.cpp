@@ -25,7 +25,8 @@ using ::testing::HasSubstr;
 
 class LoopKeeperTest : public ::testing::Test {
   protected:
-    // Makes a program in place of stormcellar. It first adds a line "start PID ARGUMENTS" to `log`.
+    // Makes a program that the supervisor runs in place of stormcellar. The program first adds a
+    // line "start PID ARGUMENTS" to `log`.
     fs::path program(const std::string& body) {
         const fs::path path = directory_ / "program";
         write_file(path, "#!/bin/sh\necho start $$ \"$*\" >>" + log().native() + "\n" + body);
@@ -179,8 +180,8 @@ TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
     EXPECT_NE(::kill(process_of(starts()[0]), 0), 0);
 }
 
-// The thread must be at rest between its turns, however long they are apart, or the watchdog would
-// see a hang.
+// The thread must be at rest between its turns, however long the time between two turns is.
+// Otherwise the watchdog would see a hang.
 TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     keep(program("sleep 100\n"));
     EXPECT_FALSE(keeper_->pulse().since()) << "no loops, no thread that could hang";

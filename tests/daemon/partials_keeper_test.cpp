@@ -187,8 +187,8 @@ TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     EXPECT_EQ(south().refused, 1U);
 }
 
-// 2026-11-28: an empty part with the time of an honest part and a later end replaced it in every
-// frame, and nothing was logged.
+// 2026-11-28: an empty part with the time of an honest part and a later end replaced the honest
+// part in every frame, and nothing was logged.
 TEST_F(PartialsKeeperTest, APartThatReplacesThatOfAnotherMachineIsNamed) {
     start();
     bring("north", early);

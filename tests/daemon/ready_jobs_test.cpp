@@ -47,8 +47,8 @@ TEST_F(ReadyJobsTest, WhatIsLiveGoesBeforeTheBacklogWhichIsNewestFirst) {
     EXPECT_EQ(all(), "live newer older older-too");
 }
 
-// Otherwise files that lost their places in the queue, and that each scan finds again, would delay
-// new files.
+// Without this order, files that lost their places in the queue, and that each scan finds again,
+// would delay new files.
 TEST_F(ReadyJobsTest, WhatAnEventToldOfGoesBeforeWhatALookFound) {
     for (int i = 0; i < 10; ++i) {
         ReadyJobs::Key found = live("KAAA", 1000 + i);
@@ -62,7 +62,8 @@ TEST_F(ReadyJobsTest, WhatAnEventToldOfGoesBeforeWhatALookFound) {
               "found found found found found found found found");
 }
 
-// Otherwise, files from before a restart would wait until a flood of live files ends.
+// If live files always came first, files from before a restart would wait until a flood of live
+// files ends.
 TEST_F(ReadyJobsTest, TheBacklogOfKnownStationsDoesNotStandStill) {
     add(backlog(50, "KTLX"), "old");
     add(backlog(50), "others");

@@ -47,7 +47,7 @@ class RowKeeperTest : public ::testing::Test {
                        {.journal = journal_.path(), .clock = std::chrono::steady_clock::now});
     }
     void TearDown() override { set_up_logging("info"); }
-    // Waits until the keeper has looked this often.
+    // Makes the keeper look again and again until it has looked `looks` times.
     void look(int looks, milliseconds gone_rows_kept_for = {}) {
         EXPECT_TRUE(testing::eventually([&] {
             keeper_->look(now_, gone_rows_kept_for);

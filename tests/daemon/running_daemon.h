@@ -1,7 +1,8 @@
 // tests/daemon/running_daemon.h -- runs the real stormcellard on directories of its own.
 //
-// They are root/drop, root/state, root/cache and root/stormcellard.toml; the log goes to root/log.
-// The process is killed when the object is destroyed.
+// The directories are root/drop, root/state and root/cache. The configuration is
+// root/stormcellard.toml, and the log goes to root/log. The process is killed when the object is
+// destroyed.
 #pragma once
 
 #include <chrono>
@@ -28,8 +29,8 @@ class RunningDaemon {
     RunningDaemon& operator=(const RunningDaemon&) = delete;
     ~RunningDaemon();
 
-    // Starts the program. `more` is added to the configuration, which has the paths, and `options`
-    // to the command line. Throws if the program cannot be started.
+    // Starts the program. Adds `more` to the configuration, which has the paths, and `options` to
+    // the command line. Throws if the program cannot be started.
     void start(const std::string& more = {},
                const std::map<std::string, std::string>& environment = {},
                const std::vector<std::string>& options = {});
@@ -43,7 +44,7 @@ class RunningDaemon {
     // Waits for the end of the daemon. Returns the exit status, or minus the signal that ended the
     // daemon. Throws after 60 s.
     int wait();
-    // Returns the same without waiting; none while the daemon runs.
+    // Returns what wait() returns, but does not wait; none while the daemon runs.
     std::optional<int> ended();
     int terminate();
     // Expects that the daemon reports a reload and its end to the service manager.

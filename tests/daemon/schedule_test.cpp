@@ -162,7 +162,7 @@ TEST(Schedule, WhatIsTriedAgainTakesNoPlaceFromWhatComes) {
     const auto running = schedule.next(t0);
     EXPECT_FALSE(schedule.retry(*running, t0));
     EXPECT_EQ(schedule.running_count(), 0U);
-    // Once their time has come, they are like other jobs.
+    // When the time of the failed jobs has come, they are like other jobs.
     for (int i = 0; i < 7; ++i)
         EXPECT_TRUE(schedule.next(t0 + seconds{1})) << i;
     EXPECT_EQ(schedule.retrying_count(), 0U);
@@ -254,7 +254,7 @@ TEST(Schedule, AHoldConcernsEveryJob) {
     EXPECT_TRUE(schedule.next(t0 + seconds{4}));
 }
 
-// Compares the schedule with an obvious implementation, which searches a list.
+// Compares the schedule with a simple implementation, which searches a list.
 TEST(Schedule, AgreesWithAPlainListUnderRandomUse) {
     std::mt19937 random(20261121);
     Schedule schedule(8);

@@ -363,7 +363,8 @@ std::ptrdiff_t meals(const FakeNotifier& notifier) {
 }
 
 // One of the service's own threads hangs until the test releases it: the service must stop feeding
-// the watchdog. A thread that takes as long but makes steps must not stop it.
+// the watchdog. If a thread takes as long but makes steps, the service must go on feeding the
+// watchdog.
 class HangingThread : public ServiceTest, public ::testing::WithParamInterface<const char*> {
   protected:
     std::atomic<bool> hangs_{true};
@@ -419,7 +420,8 @@ TEST_P(HangingThread, StarvesTheWatchdog) {
     stop();  // it refers to the clock above
 }
 
-// Runs the threads that make steps; a worker has none within a file.
+// Tests the threads that make steps. Workers are left out, because ingesting a file is a single
+// step.
 class SteppingThread : public HangingThread {};
 
 TEST_P(SteppingThread, DoesNot) {

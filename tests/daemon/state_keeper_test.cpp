@@ -49,7 +49,7 @@ TEST_F(StateKeeperTest, RemovesWhatAKilledServiceLeft) {
     EXPECT_FALSE(fs::exists(state_ / ".stormcellar-tmp-status"));
     EXPECT_FALSE(fs::exists(catalog / ".stormcellar-tmp-4242-0"));
     EXPECT_TRUE(fs::exists(catalog / "drop-directory"));
-    // A later call must keep temporary files, because this service may be writing them.
+    // A later call must keep temporary files, because this service may be writing such files.
     write_file(catalog / ".stormcellar-tmp-4242-0", "half");
     ASSERT_TRUE(keeper_.hold());
     EXPECT_TRUE(fs::exists(catalog / ".stormcellar-tmp-4242-0"));

@@ -291,7 +291,7 @@ std::vector<Descriptor> silent_connections(int port, int count) {
     return all;
 }
 
-// Waits until all are connected, at most 10 s for each.
+// Waits until all sockets are connected, at most 10 s for each.
 bool all_are_connected(const std::vector<Descriptor>& sockets) {
     return std::all_of(sockets.begin(), sockets.end(), [](const Descriptor& socket) {
         pollfd connects{socket.number(), POLLOUT, 0};
@@ -306,8 +306,8 @@ std::ptrdiff_t open_descriptors() {
 }
 
 // 2026-11-25: the kernel queued 16 connections for the server and dropped the others, which tried
-// again after 1 s and after 3 s. At the limit, the server slept although the connections that it
-// had cut made room.
+// again after 1 s and after 3 s. At the limit, the server slept, although it had cut connections
+// and so had room for new connections.
 TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     constexpr int silent = 200;
     StatusServerOptions options = quick();
@@ -328,8 +328,8 @@ TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     EXPECT_TRUE(testing::eventually([&] { return is_at_a_page.load(); }));
     const std::ptrdiff_t before = open_descriptors();
     const auto many = silent_connections(options.http_port, silent);
-    // The server accepts none meanwhile, so a connection that the kernel dropped would never be
-    // connected.
+    // Meanwhile the server accepts no connection, so a connection that the kernel dropped would
+    // never be connected.
     EXPECT_TRUE(all_are_connected(many));
     const StatusClient second = StatusClient::at_port(options.http_port);
     second.send(get("/metrics"));

@@ -67,8 +67,8 @@ TEST(TreeWalk, LeavesOutLinksFifosAndTemporaryNames) {
     EXPECT_EQ(seen->others, (std::set<std::string>{"fifo", "link", "linked"}));
 }
 
-// A new directory deep in the tree is walked by itself, but its depth still counts from the drop
-// directory.
+// The watcher walks a new directory deep in the tree on its own, but the depth still counts from
+// the drop directory.
 TEST(TreeWalk, DepthCountsFromWhereItIsSaidTo) {
     const testing::TemporaryDirectory directory;
     fs::create_directories(directory / "a/b");

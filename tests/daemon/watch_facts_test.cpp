@@ -17,7 +17,7 @@ using wire::Bytes;
 // instances.
 class FewWatches : public HostileDrop {
   protected:
-    // Returns false if the system does not allow this.
+    // Sets a limit of this user namespace. Returns false if the system does not allow this.
     bool limit(const std::string& name, int value) {
         const std::string set =
             "echo " + std::to_string(value) + " > /proc/sys/user/max_inotify_" + name;

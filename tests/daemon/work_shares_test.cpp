@@ -33,8 +33,8 @@ TEST(WorkShares, StationsWhoseFilesAreQuickAndGoodHaveAllWorkers) {
     }
 }
 
-// The time that its second file takes is unknown until the job has ended, so a station may not use
-// all workers.
+// Nobody knows how long a job takes before it has ended, so a station may not use all workers, even
+// with its first files.
 TEST(WorkShares, NoStationHasAllWorkersAlone) {
     WorkShares shares;
     shares.set_workers(3);

@@ -1,4 +1,5 @@
-// Tests the check itself: it must report nothing about a sound state, and name each fault.
+// Tests the check itself. The check must report nothing about a sound state, and must name each
+// fault.
 #include <fstream>
 
 #include <SQLiteCpp/SQLiteCpp.h>

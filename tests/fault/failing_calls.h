@@ -1,10 +1,10 @@
 // tests/fault/failing_calls.h -- controls failing_calls.so, a library that is loaded into the
-// daemon (LD_PRELOAD) and makes its system calls fail.
+// daemon (LD_PRELOAD) and makes the daemon's system calls fail.
 //
-// The file that $STORMCELLAR_FAILING_CALLS names holds one Steering, which the test and the library
-// map, so that the test may change it while the daemon runs. Calls on files below a directory of
-// `below` are counted if their kind is in `kinds`. Calls whose number is at least `from` (the first
-// call is 1) and less than `to` fail.
+// The file that $STORMCELLAR_FAILING_CALLS names holds one Steering. The test and the library map
+// this file, so that the test may change the Steering while the daemon runs. Calls on files below a
+// directory of `below` are counted if their kind is in `kinds`. Calls whose number is at least
+// `from` (the first call is 1) and less than `to` fail.
 #pragma once
 
 #include <array>

@@ -49,7 +49,7 @@ constexpr Failure failures[] = {
     {"FromEachCallOnTheDiskFails", changes | kind_remove, EIO, true, false, true},
 };
 
-// The result of a run in which one call, or all from one call on, failed.
+// The result of a run in which one call, or every call from one call on, failed.
 struct Tried {
     std::uint64_t calls = 0, failed = 0;
     bool ended = false;  // the daemon gave up, for example at its start

@@ -1,4 +1,4 @@
-// Tests the space that grids of unknown stations may take in the cache.
+// Tests how much space of the cache the grids of unknown stations may take.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -45,7 +45,7 @@ class OneDatabase : public HostileCases, public ::testing::WithParamInterface<Sp
                 break;
         }
     }
-    // Replaces whatever is at the database's path by the sound database.
+    // Removes whatever is at the database's path, and puts the sound database there.
     void mend() {
         fs::remove_all(database());
         fs::copy_file(aside(), database());

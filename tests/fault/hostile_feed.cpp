@@ -137,7 +137,7 @@ void RealFeed::write_piece(Station& station) {
     closed_.push_back(station.volume);
 }
 
-// Writes pieces in the order of their times, of all stations.
+// Writes the pieces of all stations in the order of their times.
 void RealFeed::write() {
     while (true) {
         const auto first = std::min_element(

@@ -5,8 +5,7 @@
 // after another. A volume has five sweeps, the lowest with 720 radials, the others with 360. Files
 // are written as LDM does: a record is appended and the file closed, again and again; every fourth
 // station sends one file for each chunk. The latency of a volume is the time from the close of its
-// last piece to the moment at which the grid of the whole volume is in the cache, as a reader of
-// the cache sees it.
+// last piece to the moment at which a reader of the cache finds the grid of the whole volume.
 //
 // Threads   begin() and finish() from one thread; two threads work between them.
 #pragma once

@@ -17,7 +17,7 @@ using wire::Writer;
 
 constexpr unsigned radials_per_record = 125;
 
-// The status of a radial within its sweep.
+// The radial status: the place of a radial within its sweep.
 enum class Mark : unsigned {
     begins_sweep = 0,
     within = 1,

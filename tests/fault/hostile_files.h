@@ -2,7 +2,7 @@
 //
 // The files are small, of message 31, with one moment. They may claim any station, position, time,
 // scale and offset, and may lack an end. This code does not use stormcellar/level2/encode.h, which
-// refuses to write most of them.
+// refuses to write most of these files.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -43,10 +43,11 @@ struct Claims {
 [[nodiscard]] Bytes sweep_messages(const Claims& claims, unsigned sweep);
 // Returns a whole volume: the header and one record.
 [[nodiscard]] Bytes volume_bytes(const Claims& claims);
-// Returns the same without compression, which is faster to make.
+// Returns the volume of volume_bytes() without compression, which is faster to make.
 [[nodiscard]] Bytes plain_volume_bytes(const Claims& claims);
 // Returns the header and records of one sweep that does not end: `radials` radials (a multiple of
-// 125) of `gates` gates of 16 bits. With 1,250 and 20,000 it has some 23 kB and unpacks to 50 MB.
+// 125) of `gates` gates of 16 bits. With the defaults, the file has some 23 kB and unpacks to 50
+// MB.
 [[nodiscard]] Bytes endless_bytes(Claims claims, unsigned radials = 1250, unsigned gates = 20'000);
 // Returns the control word of a record of `bytes` bytes, and the start of its stream.
 [[nodiscard]] Bytes begun_record(std::uint32_t bytes);

@@ -35,8 +35,8 @@ struct Share {
 };
 
 // Shares of 10,000 files; the rest are volumes of invented stations. Attacks that cost the daemon a
-// second of processor time each, such as a bomb, are rare, because their sender would have to pay
-// for them.
+// second of processor time each, such as a bomb, are rare, because they also cost their sender
+// much.
 constexpr std::array<Share, attack_count> shares = {{
     {Attack::invented, "invented", 3000},
     {Attack::known, "known", 300},
@@ -233,7 +233,7 @@ std::string HostileMix::some_station() {
                          : invented_station(below(invented_count));
 }
 
-// Writes the file in place, or under a dot-name and then renames it.
+// Writes the file under its own name, or under a dot-name and then renames it.
 void HostileMix::write(const Standing& file, const Bytes& bytes) {
     const fs::path path = path_of(file);
     if (below(2) == 0) {

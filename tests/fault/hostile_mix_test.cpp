@@ -1,5 +1,5 @@
-// Runs every attack at once, beside a real feed of 16 stations, and tests from outside that the
-// bounds of docs/reliability.md hold.
+// Runs every attack at once, beside a real feed of 16 stations, and tests from outside the daemon
+// that the bounds of docs/reliability.md hold.
 //
 //   STORMCELLAR_HOSTILE_SECONDS   duration (20; scripts/test --hostile: 1,800)
 //   STORMCELLAR_HOSTILE_RATE      hostile files a second (1,000)
@@ -101,7 +101,7 @@ class Sampler {
     std::thread thread_;
 };
 
-// Returns latencies in seconds; volumes that were never gridded have none.
+// Latencies in seconds; volumes that were never gridded have none.
 struct Latencies {
     std::size_t volumes = 0, gridded = 0;
     double p50 = 0, p95 = 0, max = 0;

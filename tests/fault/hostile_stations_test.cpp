@@ -72,7 +72,7 @@ TEST_F(InventedStations, ClaimsOfEveryKnownStationLeaveDescriptorsForTheRest) {
     stop();
 }
 
-// Starts with databases of a version that accepted every name.
+// Starts the daemon with databases of a version that accepted every name.
 TEST_F(InventedStations, AStateThatAnAttackLeftIsReadyAsSoon) {
     start();
     expect_gridded("KTLX", put_good("KTLX"));

@@ -1,7 +1,7 @@
 // tests/fault/hostile_watch.h -- observes the resources and the files of a daemon under attack.
 //
-// It observes from outside: it reads /proc and the files of state and cache, and uses only readers
-// of the product. Files that vanish meanwhile do not count.
+// The functions observe from outside the daemon. They read /proc and the files of state and cache,
+// and use only readers of the product. Files that vanish meanwhile do not count.
 //
 // Threads   Functions without state.
 #pragma once

@@ -32,7 +32,8 @@ bool is_in_a_write(const std::filesystem::path& cache) {
 }
 
 // The time of the kill ranges from before main() to the middle of the work. The longer the daemon
-// runs, the more files arrive, but so few that it catches up although it is killed again and again.
+// runs, the more files arrive, but so few files that it catches up although it is killed again and
+// again.
 TEST(Kill, AtRandomMomentsUnderLoad) {
     const int kills = number_of("STORMCELLAR_KILLS", 15);
     const auto seed = static_cast<std::uint32_t>(number_of("STORMCELLAR_SEED", 1));

@@ -2,7 +2,7 @@
 //
 // The files are small simulated volumes (message 31, two cuts of 360 radials) of several stations,
 // each with its own time, some of them truncated; junk; and real volumes, if there are any, under
-// new names. They are written in all four ways: whole by rename, growing and closed after each
+// new names. The files are written in all four ways: whole by rename, growing and closed after each
 // piece, growing and kept open, and as one file for each chunk.
 #pragma once
 

@@ -1,5 +1,6 @@
-// Kills a machine that merges parts of other machines between a part and its frames, or makes its
-// disk fail there once. Afterward, the mosaic must have the same bytes as without the fault.
+// The daemon merges parts of other machines. The tests kill it after it has stored a part but not
+// yet made the frames, or make its disk fail once at that point. Afterward, the mosaic must have
+// the same bytes as without the fault.
 #include <cerrno>
 #include <map>
 #include <utility>

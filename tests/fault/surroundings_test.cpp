@@ -28,7 +28,7 @@ constexpr Way ways[] = {Way::whole, Way::growing, Way::open, Way::chunks};
 
 class Surroundings : public ::testing::Test {
   protected:
-    // Delivers this many volumes, in all ways in turn, and a real volume and junk with every eighth
+    // Delivers `volumes` volumes, in all ways in turn, and a real volume and junk with every eighth
     // volume.
     void deliver_some(int volumes) {
         for (int i = 0; i < volumes; ++i) {
@@ -210,7 +210,7 @@ TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
     expect_to_catch_up();
     deliver_some(4);  // their events must arrive again
     expect_to_catch_up();
-    // Put another directory in its place, into which files are then written.
+    // Put another directory in place of the drop directory, and write files into that directory.
     fs::rename(daemon_.drop(), away);
     fs::create_directory(daemon_.drop());
     const std::uint64_t scans = daemon_.running().status()["scans"];
@@ -243,8 +243,8 @@ TEST_F(Surroundings, EventsThatTheKernelDropped) {
     stop_and_look();
 }
 
-// One rename of a directory makes many files appear, while as many are being written, with volumes
-// in between.
+// One rename of a directory makes many files appear, while as many other files are being written,
+// with volumes in between.
 TEST_F(Surroundings, ManyFilesAtOnce) {
     const int files = number_of("STORMCELLAR_FAULT_FILES", 4000);
     const fs::path prepared = daemon_.running().root() / "prepared";

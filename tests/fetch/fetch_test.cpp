@@ -153,7 +153,8 @@ TEST_F(FetchTest, ACutFileGoesOnWhereItEnded) {
     expect_all_there();
 }
 
-// 2026-11-25: if a file had changed, its rest was appended to the beginning of the old file.
+// 2026-11-25: if a file had changed during a download, the rest of the new file was appended to the
+// beginning of the old file.
 TEST_F(FetchTest, APartOfOtherContentsIsNotGoneOnWith) {
     request_.tries = 1;
     bucket_.fail_next(key(first_), {Fault::cut});

@@ -14,7 +14,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::StartsWith;
 
-// Sends signals before the loop begins, so that it takes one in each turn, SIGHUP first.
+// Sends signals before the loop begins, so that the loop takes one signal in each turn, SIGHUP
+// first.
 class Turns : public ::testing::Test {
   protected:
     bool take(std::initializer_list<int> signals) {

@@ -61,7 +61,7 @@ TEST(ChunkKey, NothingElseIsTaken) {
         EXPECT_FALSE(parse_chunk_key(key, now)) << key;
 }
 
-// Only plain paths of three parts may be accepted, whatever a bucket lists.
+// Whatever a bucket lists, only plain paths of three parts may be accepted.
 TEST(ChunkKey, OfChangedKeysOnlySuchAreTakenThatAreWrittenTheSame) {
     std::mt19937 chance(1);
     const std::string good = "KTLX/494/20220317-000842-001-S";

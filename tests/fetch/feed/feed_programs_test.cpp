@@ -61,7 +61,7 @@ class FeedPrograms : public ::testing::Test {
         return files;
     }
     // Returns the grids that another daemon makes from the same chunks, written as LDM writes them;
-    // empty if it did not ingest all.
+    // empty if that daemon did not ingest all volumes.
     static std::map<std::string, std::string> grids_by_ldm(
         const std::map<std::string, std::string>& objects, int volumes) {
         RunningDaemon daemon;

@@ -31,8 +31,8 @@ Found search(const std::set<std::string>& keys) {
     return found;
 }
 
-// Returns the keys of a station that made `kept` volumes, one each five minutes; the last has
-// number `newest`.
+// Returns the keys of a station that made `kept` volumes, one every five minutes; the last volume
+// has number `newest`.
 std::set<std::string> ring(int newest, int kept) {
     std::set<std::string> keys;
     for (int back = 0; back < kept; ++back) {

@@ -1,4 +1,5 @@
-// Follows a station through all events in a bucket in memory, with a simulated clock.
+// Follows a station in a bucket that is kept in memory, with a simulated clock, through all events
+// that a bucket may show.
 #include "fetch/feed/station_follower.h"
 
 #include <algorithm>
@@ -40,7 +41,8 @@ class Following : public ::testing::Test {
         }
         return came;
     }
-    // Does the same until no more chunks come.
+    // Asks again and again until no more chunks come. Returns the new chunks in the order in which
+    // they came.
     std::vector<std::string> all() {
         std::vector<std::string> came;
         for (int quiet = 0; quiet < 12;) {

@@ -42,7 +42,7 @@ TEST(GridList, HasThePartsOfTheDomainsNewestFirst) {
         << "all domains";
 }
 
-// 2026-11-28: a list of four megabytes has 67,000 names, and the puller kept them all.
+// 2026-11-28: a list of four megabytes has 67,000 names, and the puller kept all these names.
 TEST(GridList, HasTheNewestOfMoreThanAnyMachineHas) {
     std::string entries;
     for (std::size_t i = 0; i <= most_listed; ++i) {

@@ -49,7 +49,8 @@ class OtherMachine {
     }
     // Makes grid `number` again with other cells.
     void make_again(std::size_t number) { write(names_.at(number), 5); }
-    // These change the answers to requests for files, for lists, and for missing files.
+    // The next functions change the answers to requests for files, for lists, and for missing
+    // files.
     std::function<Reply(Reply)> of_files = [](Reply reply) { return reply; };
     std::function<Reply(Reply)> of_lists = [](Reply reply) { return reply; };
     std::function<Reply(Reply)> of_missing = [](Reply reply) { return reply; };
@@ -169,8 +170,8 @@ TEST_F(Pulling, AYoungGridThatWasMadeAgainComesAgain) {
     EXPECT_TRUE(pulled(1) == other_.file(1));
 }
 
-// 2026-11-28: a turn fetched up to 1,000 young grids again without checking their bytes: a machine
-// that made them again, but larger, filled the disk.
+// 2026-11-28: a turn fetched up to 1,000 young grids again without checking the limit of bytes. A
+// machine that made its grids again, but larger, filled the disk.
 TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
     other_.add(std::chrono::minutes{5}, 2);
     ASSERT_TRUE(puller()->turn());
