@@ -59,7 +59,8 @@ TEST_F(CacheKeeperTest, RollsAtOnceThenEveryFiveSecondsAndTellsNews) {
     ASSERT_TRUE(usage);
     EXPECT_EQ(usage->budget_bytes, std::nullopt);
     EXPECT_FALSE(keeper_.poll(began + CacheKeeper::period - milliseconds{1}, budgets_));
-    EXPECT_EQ(keeper_.next_time(), began + CacheKeeper::period) << "not due again";
+    EXPECT_EQ(keeper_.next_time(), began + CacheKeeper::period)
+        << "the next roll is due only after a period";
 
     budgets_.total.bytes = 7;
     now_ += CacheKeeper::period;
@@ -73,7 +74,7 @@ TEST_F(CacheKeeperTest, RollsAtOnceThenEveryFiveSecondsAndTellsNews) {
     sink_.grids = 3;
     usage = next_news(seconds{1});
     ASSERT_TRUE(usage);
-    EXPECT_EQ(usage->grids, 3U) << "the roll before had nothing new to tell";
+    EXPECT_EQ(usage->grids, 3U) << "the roll before this one found no change";
 }
 
 TEST_F(CacheKeeperTest, ALongRollHoldsNobodyUpAndRunsOnce) {

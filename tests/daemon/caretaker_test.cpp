@@ -64,7 +64,7 @@ TEST_F(CaretakerTest, RestsBetweenItsRounds) {
                             },
                             [](pipeline::PairReport) {}});
     ASSERT_TRUE(testing::eventually([&] { return asked >= 100; }))
-        << "its first round is long over";
+        << "the first round must be over by now";
     EXPECT_TRUE(testing::eventually([&] { return !keeper.pulse().since(); }));
 }
 

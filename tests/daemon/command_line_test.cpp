@@ -48,7 +48,7 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
                                    "number\n",
                                    file.native()));
     const auto good = run("[paths]\ndrop = \"none\"\n", {"--check-config"});
-    EXPECT_EQ(good.status, 0) << "the directories need not be there to be checked";
+    EXPECT_EQ(good.status, 0) << "a check does not need the directories";
     EXPECT_EQ(good.err, fmt::format("stormcellard: note: cannot read the drop directory {}: No "
                                     "such file or directory; the service will wait for it\n",
                                     (directory / "none").native()));

@@ -53,7 +53,7 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     Config defaults;
     defaults.fixed.paths.drop = "/var/spool/ldm/nexrad2";
     defaults.fixed.grid.threads = bare->fixed.grid.threads;
-    EXPECT_TRUE(*bare == defaults) << "the numbers of threads alone depend on the machine";
+    EXPECT_TRUE(*bare == defaults) << "only the numbers of threads depend on the machine";
 }
 
 TEST_F(ConfigFile, EveryKeyIsTaken) {
@@ -179,7 +179,7 @@ TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
 
     const Result<Config> none = load(std::string(paths) + "[cache]\nbytes = 0\npercent = 0\n");
     ASSERT_TRUE(none);
-    EXPECT_EQ(none->reloadable.budgets, cache::Budgets{}) << "0 is no limit";
+    EXPECT_EQ(none->reloadable.budgets, cache::Budgets{}) << "0 means no limit";
     EXPECT_EQ(none->reloadable.budgets.protected_for, std::chrono::hours{168});
 }
 
@@ -380,7 +380,7 @@ TEST_F(ConfigFile, ScenesThatAreNotThereAreRefusedWhereTheyMustBe) {
     const auto must_be = [&](const std::string& scene) -> std::string {
         const std::string text =
             std::string(paths) + "[[loop]]\nname = \"a\"\nscene = \"" + scene + "\"\n";
-        EXPECT_TRUE(load(text)) << "a service goes on without";
+        EXPECT_TRUE(load(text)) << "a running service accepts a missing scene";
         const Result<Config> config = load_config(file(), SceneFiles::must_exist);
         return config ? "" : config.error().message;
     };
@@ -404,7 +404,8 @@ TEST_F(ConfigFile, TheStatusIsAskedForWhereItIsSaid) {
     EXPECT_EQ(status("socket = \"\""), "s.toml:6: [status] socket: must not be empty");
     EXPECT_EQ(status("socket = \"/d/s\""), "s.toml:6: [status] socket: /d/s is within /d");
     EXPECT_EQ(status("socket = \"/c/x/s\""), "s.toml:6: [status] socket: /c/x/s is within /c");
-    EXPECT_EQ(status("socket = \"/s/s\""), "no complaint") << "the state directory is ours";
+    EXPECT_EQ(status("socket = \"/s/s\""), "no complaint")
+        << "a socket may be in the state directory";
     EXPECT_EQ(status("socket = \"/" + std::string(107, 'x') + "\""),
               "s.toml:6: [status] socket: has more than 107 bytes");
     EXPECT_EQ(status("http_port = 65536"),

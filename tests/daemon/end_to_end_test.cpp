@@ -124,7 +124,7 @@ TEST(EndToEnd, AllMomentsOfAVolumeComeOutOfOneDecoding) {
     EXPECT_EQ(rows(daemon, "KLOT").size(), 1U);
     const json status = daemon.status();
     EXPECT_EQ(status["grids"], 6) << status.dump(1);
-    EXPECT_EQ(status["volumes"].size(), 1U) << "one volume was taken in, once";
+    EXPECT_EQ(status["volumes"].size(), 1U) << "the volume must be ingested once";
     EXPECT_EQ(verified_grids(daemon.cache()), 6U);
     const auto store = cache::StoreReader::open(daemon.cache());
     ASSERT_TRUE(store);
@@ -194,9 +194,10 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     // The close of a file is unknown if a scan finds the file, at the start or in a directory that
     // is not watched yet.
     EXPECT_GE(status["latency_s"]["count"], 1);
-    EXPECT_LE(status["latency_s"]["count"], 4) << "the first stood there before";
+    EXPECT_LE(status["latency_s"]["count"], 4) << "the first volume was there before the start";
     EXPECT_GT(status["latency_s"]["max"], 0);
-    EXPECT_NE(daemon.log().find("two\\x0alines"), std::string::npos) << "names are one line";
+    EXPECT_NE(daemon.log().find("two\\x0alines"), std::string::npos)
+        << "the newline in a name must be escaped";
     // The service does not change raw files.
     EXPECT_EQ(testing::text_of(day / volumes[4].filename()), testing::text_of(volumes[4]));
 }
@@ -211,7 +212,7 @@ TEST(EndToEnd, AVolumeThatNeverEndsIsGriddedWhenItWasQuiet) {
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
     write_file(daemon.drop() / "KLOT20201019_054806", text);
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["pending"]["growing"] == 1; }));
-    EXPECT_EQ(daemon.status()["ingested"], 0) << "there may be more to come";
+    EXPECT_EQ(daemon.status()["ingested"], 0) << "the volume may not be complete yet";
     ASSERT_TRUE(daemon.wait_for([](const json& s) {
         return s["ingested"] == 1 && everything_is_done(s);
     })) << daemon.log();
@@ -254,7 +255,7 @@ TEST(EndToEnd, ARawFileThatIsDeletedStaysInTheCatalogAsGone) {
     const auto kbgm = rows(daemon, "KBGM");
     ASSERT_EQ(kbgm.size(), 1U);
     EXPECT_EQ(kbgm[0].state, FileState::gone);
-    EXPECT_EQ(verified_grids(daemon.cache()), 1U) << "its grid stays";
+    EXPECT_EQ(verified_grids(daemon.cache()), 1U) << "the grid must stay";
 }
 
 TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
@@ -275,7 +276,7 @@ TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
         << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0);
     EXPECT_TRUE(rows(daemon, "KBGM").empty());
-    EXPECT_EQ(verified_grids(daemon.cache()), 1U) << "its grid stays";
+    EXPECT_EQ(verified_grids(daemon.cache()), 1U) << "the grid must stay";
 }
 
 TEST(EndToEnd, ANameThatIsNoTextDoesNotEndTheService) {

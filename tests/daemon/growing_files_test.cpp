@@ -42,7 +42,7 @@ TEST_F(Growing, AnIncompleteFileIsFinishedWhenItWasQuietLongEnough) {
     for (int second = 1; second < 30; ++second)
         ASSERT_EQ(due_at(second), "") << second;
     EXPECT_EQ(due_at(30), "a!");
-    EXPECT_EQ(due_at(99), "") << "once";
+    EXPECT_EQ(due_at(99), "") << "the file is due only once";
     EXPECT_EQ(files_.count(), 0U);
 }
 
@@ -50,11 +50,11 @@ TEST_F(Growing, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_TRUE(files_.add_new("x1", small, t0));
     EXPECT_TRUE(files_.add_new("x2", small, t0));
     EXPECT_TRUE(files_.add_incomplete("x3", small, t0));
-    EXPECT_FALSE(files_.add_new("x4", small, t0)) << "of no station, as these";
+    EXPECT_FALSE(files_.add_new("x4", small, t0)) << "a file of no station, like the kept files";
     EXPECT_TRUE(files_.add_new("a", small, t0, "KTLX"));
     EXPECT_TRUE(files_.contains("a"));
     EXPECT_EQ(files_.take_displaced(), (std::vector<std::filesystem::path>{"x1"}));
-    EXPECT_FALSE(files_.add_new("b", small, t0, "KTLX")) << "it would have as many";
+    EXPECT_FALSE(files_.add_new("b", small, t0, "KTLX")) << "KTLX would have as many files";
     EXPECT_EQ(files_.count(), 3U);
     files_.forget("x2");
     EXPECT_TRUE(files_.add_new("b", small, t0, "KTLX"));
@@ -74,7 +74,7 @@ TEST_F(Growing, AnIncompleteFileThatGrowsIsReadAgainWhenItRests) {
     files_.add_incomplete("a", small, t0);
     EXPECT_EQ(due_at(25), "");
     disk_["a"] = large;
-    EXPECT_EQ(due_at(26), "") << "just changed";
+    EXPECT_EQ(due_at(26), "") << "the file has just changed";
     EXPECT_EQ(due_at(27), "a");
     // The quiet time starts again when the file is read again.
     files_.add_incomplete("a", large, t0 + seconds{28});
@@ -146,7 +146,7 @@ TEST_F(Growing, OneThatIsGoneAndStillWaitedForIsAskedForWhenItWasQuiet) {
     files_.add_incomplete("a", {}, t0 + seconds{31});
     disk_["a"] = small;
     EXPECT_EQ(due_at(32), "");
-    EXPECT_EQ(due_at(33), "a") << "it has come back";
+    EXPECT_EQ(due_at(33), "a") << "the file has come back";
 }
 
 TEST_F(Growing, StampsAreReadOnceASecond) {

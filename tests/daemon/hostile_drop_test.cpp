@@ -100,13 +100,14 @@ TEST_F(HostileDrop, LinksFifosSocketsAndDevicesAreNamedAndNeverOpened) {
     expect_bounded("links, FIFOs, sockets and devices");
     EXPECT_EQ(daemon_.terminate(), 0);
     EXPECT_EQ(daemon_.status()["rejected"], 0);
-    EXPECT_EQ(sweeps_known(), (std::multiset<int>{2, 2})) << "what lies outside was read";
+    EXPECT_EQ(sweeps_known(), (std::multiset<int>{2, 2}))
+        << "a file outside of the drop directory was read";
     EXPECT_EQ(facts_below(outside()), before);
     if (facts_of(drop() / "KTLX_first")[0] == 1'000'000'000)
         std::printf("no times of reading are kept here, so those outside say nothing\n");
     const std::string log = daemon_.log();
     const std::string line = "old/fifo: is a FIFO";
-    EXPECT_EQ(log.find(line), log.rfind(line)) << "said once, not with each scan";
+    EXPECT_EQ(log.find(line), log.rfind(line)) << "logged once, not at each scan";
 }
 
 // Another process replaces a directory by a link out of the drop directory, thousands of times.
@@ -227,7 +228,7 @@ TEST_F(HostileDrop, NamesForgeNoLine) {
 
 // Runs the daemon as a user who does not own the files, because root may read everything.
 TEST_F(HostileDrop, WhatMayNotBeReadIsNamedAndTakenOnceItMay) {
-    if (::geteuid() != 0) GTEST_SKIP() << "only root can run it as a user without rights";
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can run the daemon as another user";
     put(drop() / "KTLX_closed", volume());
     put(drop() / "closed/KTLX_in_closed", volume());
     put(drop() / "blind/KTLX_in_blind", volume());

@@ -22,8 +22,9 @@ TEST_F(IntakeTest, FollowedFilesGoWithTheirDirectory) {
     intake_.directory_gone(at("day"), false);
     EXPECT_FALSE(intake_.follows(at("day/a")));
     EXPECT_TRUE(intake_.follows(at("day2")));
-    EXPECT_EQ(next(), "a") << "so that its rows are marked";
-    EXPECT_TRUE(intake_.needs_scan()) << "for the rows of those of which nothing is known";
+    EXPECT_EQ(next(), "a") << "so that the rows of the file are marked";
+    EXPECT_TRUE(intake_.needs_scan())
+        << "RowKeeper must mark the rows of files that are not followed";
     EXPECT_EQ(intake_.pending().growing, 1U);
 }
 
@@ -66,7 +67,7 @@ TEST_F(IntakeTest, ProblemsAreGivenOnceAsLongAsScansFindThem) {
     for (int i = 0; i < 100'000; ++i)
         intake_.entry_left_out(at(std::to_string(i).c_str()), "a FIFO");
     intake_.end_scan(true);
-    EXPECT_EQ(intake_.take_directory_problems().size(), 64U) << "bounded";
+    EXPECT_EQ(intake_.take_directory_problems().size(), 64U) << "the number of problems is limited";
 }
 
 TEST_F(IntakeTest, WhatAScanFindsIsLiveWhenItIsYoung) {
@@ -140,7 +141,7 @@ TEST_F(IntakeTest, WhatDoesNotFitIsFoundByAScanOnceThereIsRoom) {
     EXPECT_FALSE(intake_.needs_scan());
     EXPECT_EQ(next(), "d");
     EXPECT_EQ(next(), "e");
-    EXPECT_EQ(next(), "") << "what was taken is not offered again";
+    EXPECT_EQ(next(), "") << "ingested files are not offered again";
 }
 
 TEST_F(IntakeTest, LostEventsCallForAScan) {
@@ -201,7 +202,7 @@ TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
     intake_.entry_unseen();
     EXPECT_EQ(intake_.take_unseen(), 2U);
     EXPECT_EQ(intake_.take_unseen(), 0U);
-    EXPECT_FALSE(intake_.needs_scan()) << "there is no use in it at once";
+    EXPECT_FALSE(intake_.needs_scan()) << "a scan at once would fail, too";
     EXPECT_EQ(intake_.look_again_at(), now_ + seconds{1});
     now_ += seconds{1};
     EXPECT_TRUE(intake_.needs_scan());

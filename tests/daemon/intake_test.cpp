@@ -69,10 +69,10 @@ TEST_F(IntakeTest, AClockThatJumpsChangesNoWait) {
         wall_ns_ += jump_ns;
         now_ += seconds{29};
         intake_.poll_growing();
-        EXPECT_EQ(next(), "") << "29 s have passed, whatever the wall says";
+        EXPECT_EQ(next(), "") << "only 29 s have passed, whatever the wall clock says";
         now_ += seconds{2};
         intake_.poll_growing();
-        EXPECT_EQ(next(), "a!") << "and now 31";
+        EXPECT_EQ(next(), "a!") << "31 s have passed";
         end("a", IngestResult::gridded);
     }
 }
@@ -130,8 +130,8 @@ TEST_F(IntakeTest, WhatGoesOnComesBeforeTheBeginningsOfAllStations) {
     wall_ns_ += second_ns;
     intake_.file_closed(at("KFWS20240101_000500"), make("KFWS20240101_000500"));
     EXPECT_EQ(next(), "KTLX20240101_000000");
-    EXPECT_EQ(next(), "KTLX20240101_000500") << "of the beginnings it has waited for longest";
-    EXPECT_EQ(next(), "KFWS20240101_000500") << "the newest of its station";
+    EXPECT_EQ(next(), "KTLX20240101_000500") << "of the new volumes, this one has waited longest";
+    EXPECT_EQ(next(), "KFWS20240101_000500") << "the newest file of its station";
     EXPECT_EQ(next(), "KFWS20240101_000000");
 }
 
@@ -156,12 +156,13 @@ TEST_F(IntakeTest, WhatHasToWaitIsRegisteredButWhatIsFollowedNeedNot) {
         intake_.registered(finished);
     };
     noted(*job, IngestResult::registered);
-    EXPECT_EQ(intake_.pending().waiting, 3U) << "it still has to be taken in";
+    EXPECT_EQ(intake_.pending().waiting, 3U) << "the file must still be ingested";
     const auto gone = intake_.next_unregistered();
     ASSERT_TRUE(gone);
     EXPECT_EQ(gone->path, at("c"));
     noted(*gone, IngestResult::vanished);
-    EXPECT_EQ(intake_.pending().waiting + intake_.pending().running, 2U) << "it is done with";
+    EXPECT_EQ(intake_.pending().waiting + intake_.pending().running, 2U)
+        << "the file needs no more work";
     EXPECT_FALSE(intake_.next_unregistered());
 }
 
@@ -268,7 +269,7 @@ TEST_F(IntakeTest, AFileThatFailsTooOftenIsLeftToTheScan) {
         now_ += seconds{60};
     }
     EXPECT_EQ(intake_.pending(), Pending{});
-    EXPECT_TRUE(intake_.needs_scan()) << "which offers it once more";
+    EXPECT_TRUE(intake_.needs_scan()) << "a scan must offer the file once more";
     intake_.file_found(at("a"), make("a"));
     EXPECT_EQ(next(), "a");
 }
@@ -302,7 +303,8 @@ TEST_F(IntakeTest, SaysWhenThereIsSomethingToDo) {
     EXPECT_FALSE(intake_.next_time(true, true));
     intake_.file_closed(at("a"), make("a"));
     EXPECT_FALSE(intake_.next_time(false, false)) << "no worker is free";
-    EXPECT_EQ(intake_.next_time(false, true), now_ + seconds{2}) << "to be registered";
+    EXPECT_EQ(intake_.next_time(false, true), now_ + seconds{2})
+        << "a file is due to be registered";
     EXPECT_LE(*intake_.next_time(true, true), now_);
     ASSERT_EQ(next(), "a");
     end("a", IngestResult::incomplete);

@@ -54,17 +54,18 @@ TEST(Journal, TakesEntriesOfAnySize) {
 TEST(Journal, WhereNobodyListensSaysSo) {
     const testing::TemporaryDirectory directory;
     EXPECT_FALSE(Journal(directory / "nobody").send("MESSAGE=x\n"));
-    EXPECT_FALSE(Journal(std::string(300, 'x')).send("MESSAGE=x\n")) << "no path of a socket";
+    EXPECT_FALSE(Journal(std::string(300, 'x')).send("MESSAGE=x\n"))
+        << "the path is too long for a socket";
     std::optional<Journal> journal;
     {
         const JournalSocket socket(directory / "gone");
         journal.emplace(socket.path());
         EXPECT_TRUE(journal->send("MESSAGE=x\n"));
     }
-    EXPECT_FALSE(journal->send("MESSAGE=x\n")) << "its reader went";
+    EXPECT_FALSE(journal->send("MESSAGE=x\n")) << "the reader is gone";
     std::filesystem::remove(directory / "gone");
     JournalSocket back(directory / "gone");
-    EXPECT_TRUE(journal->send("MESSAGE=y\n")) << "and came back";
+    EXPECT_TRUE(journal->send("MESSAGE=y\n")) << "the reader has come back";
     EXPECT_EQ(back.receive(), "MESSAGE=y\n");
 }
 
@@ -76,7 +77,7 @@ TEST(Journal, AFullOneHoldsNobodyUpForLong) {
     int taken = 0;
     while (taken < 100'000 && journal.send(entry))
         ++taken;
-    EXPECT_LT(taken, 100'000) << "nobody reads: at some point it says no";
+    EXPECT_LT(taken, 100'000) << "if nobody reads, send() must fail at some point";
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
     EXPECT_EQ(held[0].subject, "KTLX");
     EXPECT_EQ(held[0].level, LogLevel::warning);
     EXPECT_EQ(held[0].lines, 1234U);
-    EXPECT_TRUE(limiter.take_held_back(t0 + seconds{61}).empty()) << "said once";
+    EXPECT_TRUE(limiter.take_held_back(t0 + seconds{61}).empty()) << "the count is reported once";
     EXPECT_EQ(allowed_of(limiter, Event::rejected, "KTLX", 30, t0 + seconds{62}), 20)
         << "a new minute";
 }
@@ -87,7 +87,8 @@ TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
     EXPECT_LE(written, minutes * (120U + 2U));
     EXPECT_GE(written, minutes * 120U);
     const std::uint64_t shown = minutes * 120U;
-    EXPECT_EQ(held_back, minutes * a_minute - shown) << "none is lost uncounted";
+    EXPECT_EQ(held_back, minutes * a_minute - shown)
+        << "every line that is not shown must be counted";
 }
 
 // 2026-11-25: once invented names had filled the table, all other stations shared one limit.

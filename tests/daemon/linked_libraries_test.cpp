@@ -13,7 +13,7 @@ namespace {
 TEST(LinkedLibraries, AreOnlyWhatIngestNeeds) {
     const auto ldd = testing::run_program("/usr/bin/ldd", {STORMCELLARD});
     ASSERT_EQ(ldd.status, 0) << ldd.err;
-    ASSERT_NE(ldd.out.find("libsqlite3"), std::string::npos) << "not the list that was expected";
+    ASSERT_NE(ldd.out.find("libsqlite3"), std::string::npos) << "ldd printed an unexpected list";
     std::istringstream lines(ldd.out);
     for (std::string line; std::getline(lines, line);) {
         for (const char* unwanted :

@@ -28,7 +28,7 @@ TEST(ListeningSocket, ItsModeIsThereWhenItStands) {
     ::umask(umask_before);
     ASSERT_TRUE(open && narrow);
     EXPECT_EQ(mode_of(directory / "open"), 0660U);
-    EXPECT_EQ(mode_of(directory / "narrow"), 0640U) << "the umask narrows it";
+    EXPECT_EQ(mode_of(directory / "narrow"), 0640U) << "the umask reduces the mode";
 }
 
 TEST(ListeningSocket, SaysWhyItCannotBe) {
@@ -43,7 +43,7 @@ TEST(ListeningSocket, SaysWhyItCannotBe) {
     EXPECT_EQ(reason(directory.path()), ErrorCode::io) << "a directory";
     const auto first = ListeningSocket::at_path(directory / "s");
     ASSERT_TRUE(first);
-    EXPECT_EQ(reason(directory / "s"), ErrorCode::busy) << "somebody answers";
+    EXPECT_EQ(reason(directory / "s"), ErrorCode::busy) << "a program answers at the path";
     EXPECT_TRUE(first->still_stands());
     std::filesystem::remove(directory / "s");
     EXPECT_FALSE(first->still_stands());

@@ -95,7 +95,7 @@ TEST_F(LogTest, ALineBringsWhatItIsAbout) {
                                                         {"PRIORITY", "3"},
                                                         {"SYSLOG_IDENTIFIER", "stormcellard"},
                                                         {"STORMCELLAR_EVENT", "reload_failed"}}))
-        << "what is not known is left out";
+        << "unknown fields are left out";
 }
 
 TEST_F(LogTest, TheLevelCounts) {
@@ -152,7 +152,7 @@ TEST_F(LogTest, OfALoopTheLoopIsNamed) {
     const auto fields = socket_->receive_fields();
     ASSERT_TRUE(fields);
     EXPECT_EQ(fields->at("STORMCELLAR_LOOP"), "plains");
-    EXPECT_EQ(fields->at("PRIORITY"), "6") << "of the lines that it stands for";
+    EXPECT_EQ(fields->at("PRIORITY"), "6") << "the priority of the lines that were held back";
 }
 
 // Whoever sets the level to debug wants all lines.

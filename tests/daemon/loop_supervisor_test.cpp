@@ -154,7 +154,7 @@ TEST_F(LoopKeeperTest, AChangedSceneIsAChange) {
     keeper_->set({scened});
     keeper_->set({scened, loop("b", "BBBB")});
     ASSERT_TRUE(wait_for([&] { return starts().size() == 2; }));
-    EXPECT_THAT(starts()[1], HasSubstr("BBBB")) << "nothing had changed for the other";
+    EXPECT_THAT(starts()[1], HasSubstr("BBBB")) << "the other loop had not changed";
     write_file(scened.scene, "[picture]\nwidth = 500\n");
     keeper_->set({scened, loop("b", "BBBB")});
     ASSERT_TRUE(wait_for([&] { return starts().size() == 3; }));
@@ -184,7 +184,7 @@ TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
 // Otherwise the watchdog would see a hang.
 TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     keep(program("sleep 100\n"));
-    EXPECT_FALSE(keeper_->pulse().since()) << "no loops, no thread that could hang";
+    EXPECT_FALSE(keeper_->pulse().since()) << "without loops there is no thread that could hang";
     keeper_->set({loop("one", "KTLX")});
     ASSERT_TRUE(wait_for([&] { return starts().size() == 1; }));
     EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); }));
@@ -206,9 +206,9 @@ TEST_F(LoopKeeperTest, IsSeenToHangInATurn) {
     const auto since = keeper_->pulse().since();
     hangs = false;
     ASSERT_TRUE(is_blocked);
-    ASSERT_TRUE(since) << "it does not rest";
+    ASSERT_TRUE(since) << "the thread must be at work";
     EXPECT_GE(*since, before);
-    EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); })) << "it goes on";
+    EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); })) << "the thread must go on";
 }
 
 TEST(LoopArguments, SayWhatTheTableSays) {

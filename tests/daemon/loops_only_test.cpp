@@ -65,7 +65,7 @@ TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
                                 ingest.drop() / testing::small_sequence[0]);
     ASSERT_TRUE(comes([](const json& s) { return s["loops"]["made"] >= 1; })) << loops_.log();
     EXPECT_GT(fs::file_size(loops_.root() / "out/kbgm.webp"), 1000U);
-    EXPECT_EQ(ingest.status()["loops"]["elsewhere"], true) << "it leaves them alone";
+    EXPECT_EQ(ingest.status()["loops"]["elsewhere"], true) << "this daemon must not run the loops";
     EXPECT_TRUE(has_metric(ingest, "stormcellar_loop_running{loop=\"binghamton\"} 1\n"));
     ingest.signal(SIGHUP);
     ASSERT_TRUE(ingest.wait_for_log("reloaded")) << ingest.log();
@@ -76,7 +76,7 @@ TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
     const json last = loops_.status(its_status);
     EXPECT_EQ(last["state"], "stopped");
     EXPECT_EQ(last["loops"]["running"], 0);
-    EXPECT_FALSE(fs::exists(loops_.root() / "state/catalog")) << "it takes nothing in";
+    EXPECT_FALSE(fs::exists(loops_.root() / "state/catalog")) << "this process must not ingest";
     EXPECT_FALSE(fs::exists(loops_.root() / "state/status.json"));
 }
 

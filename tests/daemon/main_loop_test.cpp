@@ -13,7 +13,7 @@ TEST(TakeSignals, AreTakenOneAfterTheOther) {
     ASSERT_TRUE(signals);
     int reloads = 0;
     const auto reload = [&] { ++reloads; };
-    EXPECT_FALSE(take_signals(&*signals, reload)) << "none has come";
+    EXPECT_FALSE(take_signals(&*signals, reload)) << "no signal has come";
     ::pthread_kill(::pthread_self(), SIGHUP);
     EXPECT_FALSE(take_signals(&*signals, reload));
     EXPECT_EQ(reloads, 1);
@@ -21,9 +21,9 @@ TEST(TakeSignals, AreTakenOneAfterTheOther) {
         ::pthread_kill(::pthread_self(), SIGHUP);
         ::pthread_kill(::pthread_self(), ending);
         EXPECT_TRUE(take_signals(&*signals, reload)) << ending;
-        EXPECT_FALSE(take_signals(&*signals, reload)) << "taken";
+        EXPECT_FALSE(take_signals(&*signals, reload)) << "the signals were already taken";
     }
-    EXPECT_EQ(reloads, 3) << "a reload beside it is not lost";
+    EXPECT_EQ(reloads, 3) << "a reload beside the ending signal is not lost";
     EXPECT_FALSE(take_signals(nullptr, reload));
 }
 

@@ -100,7 +100,7 @@ TEST(Metrics, AreValidWhenNothingHasHappenedYet) {
     const auto families = read_metrics(metrics_text(book.facts(), {}, asked_at));
     EXPECT_EQ(families.at("stormcellar_state").samples.at("stormcellar_state{state=\"starting\"}"),
               1);
-    EXPECT_FALSE(families.contains("stormcellar_cache_bytes")) << "not looked at yet";
+    EXPECT_FALSE(families.contains("stormcellar_cache_bytes")) << "the cache was not examined yet";
     for (const auto& [name, family] : families) {
         EXPECT_TRUE(name.starts_with("stormcellar_")) << name;
         EXPECT_FALSE(family.help.empty());

@@ -61,7 +61,7 @@ TEST(OthersLoops, EachConfiguredOneIsThereAndNoOther) {
         return found;
     };
     using Found = std::vector<std::pair<std::string, bool>>;
-    EXPECT_EQ(names_running(), (Found{{"c", false}, {"a", false}})) << "no file";
+    EXPECT_EQ(names_running(), (Found{{"c", false}, {"a", false}})) << "there is no status file";
     std::filesystem::create_directory(state / "loops");
     write_file(state / "loops/status.json", document());
     EXPECT_EQ(names_running(), (Found{{"c", false}, {"a", true}}));

@@ -86,7 +86,8 @@ class PartialsKeeperTest : public ::testing::Test {
 TEST_F(PartialsKeeperTest, TakesWhatIsThereAndWhatComesAndMakesFrames) {
     bring("north", early);
     start();
-    EXPECT_TRUE(testing::eventually([&] { return is_kept(early); })) << "it was there at the start";
+    EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }))
+        << "the partial was there at the start";
     bring("north", later);
     bring("south", other);
     EXPECT_TRUE(testing::eventually([&] { return north().taken == 2 && south().taken == 1; }));
@@ -113,7 +114,7 @@ TEST_F(PartialsKeeperTest, AFileThatIsBeingWrittenIsTakenOnceItIsWhole) {
     file.flush();
     EXPECT_TRUE(is_scanned_again(1));
     EXPECT_FALSE(is_kept(early));
-    EXPECT_EQ(north().refused, 0U) << "nobody complains of what is still coming";
+    EXPECT_EQ(north().refused, 0U) << "a file that may still be arriving is not refused";
     file << std::string_view{bytes}.substr(bytes.size() / 2);
     file.close();
     EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
@@ -131,7 +132,7 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     EXPECT_TRUE(testing::eventually([&] { return north().refused == 1; }));
     EXPECT_THAT(north().last_problem, HasSubstr("1 of"));
     EXPECT_TRUE(is_scanned_again(3));
-    EXPECT_EQ(north().refused, 1U) << "through several scans";
+    EXPECT_EQ(north().refused, 1U) << "several scans must refuse the file only once";
     bring("north", early);
     EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
 }
@@ -273,7 +274,7 @@ TEST_F(PartialsKeeperTest, OtherFilesAreNotLookedAt) {
     bring("north", first_of_all);
     EXPECT_TRUE(testing::eventually([&] { return is_kept(other) && north().taken > 0; }));
     EXPECT_TRUE(is_scanned_again(2));
-    EXPECT_EQ(north().taken, 1U) << "the last one alone";
+    EXPECT_EQ(north().taken, 1U) << "only the last partial";
     EXPECT_EQ(north().refused, 0U);
 }
 
@@ -292,7 +293,7 @@ TEST_F(PartialsKeeperTest, AMachineThatBringsNothingIsLateAndComesBack) {
     fs::remove(directory_ / "south");
     start(std::chrono::seconds{2});
     EXPECT_TRUE(testing::eventually([&] { return !south().last_problem.empty(); }))
-        << "it is not mounted";
+        << "the directory is not mounted";
     bring("north", early);
     EXPECT_TRUE(testing::eventually([&] {
         bring("north", early);

@@ -22,7 +22,8 @@ TEST(RejectedPaths, APathIsNewsOnceForAReason) {
     EXPECT_FALSE(paths.is_news("/d/a", rejected("not a Level II file")));
     EXPECT_TRUE(paths.is_news("/d/b", rejected("not a Level II file"))) << "another file";
     EXPECT_TRUE(paths.is_news("/d/a", rejected("record 3 is damaged"))) << "another text";
-    EXPECT_FALSE(paths.is_news("/d/a", rejected("record 17 is damaged"))) << "it has grown";
+    EXPECT_FALSE(paths.is_news("/d/a", rejected("record 17 is damaged")))
+        << "only a number in the text differs";
     EXPECT_TRUE(paths.is_news("/d/a", rejected("record 17 is damaged", ErrorCode::truncated)));
     EXPECT_EQ(paths.count(), 2U);
 }
@@ -46,7 +47,7 @@ TEST(RejectedPaths, RemembersNoMoreThanItMay) {
         EXPECT_TRUE(paths.is_news("/d/" + std::to_string(i), rejected("bad")));
     EXPECT_EQ(paths.count(), 100U);
     EXPECT_FALSE(paths.is_news("/d/999", rejected("bad")));
-    EXPECT_TRUE(paths.is_news("/d/0", rejected("bad"))) << "forgotten";
+    EXPECT_TRUE(paths.is_news("/d/0", rejected("bad"))) << "the oldest path was forgotten";
     for (int i = 0; i < 1000; ++i) {
         EXPECT_TRUE(paths.is_news("/d/x", rejected("bad")));
         EXPECT_TRUE(paths.is_news("/d/x", outcome_of(IngestResult::vanished)));

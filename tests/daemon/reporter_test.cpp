@@ -47,7 +47,7 @@ TEST(LogLine, OfARejectedFileSaysWhy) {
     made.taken->ingest.reason = "is empty";
     EXPECT_EQ(describe(made), "rejected ???? - /d/a\\x0ab (is empty)");
     made.taken->ingest.reason = std::string(100'000, 'x');
-    EXPECT_LT(describe(made).size(), 600U) << "a line is not as long as a file likes";
+    EXPECT_LT(describe(made).size(), 600U) << "a file must not make the line longer";
 }
 
 TEST(LogLine, OfAFailureSaysWhenItIsTriedAgain) {
@@ -74,7 +74,8 @@ TEST(LogLine, SaysWhatItIsAbout) {
     EXPECT_EQ(subject.event, Event::gridded);
     EXPECT_EQ(subject.station, "KTLX");
     EXPECT_EQ(subject.volume, made.taken->ingest.volume_time);
-    EXPECT_EQ(subject.file, "/d/a\nb") << "as it is: whoever writes it escapes it";
+    EXPECT_EQ(subject.file, "/d/a\nb")
+        << "the name is unchanged; the writer of the line escapes it";
     EXPECT_FALSE(subject.latency_s) << "nobody saw the close";
     EXPECT_DOUBLE_EQ(subject.took_s.value_or(0), 0.08);
     made = finished(IngestResult::rejected);

@@ -113,11 +113,11 @@ TEST_F(RowKeeperTest, TakesATenthOfTheTimeAtMost) {
     keeper_->look(now_ + seconds{60}, {});
     sink_.hold = false;
     wait_for_rest();
-    EXPECT_EQ(sink_.looks, 1) << "not while it is at work";
+    EXPECT_EQ(sink_.looks, 1) << "the keeper must not look while it works";
     keeper_->look(now_ + seconds{1}, {});
     keeper_->look(now_ + milliseconds{2199}, {});
     keeper_.reset();  // waits for the end of the work
-    EXPECT_EQ(sink_.looks, 1) << "nor while it rests";
+    EXPECT_EQ(sink_.looks, 1) << "the keeper must not look while it rests";
 }
 
 TEST_F(RowKeeperTest, GoesOnWhenALookFails) {

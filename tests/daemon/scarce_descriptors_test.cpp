@@ -38,8 +38,7 @@ class ScarceDescriptors : public ::testing::Test {
   protected:
     void SetUp() override {
 #if defined(STORMCELLAR_SANITIZED)
-        GTEST_SKIP()
-            << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
+        GTEST_SKIP() << "without a pipe, the sanitizer takes all memory for damaged";
 #endif
         config_.fixed.paths.drop = directory_.path();
         events_ = std::move(*open_inotify());

@@ -73,13 +73,14 @@ TEST(Schedule, WhatIsOfferedWhileItRunsIsLookedAtOnceMore) {
     ASSERT_EQ(next_path(schedule, t0), "a");
     EXPECT_EQ(schedule.offer(job("a")), Offered::merged);
     EXPECT_EQ(schedule.offer(job("a")), Offered::merged);
-    EXPECT_EQ(next_path(schedule, t0), "") << "never twice at a time";
+    EXPECT_EQ(next_path(schedule, t0), "") << "a file must not run twice at once";
     schedule.finished("a", t0 + seconds{2});
-    EXPECT_EQ(next_path(schedule, t0 + seconds{1}), "") << "not before the time that was asked";
+    EXPECT_EQ(next_path(schedule, t0 + seconds{1}), "") << "not before the requested time";
     EXPECT_EQ(schedule.next_time(), t0 + seconds{2});
     EXPECT_EQ(next_path(schedule, t0 + seconds{2}), "a");
     schedule.finished("a");
-    EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "") << "once, not twice";
+    EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "")
+        << "the file is ingested once more, not twice";
     EXPECT_EQ(schedule.running_count(), 0U);
 }
 
@@ -176,7 +177,8 @@ TEST(Schedule, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_EQ(schedule.offer(job_of("tlx0", "KTLX")), Offered::queued);
     EXPECT_EQ(schedule.offer(job_of("tlx1", "KTLX")), Offered::queued);
     EXPECT_EQ(schedule.offer(job_of("tlx2", "KTLX")), Offered::queued);
-    EXPECT_EQ(schedule.offer(job_of("tlx3", "KTLX")), Offered::refused) << "it has as many";
+    EXPECT_EQ(schedule.offer(job_of("tlx3", "KTLX")), Offered::refused)
+        << "the station has as many jobs";
     EXPECT_EQ(schedule.offer(job_of("flood9", "")), Offered::refused);
     EXPECT_EQ(schedule.offer(job_of("okx", "KOKX")), Offered::queued);
     using Paths = std::vector<std::filesystem::path>;
@@ -235,8 +237,8 @@ TEST(Schedule, FilesThatTakeLongLeaveAWorkerToOthers) {
     for (const char* path : {"b", "c"})
         schedule.offer(job_of(path, ""));
     EXPECT_EQ(next_path(schedule, now), "b");
-    EXPECT_EQ(next_path(schedule, now), "") << "the last worker is not for it";
-    EXPECT_GT(*schedule.next_time(), now) << "nobody is to ask again and again";
+    EXPECT_EQ(next_path(schedule, now), "") << "the last worker is reserved for light stations";
+    EXPECT_GT(*schedule.next_time(), now) << "the caller must not ask again and again";
     schedule.offer(job_of("tlx", "KTLX"), now);
     EXPECT_LE(*schedule.next_time(), now);
     EXPECT_EQ(next_path(schedule, now), "tlx");
@@ -322,14 +324,14 @@ TEST(Schedule, WhatWaitsIsToBeRegisteredAfterAWhileAndOnce) {
     EXPECT_FALSE(schedule.next_unregistered(t0 + milliseconds{1999}));
     const auto first = schedule.next_unregistered(t0 + seconds{2});
     ASSERT_TRUE(first);
-    EXPECT_EQ(first->path, "a") << "the one that has waited for longest";
+    EXPECT_EQ(first->path, "a") << "the job that has waited longest";
     EXPECT_EQ(schedule.waiting_count(), 2U);
     EXPECT_EQ(schedule.running_count(), 1U) << "not to be run meanwhile";
     EXPECT_FALSE(schedule.next_unregistered(t0 + seconds{2}));
     EXPECT_EQ(next_path(schedule, t0 + seconds{2}), "c");
     schedule.registered("a");
     EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "b");
-    EXPECT_FALSE(schedule.next_unregistered(t0 + seconds{9})) << "a is, and b runs";
+    EXPECT_FALSE(schedule.next_unregistered(t0 + seconds{9})) << "a is registered, and b runs";
     EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "a");
 }
 
@@ -378,7 +380,7 @@ TEST(Schedule, SaysSinceWhenTheFirstWaits) {
     Job later = job("later");
     later.not_before = t0 + seconds{60};
     schedule.offer(later, t0);
-    EXPECT_FALSE(schedule.oldest_offer()) << "it may not run yet";
+    EXPECT_FALSE(schedule.oldest_offer()) << "the job may not run yet";
     schedule.offer(job("a", 1), t0 + seconds{1});
     schedule.offer(job("b", 9), t0 + seconds{2});
     EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{1});
@@ -389,7 +391,7 @@ TEST(Schedule, SaysSinceWhenTheFirstWaits) {
     EXPECT_FALSE(schedule.oldest_offer());
     schedule.offer(job("a", 2), t0 + seconds{9});
     schedule.finished("a");
-    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{9}) << "it waits since it was offered again";
+    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{9}) << "the wait begins with the second offer";
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST(SeenFiles, KnowAFileUntilAnythingOfItChanges) {
     EXPECT_FALSE(seen.contains("a", {2, 100, 5}));
     EXPECT_FALSE(seen.contains("a", {1, 101, 5}));
     EXPECT_FALSE(seen.contains("a", {1, 100, 6}));
-    EXPECT_FALSE(seen.contains("a", {1, 100, 5, 7})) << "its rights may have been mended";
+    EXPECT_FALSE(seen.contains("a", {1, 100, 5, 7})) << "the permissions may have been corrected";
     seen.forget("a");
     EXPECT_FALSE(seen.contains("a", stamp));
 }

@@ -93,7 +93,7 @@ TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
     EXPECT_EQ(sink_->calls(), (std::vector<std::string>{"before", "during"}));
     EXPECT_EQ(status()["state"], "stopped");
     EXPECT_EQ(status()["ingested"], 2);
-    EXPECT_EQ(status()["latency_s"]["count"], 1) << "nobody saw the first one's close";
+    EXPECT_EQ(status()["latency_s"]["count"], 1) << "nobody saw the close of the first file";
     EXPECT_TRUE(wait_for_message("STOPPING=1"));
 }
 
@@ -111,7 +111,7 @@ TEST_F(ServiceTest, FilesAreTakenInWhileAScanGoesOn) {
         return outcome_of(IngestResult::gridded);
     });
     ASSERT_TRUE(wait_for_message("READY=1"));
-    EXPECT_TRUE(began_before_the_end) << "READY is said after the first scan";
+    EXPECT_TRUE(began_before_the_end) << "READY must come after the first scan";
     EXPECT_TRUE(sink_->wait_for_calls(1));
 }
 
@@ -140,7 +140,8 @@ TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
     go_on.set_value();
     EXPECT_TRUE(sink_->wait_for_calls(4));
     EXPECT_EQ(stop(), Stopped::cleanly);
-    EXPECT_EQ(sink_->wait_for_noted(2).size(), 2U) << "each once, the slow ones not at all";
+    EXPECT_EQ(sink_->wait_for_noted(2).size(), 2U)
+        << "each waiting file once, and the slow files not at all";
 }
 
 TEST_F(ServiceTest, FinishesAnIncompleteFileThatStaysQuiet) {
@@ -226,7 +227,7 @@ TEST_F(ServiceTest, ScansWhenEventsWereLost) {
     stop();
     std::vector<std::string> calls = sink_->calls();
     std::sort(calls.begin(), calls.end());
-    EXPECT_EQ(std::unique(calls.begin(), calls.end()), calls.end()) << "each once";
+    EXPECT_EQ(std::unique(calls.begin(), calls.end()), calls.end()) << "each file once";
     EXPECT_GE(status()["overflows"], 1);
 }
 
@@ -273,9 +274,10 @@ TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
     EXPECT_TRUE(wait_for_message("STATUS=waiting for the drop directory " + why + "; ingested 0"));
     ASSERT_TRUE(testing::eventually([&] { return status()["state"] == "running"; }));
     EXPECT_EQ(status()["drop_lost"], why);
-    EXPECT_FALSE(fs::exists(config_.fixed.paths.drop)) << "it belongs to LDM, so it is not made";
+    EXPECT_FALSE(fs::exists(config_.fixed.paths.drop))
+        << "the service must not make LDM's directory";
     EXPECT_EQ(sink_->missing_looks(), 0)
-        << "no file is gone because its directory is not there yet";
+        << "a missing directory does not mean that its files are gone";
     fs::create_directory(root_ / "made");
     write_file(root_ / "made/a", "1");
     fs::rename(root_ / "made", config_.fixed.paths.drop);
@@ -302,7 +304,7 @@ TEST_F(ServiceTest, IsReadyWhenAllThatItNeedsAnswers) {
     fs::create_directory(config_.fixed.paths.state);
     EXPECT_TRUE(wait_for_message("STATUS=waiting: the socket is taken"));
     write_file(config_.fixed.paths.drop / "a", "1");
-    EXPECT_TRUE(sink_->wait_for_calls(1)) << "what can be taken in is";
+    EXPECT_TRUE(sink_->wait_for_calls(1)) << "files that can be ingested must be ingested";
     EXPECT_FALSE(has_message("READY=1"));
     answers = true;
     EXPECT_TRUE(wait_for_message("READY=1"));
@@ -346,8 +348,9 @@ TEST_F(ServiceTest, StopsWithoutTakingTheRestOfTheQueue) {
     });
     ASSERT_TRUE(testing::eventually([&] { return held > 0; }));
     EXPECT_EQ(stop(), Stopped::cleanly);
-    EXPECT_LE(sink_->calls().size(), 2U) << "a worker ends what it has, and begins nothing";
-    EXPECT_EQ(status()["ingested"], sink_->calls().size()) << "what ended while stopping counts";
+    EXPECT_LE(sink_->calls().size(), 2U) << "a worker ends its job and begins no other job";
+    EXPECT_EQ(status()["ingested"], sink_->calls().size())
+        << "jobs that ended during the stop count";
 }
 
 TEST_F(ServiceTest, FeedsTheWatchdogWhenIdle) {
@@ -411,13 +414,14 @@ TEST_P(HangingThread, StarvesTheWatchdog) {
     });
     EXPECT_TRUE(wait_until_it_hangs());
     ahead = 2 * period;
-    EXPECT_TRUE(reads(a_turn)) << "one may have begun before";
+    EXPECT_TRUE(reads(a_turn)) << "a turn may have begun before the hang";
     const std::ptrdiff_t before = meals(notifier_);
     EXPECT_TRUE(reads(many_turns));
-    EXPECT_EQ(meals(notifier_), before) << "nobody says that all is well";
+    EXPECT_EQ(meals(notifier_), before) << "the watchdog must not be fed";
     hangs_ = false;
-    EXPECT_TRUE(testing::eventually([&] { return meals(notifier_) > before; })) << "it goes on";
-    stop();  // it refers to the clock above
+    EXPECT_TRUE(testing::eventually([&] { return meals(notifier_) > before; }))
+        << "the watchdog must be fed again";
+    stop();  // the service refers to the clock above
 }
 
 // Tests the threads that make steps. Workers are left out, because ingesting a file is a single

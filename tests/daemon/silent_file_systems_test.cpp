@@ -48,7 +48,7 @@ TEST(SilentFileSystems, AreNamedByTheEvents) {
         EXPECT_EQ(*silence, directory.path().native() + ": is on " + std::string{*name} +
                                 ", where the kernel does not report every change");
     }
-    EXPECT_EQ(no_events()->silence(directory.path()), "") << "blind, and that was said";
+    EXPECT_EQ(no_events()->silence(directory.path()), "") << "an earlier call gave the reason";
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ class StateKeeperTest : public ::testing::Test {
 TEST_F(StateKeeperTest, MakesWhatIsMissingAndHoldsIt) {
     ASSERT_TRUE(keeper_.hold());
     EXPECT_TRUE(fs::is_directory(state_ / "catalog"));
-    EXPECT_FALSE(keeper_.look()) << "all is there";
+    EXPECT_FALSE(keeper_.look()) << "nothing is missing";
     const Status other = StateKeeper(state_).hold();
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, ErrorCode::busy);
@@ -34,7 +34,8 @@ TEST_F(StateKeeperTest, MakesItAgainWithItsLock) {
         ASSERT_TRUE(made) << gone;
         ASSERT_TRUE(*made) << gone << (*made).error().message;
         EXPECT_TRUE(fs::is_directory(state_ / "catalog")) << gone;
-        EXPECT_FALSE(StateKeeper(state_).hold()) << gone << ": the new one is held";
+        EXPECT_FALSE(StateKeeper(state_).hold())
+            << gone << ": the keeper must hold the new state directory";
         EXPECT_FALSE(keeper_.look());
     }
 }

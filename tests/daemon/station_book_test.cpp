@@ -60,14 +60,14 @@ TEST(StationBook, AGrowingVolumesChunksAreDataAndItsSweepsHaveTimes) {
     const StationState& state = book.stations().at("KTLX");
     EXPECT_EQ(state.data_at, volume_start + seconds{10});
     EXPECT_EQ(state.living, 0U);
-    EXPECT_EQ(state.close_to_living.count(), 0U) << "no sweep was complete with it";
+    EXPECT_EQ(state.close_to_living.count(), 0U) << "this file completed no sweep";
     chunk.living = {"/c/living.scg"};
     book.add(chunk, 0.3, volume_start + seconds{15});
     chunk.ending = ending_of(IngestResult::registered);  // one file a chunk
     book.add(chunk, std::nullopt, volume_start + seconds{20});
     EXPECT_EQ(state.data_at, volume_start + seconds{20});
     EXPECT_EQ(state.living, 2U);
-    EXPECT_EQ(state.close_to_living.count(), 1U) << "nobody saw the other's close";
+    EXPECT_EQ(state.close_to_living.count(), 1U) << "nobody saw the close of the other file";
     EXPECT_DOUBLE_EQ(state.close_to_living.sum_s(), 0.3);
     EXPECT_EQ(state.close_to_cache.count(), 0U);
     EXPECT_FALSE(state.ingested_at);
@@ -112,7 +112,7 @@ TEST(StationBook, EveryFileIsASignOfLifeAndOnlyGridsAreVolumes) {
     EXPECT_EQ(book.stations().at("KTLX").data_at, volume_start + seconds{7});
     waiting.station.clear();
     book.add(waiting, 0.1, volume_start);
-    EXPECT_EQ(book.stations().size(), 1U) << "no station, no entry";
+    EXPECT_EQ(book.stations().size(), 1U) << "a file without a station must make no entry";
 }
 
 TEST(StationBook, AStationKnownBeforeTheStartHasAnAgeAndNothingElse) {
@@ -123,7 +123,8 @@ TEST(StationBook, AStationKnownBeforeTheStartHasAnAgeAndNothingElse) {
     EXPECT_FALSE(book.stations().at("KTLX").data_at);
     book.add_known("KBGM", volume_start, volume_start + hours{7 * 24 + 1});
     book.add_known("", volume_start, volume_start);
-    EXPECT_EQ(book.stations().size(), 1U) << "of the future, too old, of no station";
+    EXPECT_EQ(book.stations().size(), 1U)
+        << "volumes of the future, old volumes and volumes of no station";
 }
 
 TEST(StationBook, MissingChunksAreSummedAndTheLastVolumesListed) {
@@ -152,7 +153,8 @@ TEST(StationBook, StationsBeyondTheLimitAreCountedOnly) {
     EXPECT_EQ(book.stations().size(), StationBook::most_stations);
     EXPECT_EQ(book.left_out(), 100U);
     book.add_data("S0", volume_start + seconds{1});
-    EXPECT_EQ(book.stations().at("S0").data_at, volume_start + seconds{1}) << "who is known stays";
+    EXPECT_EQ(book.stations().at("S0").data_at, volume_start + seconds{1})
+        << "a known station stays";
     EXPECT_EQ(book.left_out(), 100U);
 }
 

@@ -147,8 +147,8 @@ TEST_F(StatusServerTest, WhoSaysNothingOrDripsIsCutOff) {
     const StatusClient silent = StatusClient::at_path(path());
     const StatusClient half = StatusClient::at_path(path());
     half.send("GET /metr");
-    EXPECT_TRUE(answers()) << "meanwhile";
-    EXPECT_TRUE(silent.read_to_end()) << "ended by the server";
+    EXPECT_TRUE(answers()) << "other clients must be answered meanwhile";
+    EXPECT_TRUE(silent.read_to_end()) << "the server must end the connection";
     EXPECT_TRUE(half.read_to_end());
     // A client that sends a byte now and then is cut off, too.
     const StatusClient dripping = StatusClient::at_path(path());
@@ -176,7 +176,7 @@ TEST_F(StatusServerTest, MoreConnectionsThanThereMayBeWaitTheirTurn) {
     std::vector<StatusClient> many;
     for (int i = 0; i < 20; ++i)
         many.push_back(StatusClient::at_path(path()));
-    EXPECT_TRUE(answers()) << "once the silent ones were cut off";
+    EXPECT_TRUE(answers()) << "answers must come once the silent clients were cut off";
 }
 
 // 2026-11-22: silent connections kept all clients from an answer until they were cut off after 10
@@ -191,7 +191,7 @@ TEST_F(StatusServerTest, SilentConnectionsMakeRoomForWhoAsks) {
         many.back().send("GET /metr");
     }
     EXPECT_EQ(body_of(ask(get("/metrics"))), metrics_);
-    EXPECT_TRUE(many.front().read_to_end()) << "the oldest has gone";
+    EXPECT_TRUE(many.front().read_to_end()) << "the oldest connection must be closed";
 }
 
 TEST_F(StatusServerTest, BrokenRequestsAndHastyGoodbyesChangeNothing) {
@@ -263,10 +263,11 @@ TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     EXPECT_EQ(status_of(fmt::format("Host: evil.example:{}\r\n", options.http_port)), "421");
     EXPECT_EQ(status_of("Host: localhost:1\r\n"), "200") << "through a tunnel";
     EXPECT_EQ(status_of("Host:\r\n"), "421");
-    EXPECT_EQ(status_of(with_port + "Host: evil.example\r\n"), "421") << "either of two";
+    EXPECT_EQ(status_of(with_port + "Host: evil.example\r\n"), "421")
+        << "one of two Host fields is foreign";
     EXPECT_EQ(status_of("Host: evil.example\r\n" + with_port), "421");
-    EXPECT_EQ(status_of("Host: evil.example\r\n", false), "200") << "the socket";
-    EXPECT_EQ(rendered_, 5) << "no page was made for those who were refused";
+    EXPECT_EQ(status_of("Host: evil.example\r\n", false), "200") << "the socket accepts any host";
+    EXPECT_EQ(rendered_, 5) << "no page must be rendered for refused requests";
 }
 
 // 2026-11-25: a browser could store an answer, or guess another type of content.
@@ -378,7 +379,7 @@ TEST_F(StatusServerTest, TheSocketIsForUserAndGroupAndGoesWithTheServer) {
         EXPECT_TRUE(answers());
         EXPECT_EQ(mode_of(path()), 0660U) << "whatever the umask of files is";
     }
-    EXPECT_EQ(::umask(umask_before), 0077U) << "which stays as it was";
+    EXPECT_EQ(::umask(umask_before), 0077U) << "the process must keep its umask";
     EXPECT_FALSE(std::filesystem::exists(path()));
 }
 

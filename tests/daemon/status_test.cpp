@@ -252,7 +252,7 @@ TEST(StatusBook, PairsOfSitesStandAsTheyWereComparedLast) {
     EXPECT_EQ(sites[0]["time_s"], (nlohmann::json{{"untold", "the motion is not known"}}));
     EXPECT_EQ(sites[0]["cells"], 1234);
     EXPECT_EQ(sites[0]["faults"].size(), 1U);
-    EXPECT_EQ(sites[1]["bias_db"]["value"], 1) << "the last one";
+    EXPECT_EQ(sites[1]["bias_db"]["value"], 1) << "the last report";
     EXPECT_TRUE(sites[1]["faults"].empty());
 }
 
@@ -288,7 +288,7 @@ TEST(StatusBook, ADropDirectoryThatIsLostIsNamedFirst) {
         unreadable.add(fmt::format("/d/{:02}", i), "Permission denied");
     unreadable.add("/d/00", "Permission denied");
     EXPECT_TRUE(book.set_unreadable(unreadable));
-    EXPECT_FALSE(book.set_unreadable(unreadable)) << "as before";
+    EXPECT_FALSE(book.set_unreadable(unreadable)) << "the directories have not changed";
     EXPECT_TRUE(book.line({}).starts_with("cannot read 20 directories; ")) << book.line({});
     const auto named = nlohmann::json::parse(book.json({}, now_utc()))["unreadable"];
     EXPECT_EQ(named["count"], 20);

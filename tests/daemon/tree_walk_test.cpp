@@ -102,7 +102,7 @@ TEST(TreeWalk, PathsThatNoCallTakesAreLeftOut) {
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->files.size(), 1U);
     const bool too_long = path.native().size() + 255 >= most_path_bytes;
-    EXPECT_EQ(seen->problems.size(), too_long ? 1U : 0U) << "said once of their directory";
+    EXPECT_EQ(seen->problems.size(), too_long ? 1U : 0U) << "reported once for the directory";
 }
 
 TEST(TreeWalk, OnlyItsOwnRootMayBeALink) {
@@ -113,7 +113,8 @@ TEST(TreeWalk, OnlyItsOwnRootMayBeALink) {
     const Result<Seen> seen = walked(directory / "link");
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->files, std::set<std::string>{"a"});
-    EXPECT_FALSE(walked(directory / "link", 1)) << "below the drop directory no link is followed";
+    EXPECT_FALSE(walked(directory / "link", 1))
+        << "a link below the drop directory is not followed";
 }
 
 TEST(TreeWalk, GivesTheStampOfAFile) {
@@ -161,7 +162,7 @@ TEST(TreeWalk, GoesOnAfterADirectoryThatMayNotBeRead) {
 // 2026-11-28: after LDM had removed its empty drop directory and made it again, the service kept
 // watching the removed directory, which a bind mount of its unit preserved, and reported nothing.
 TEST(TreeWalk, ARootThatAMountAloneKeepsIsAnError) {
-    if (::unshare(CLONE_NEWNS) != 0) GTEST_SKIP() << "this machine does not let it mount";
+    if (::unshare(CLONE_NEWNS) != 0) GTEST_SKIP() << "this machine does not allow mounts";
     const testing::TemporaryDirectory directory;
     ASSERT_EQ(::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr), 0);
     fs::create_directory(directory / "drop");

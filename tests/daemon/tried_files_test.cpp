@@ -48,7 +48,7 @@ TEST_F(TriedFilesTest, WhatWasUnderWayWaitsLongerEachTimeAndIsGivenUp) {
         if (wait == 0) break;
         EXPECT_THAT(TriedFiles(file()).waits(), ElementsAre(Pair(bomb, seconds{wait})));
     }
-    EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty()) << "it is rejected at once";
+    EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty()) << "a file that was given up does not wait";
     EXPECT_TRUE(TriedFiles(file()).is_given_up(bomb, stamp(bomb)));
     write_file(bomb, "another one");
     TriedFiles tried(file());

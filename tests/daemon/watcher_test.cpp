@@ -114,10 +114,11 @@ TEST_F(RealWatcher, WhatComesDuringAScanIsSeenBeforeItsEnd) {
         if (++steps == 1) write_file(drop() / "new", "1");
     });
     ASSERT_TRUE(watcher_->scan());
-    EXPECT_GE(steps, 7) << "one for each 128 entries";
+    EXPECT_GE(steps, 7) << "one step for each 128 entries";
     const auto closed = std::find(notes_.said.begin(), notes_.said.end(), "closed new");
     ASSERT_NE(closed, notes_.said.end());
-    EXPECT_GT(notes_.said.end() - closed, count / 2) << "half of the scan came after it";
+    EXPECT_GT(notes_.said.end() - closed, count / 2)
+        << "the event must come before half of the scan";
 }
 
 // 2026-11-25: a tree of 10,000 directories that was renamed again and again took all the time of
@@ -133,7 +134,8 @@ TEST_F(RealWatcher, DirectoriesThatComeAndGoTooFastAreLeftToTheNextScan) {
     }
     ASSERT_TRUE(notes_.has("unread"));
     ASSERT_TRUE(watcher_->scan());
-    EXPECT_EQ(watcher_->directory_count(), 5002U) << "the watches of what went are forgotten";
+    EXPECT_EQ(watcher_->directory_count(), 5002U)
+        << "the watches of vanished directories are forgotten";
     std::string name;
     for (const auto& entry : fs::directory_iterator(drop()))
         name = entry.path().filename().native();
@@ -148,7 +150,7 @@ TEST_F(RealWatcher, SeesAFileMadeAndClosed) {
         std::ofstream file(drop() / "a");
         file << "first" << std::flush;
         settle();
-        EXPECT_EQ(notes_.said, Lines{"created a"}) << "not closed yet";
+        EXPECT_EQ(notes_.said, Lines{"created a"}) << "the file is not closed yet";
     }
     settle();
     EXPECT_EQ(notes_.said, (Lines{"created a", "closed a"}));
@@ -201,12 +203,12 @@ TEST_F(RealWatcher, NeverReportsLinksFifosAndDirectories) {
     settle();
     const Lines left_out = {"a symbolic link: link", "a symbolic link: linked", "a FIFO: fifo"};
     EXPECT_EQ(notes_.said, left_out);
-    EXPECT_EQ(watcher_->directory_count(), 2U) << "the drop directory and the real one";
+    EXPECT_EQ(watcher_->directory_count(), 2U) << "the drop directory and the real directory";
     notes_.said.clear();
     ASSERT_TRUE(watcher_->scan());
     EXPECT_TRUE(std::is_permutation(notes_.said.begin(), notes_.said.end(), left_out.begin(),
                                     left_out.end()))
-        << "scans say so too";
+        << "scans report this, too";
 }
 
 // Another thread makes and fills directories faster than watches can be set.
@@ -255,7 +257,8 @@ TEST_F(RealWatcher, ForgetsADirectoryThatIsMovedAway) {
     settle();
     write_file(elsewhere / "day/site/a", "1");
     settle();
-    EXPECT_EQ(notes_.said, Lines{"moved day"}) << "what lies outside is never reported";
+    EXPECT_EQ(notes_.said, Lines{"moved day"})
+        << "files outside of the drop directory are never reported";
     EXPECT_EQ(watcher_->directory_count(), 1U);
 }
 
@@ -278,14 +281,14 @@ TEST_F(RealWatcher, DirectoriesThatAppearAreNoDeeperThanThoseThatAreFound) {
         fs::create_directory(path);
         settle();
     }
-    EXPECT_EQ(watcher_->directory_count(), 17U) << "16 below the drop directory";
-    EXPECT_EQ(notes_.problems.size(), 1U) << "nobody hears of what lies below";
+    EXPECT_EQ(watcher_->directory_count(), 17U) << "the drop directory and 16 below it";
+    EXPECT_EQ(notes_.problems.size(), 1U) << "files below that depth are not reported";
 }
 
 // 2026-11-28: LDM wrote with umask 027, and the service was not in its group. Only one line in the
 // log showed this.
 TEST_F(RealWatcher, NamesTheDirectoriesThatItMayNotRead) {
-    if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     fs::permissions(drop(), fs::perms{0755});
     fs::create_directory(drop() / "KLOT");
     fs::permissions(drop() / "KLOT", fs::perms{0700});
@@ -303,7 +306,7 @@ TEST_F(RealWatcher, NamesTheDirectoriesThatItMayNotRead) {
     EXPECT_NE(notes_.problems[0].message.find("KLOT: Permission denied; the service needs a group"),
               std::string::npos);
     scan_as(0);
-    EXPECT_EQ(watcher_->unreadable().count(), 0U) << "the rights were mended";
+    EXPECT_EQ(watcher_->unreadable().count(), 0U) << "the permissions were corrected";
 }
 
 TEST(Unreadable, SaysWhatTheUnitHides) {
@@ -416,12 +419,12 @@ TEST_F(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEveryth
     events_.most = 2;
     ASSERT_TRUE(watcher_.scan());
     EXPECT_TRUE(watcher_.is_blind());
-    ASSERT_EQ(notes_.problems.size(), 1U) << "said of the first";
+    ASSERT_EQ(notes_.problems.size(), 1U) << "reported for the first directory";
     EXPECT_EQ(notes_.problems[0].code, ErrorCode::no_space);
     EXPECT_EQ(notes_.taken(), (std::set<std::string>{"a/file", "b/file", "c/file"}));
     events_.watched.clear();
     ASSERT_TRUE(watcher_.scan());
-    EXPECT_EQ(notes_.problems.size(), 1U) << "said once";
+    EXPECT_EQ(notes_.problems.size(), 1U) << "reported once";
     events_.watched.clear();
     events_.most = 1000;
     ASSERT_TRUE(watcher_.scan());
@@ -429,7 +432,7 @@ TEST_F(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEveryth
     events_.watched.clear();
     events_.most = 2;
     ASSERT_TRUE(watcher_.scan());
-    EXPECT_EQ(notes_.problems.size(), 2U) << "said anew";
+    EXPECT_EQ(notes_.problems.size(), 2U) << "reported again";
 }
 
 TEST_F(ForcedWatcher, SilentDirectoriesAreWatchedAllTheSameAndSaidOnce) {
@@ -437,7 +440,7 @@ TEST_F(ForcedWatcher, SilentDirectoriesAreWatchedAllTheSameAndSaidOnce) {
     events_.silent = "shared";
     ASSERT_TRUE(watcher_.scan());
     EXPECT_TRUE(watcher_.is_blind());
-    EXPECT_EQ(watcher_.directory_count(), 3U) << "what this machine writes is told of";
+    EXPECT_EQ(watcher_.directory_count(), 3U) << "writes of this machine give events";
     ASSERT_TRUE(watcher_.scan());
     ASSERT_EQ(notes_.problems.size(), 1U);
     EXPECT_EQ(notes_.problems[0].code, ErrorCode::unsupported);

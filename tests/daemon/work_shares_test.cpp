@@ -44,7 +44,8 @@ TEST(WorkShares, NoStationHasAllWorkersAlone) {
         shares.begun("KTLX", t0);
     }
     EXPECT_FALSE(shares.may_begin("KTLX", t0));
-    EXPECT_TRUE(shares.may_begin("KOKX", t0)) << "of which nothing good has come, but alone";
+    EXPECT_TRUE(shares.may_begin("KOKX", t0))
+        << "a station without a good file may run if no other does";
 }
 
 // 2026-11-25: 141 files of 1.4 kB, each of a different station, delayed a real file by 15 s.
@@ -59,7 +60,7 @@ TEST(WorkShares, StationsOfWhichNothingGoodHasComeLeaveOneWorkerToTheOthers) {
         EXPECT_FALSE(shares.may_begin(station, t0)) << station;
     EXPECT_TRUE(shares.may_begin("KTLX", t0));
     const auto later = t0 + WorkShares::good_for + seconds{1};
-    EXPECT_FALSE(shares.may_begin("KTLX", later)) << "that was long ago";
+    EXPECT_FALSE(shares.may_begin("KTLX", later)) << "the last good file came long ago";
     shares.ended("KBGM", milliseconds{90}, true, later);
     EXPECT_TRUE(shares.may_begin("KTLX", later));
 }
@@ -76,7 +77,7 @@ TEST(WorkShares, HeavyStationsLeaveOneWorkerToTheOthers) {
     shares.begun("", t0);
     EXPECT_FALSE(shares.may_begin("KOKX", t0));
     EXPECT_FALSE(shares.may_begin("", t0));
-    EXPECT_TRUE(shares.may_begin("KBGM", t0)) << "it owes nothing";
+    EXPECT_TRUE(shares.may_begin("KBGM", t0)) << "KBGM owes nothing";
     // A debt of 6 s above the limit is paid back in 30 s.
     EXPECT_FALSE(shares.may_begin("KOKX", t0 + seconds{29}));
     EXPECT_TRUE(shares.may_begin("KOKX", t0 + seconds{30}));

@@ -165,13 +165,13 @@ TEST(WorkerPool, DrainingEndsRunningJobsAndBeginsNone) {
         pool.submit(job("a"));
         begun.wait();
         pool.submit(job("b"));  // the only worker is busy, so it has not begun this job
-        EXPECT_FALSE(pool.drain(milliseconds{1})) << "the first still runs";
+        EXPECT_FALSE(pool.drain(milliseconds{1})) << "the first job still runs";
         is_held = false;
         EXPECT_TRUE(pool.drain(seconds{20}));
         EXPECT_EQ(pool.collect().size(), 1U);
-        EXPECT_FALSE(pool.has_free_worker()) << "so nobody submits another";
+        EXPECT_FALSE(pool.has_free_worker()) << "so the caller submits no other job";
     }
-    EXPECT_EQ(sink.calls(), std::vector<std::string>{"a"}) << "its threads have ended";
+    EXPECT_EQ(sink.calls(), std::vector<std::string>{"a"}) << "the threads of the pool have ended";
 }
 
 TEST(WorkerPool, DrainingGivesUpOnAJobThatHangs) {

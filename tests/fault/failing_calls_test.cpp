@@ -79,7 +79,7 @@ bool ends_before(FaultyDaemon& daemon, SteeringFile& steering, bool lasts, std::
         }
         return has_ended || daemon.settled() >= files;
     });
-    EXPECT_TRUE(comes_to_an_end) << "does not catch up\n" << daemon.log_end();
+    EXPECT_TRUE(comes_to_an_end) << "the daemon does not catch up\n" << daemon.log_end();
     return has_ended;
 }
 

@@ -73,13 +73,13 @@ TEST_P(OneDatabase, ThatCannotBeOpenedIsItsStationsTroubleAlone) {
     EXPECT_TRUE(daemon_.wait_for([&](const nlohmann::json& s) { return s["scans"] >= scans + 2; }));
     EXPECT_EQ(complaints_about("KTLX.sqlite"), before + 1) << log_end();
     EXPECT_NE(daemon_.status().dump().find("KTLX.sqlite"), std::string::npos)
-        << "the status does not name it";
+        << "the status does not name the database";
     expect_gridded("KAMA", put_good("KAMA"));
-    EXPECT_GT(lines_with("misc/no-radar-data ("), 0U) << "it was not rejected";
+    EXPECT_GT(lines_with("misc/no-radar-data ("), 0U) << "the file was not rejected";
     mend();
     expect_gridded("KTLX", later, 30.0 * slow_down);
     EXPECT_EQ(daemon_.status().dump().find("KTLX.sqlite"), std::string::npos)
-        << "the status still names it";
+        << "the status still names the database";
     stop();
     // Read the catalog only now, because a reader that runs as root leaves files of root beside the
     // database.

@@ -127,7 +127,8 @@ Latencies latencies_of(const std::vector<RealVolume>& volumes) {
 class HostileMixTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (is_sanitized) GTEST_SKIP() << "measures seconds and memory, which a sanitizer takes";
+        if (is_sanitized)
+            GTEST_SKIP() << "a sanitizer takes time and memory, which this test measures";
         fs::create_directory(daemon_.root() / "outside");
     }
     void print_row(const HostileMix& mix, const Latencies& real, long peak_mib, const Peaks& peaks,
@@ -202,7 +203,7 @@ class HostileMixTest : public ::testing::Test {
                                 count == 0 ? "" : begin->second.state.c_str());
             }
         }
-        EXPECT_EQ(wrong, 0U) << "files of real volumes are not in the catalog as they should be";
+        EXPECT_EQ(wrong, 0U) << "files of real volumes are wrong or missing in the catalog";
     }
     void expect_nothing_left(std::size_t fresh_descriptors) {
         EXPECT_EQ(invented_among(databases_in(daemon_.catalog())), std::set<std::string>{});

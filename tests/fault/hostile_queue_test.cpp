@@ -106,8 +106,8 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
     expect_gridded("KFWS", put_good("KFWS"), 2 * prompt_s);
     const std::size_t opened = openings.count();
     std::printf("%d chunks, opened %zu times\n", volumes * chunks, opened);
-    EXPECT_GE(opened, 16U * chunks / 2) << "not even those that have a place were followed";
-    EXPECT_LE(opened, static_cast<std::size_t>(volumes * chunks)) << "once each at most";
+    EXPECT_GE(opened, 16U * chunks / 2) << "not even the volumes that have a place were followed";
+    EXPECT_LE(opened, static_cast<std::size_t>(volumes * chunks)) << "each chunk at most once";
     stop();
 }
 

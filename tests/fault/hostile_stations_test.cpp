@@ -104,7 +104,7 @@ TEST_F(HostileCases, AVolumeOfDateZeroHasNoGridOf1970) {
     for (const auto& entry : fs::directory_iterator(daemon_.cache() / "KTLX/REF"))
         days.insert(entry.path().filename().native());
     for (const std::string& day : days)
-        EXPECT_GE(day, "2020") << "a grid of a day without radars";
+        EXPECT_GE(day, "2020") << "the grid is of a day without radars";
     stop();
 }
 

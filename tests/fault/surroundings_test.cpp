@@ -117,7 +117,7 @@ class SmallDisk {
 TEST_F(Surroundings, AFullDisk) {
     const fs::path root = daemon_.running().root();
     const SmallDisk disk(root / "disk", "size=24m");
-    if (!disk.is_mounted()) GTEST_SKIP() << "may not mount a tmpfs: needs root";
+    if (!disk.is_mounted()) GTEST_SKIP() << "only root may mount a tmpfs";
     for (const char* name : {"state", "cache"}) {
         fs::create_directory(root / "disk" / name);
         fs::create_directory_symlink(root / "disk" / name, root / name);

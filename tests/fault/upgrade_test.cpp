@@ -66,11 +66,12 @@ TEST_F(Upgrade, AnOldStateKeepsWorkingAndTheLogSaysWhatIsOfNoStation) {
     EXPECT_TRUE(rests(10 * testing::slow_down)) << log_end();
     EXPECT_EQ(daemon_.status()["catalog"]["left_alone"], 1);
     EXPECT_FALSE(has_whole_grid(daemon_.cache(), own_radar, second));
-    EXPECT_TRUE(has_whole_grid(daemon_.cache(), own_radar, old_own_volume_)) << "it was there";
+    EXPECT_TRUE(has_whole_grid(daemon_.cache(), own_radar, old_own_volume_))
+        << "the grid of the old version must stay";
     EXPECT_TRUE(has_whole_grid(daemon_.cache(), "KTLX", old_volume_));
     stop();
     EXPECT_EQ(complete_rows_of("KTLX"), 2U);
-    EXPECT_EQ(complete_rows_of(own_radar), 1U) << "left alone";
+    EXPECT_EQ(complete_rows_of(own_radar), 1U) << "the old row must stay";
     EXPECT_TRUE(fs::exists(daemon_.catalog() / "drop-directory"));
 }
 
@@ -84,7 +85,7 @@ TEST_F(Upgrade, WithATableOfItsOwnAnOldStationGoesOn) {
     EXPECT_TRUE(rests(10 * testing::slow_down)) << log_end();
     EXPECT_EQ(daemon_.status()["catalog"]["left_alone"], 0);
     stop();
-    EXPECT_EQ(complete_rows_of(own_radar), 2U) << "with what stood there before";
+    EXPECT_EQ(complete_rows_of(own_radar), 2U) << "the new row and the old row";
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST_F(FetchTest, BringsAllOfTheStationAndTimesWithTheirTimes) {
     EXPECT_EQ(report->fetched, 25U);
     EXPECT_EQ(report->without_radials, 1U);
     EXPECT_THAT(report->failures, IsEmpty());
-    EXPECT_EQ(bucket_.asked("2017/01/01/KTLX/"), 3U) << "pages";
+    EXPECT_EQ(bucket_.asked("2017/01/01/KTLX/"), 3U) << "three pages";
     EXPECT_EQ(bucket_.asked(key(first_ + "_MDM")), 0U);
     expect_all_there();
     struct stat facts {};
@@ -145,7 +145,8 @@ TEST_F(FetchTest, ACutFileGoesOnWhereItEnded) {
     ASSERT_TRUE(report);
     ASSERT_EQ(report->failures.size(), 1U);
     EXPECT_EQ(report->failures[0].what, key(first_));
-    EXPECT_FALSE(fs::exists(request_.directory / first_)) << "in part, under its name";
+    EXPECT_FALSE(fs::exists(request_.directory / first_))
+        << "an incomplete file must not have its final name";
     const auto again = fetch(request_);
     ASSERT_TRUE(again);
     EXPECT_EQ(again->fetched, 1U);
@@ -202,7 +203,7 @@ TEST_F(FetchTest, WhatFailsForGoodIsNamedAndStopsNothingElse) {
     ASSERT_EQ(report->failures.size(), 1U);
     EXPECT_THAT(report->failures[0].reason, HasSubstr("404"));
     EXPECT_EQ(report->fetched, 24U);
-    EXPECT_EQ(bucket_.asked(key(first_)), 1U) << "it will not come later";
+    EXPECT_EQ(bucket_.asked(key(first_)), 1U) << "another try would fail, too";
 }
 
 TEST_F(FetchTest, StopsWhenItIsTold) {

@@ -60,8 +60,8 @@ TEST(Watchdog, IsNotFedWhileAThreadIsStuck) {
     WatchdogFeed watchdog(seconds{8});
     const Step step{"caretaker", t0 - seconds{8}};
     EXPECT_TRUE(watchdog.is_due(t0, step));
-    EXPECT_FALSE(watchdog.is_due(t0 + seconds{3}, step)) << "11 s at one step";
-    EXPECT_TRUE(watchdog.is_due(t0 + seconds{6}, std::nullopt)) << "it ended after all";
+    EXPECT_FALSE(watchdog.is_due(t0 + seconds{3}, step)) << "the thread has been 11 s at one step";
+    EXPECT_TRUE(watchdog.is_due(t0 + seconds{6}, std::nullopt)) << "the step has ended";
 }
 
 TEST(Watchdog, DoesNothingWhenThereIsNone) {
@@ -79,9 +79,12 @@ TEST(Watchdog, AHangIsNamedOnce) {
         EXPECT_FALSE(watchdog.hangs_now(t0, std::nullopt));
         EXPECT_FALSE(watchdog.hangs_now(t0 + limit, Step{"cache", t0}));
         EXPECT_TRUE(watchdog.hangs_now(t0 + limit + seconds{1}, Step{"cache", t0}));
-        EXPECT_FALSE(watchdog.hangs_now(t0 + limit + seconds{2}, Step{"cache", t0})) << "said";
-        EXPECT_FALSE(watchdog.hangs_now(t0 + limit + seconds{3}, std::nullopt)) << "it went on";
-        EXPECT_TRUE(watchdog.hangs_now(t0 + 3 * limit, Step{"cache", t0 + limit})) << "again";
+        EXPECT_FALSE(watchdog.hangs_now(t0 + limit + seconds{2}, Step{"cache", t0}))
+            << "the hang was reported before";
+        EXPECT_FALSE(watchdog.hangs_now(t0 + limit + seconds{3}, std::nullopt))
+            << "the thread went on";
+        EXPECT_TRUE(watchdog.hangs_now(t0 + 3 * limit, Step{"cache", t0 + limit}))
+            << "the next step hangs, too";
     }
 }
 
@@ -96,7 +99,7 @@ TEST(Watchdog, LongWorkThatMovesOnIsNoHang) {
         EXPECT_FALSE(watchdog.hangs_now(t0 + seconds{second}, pulses.oldest()));
     }
     EXPECT_FALSE(watchdog.is_due(t0 + seconds{3602}, pulses.oldest()))
-        << "and then it stands still";
+        << "the thread then stays at one step";
 }
 
 TEST(Watchdog, TheOldestStepOfAllCounts) {
@@ -105,7 +108,7 @@ TEST(Watchdog, TheOldestStepOfAllCounts) {
     Pulse two;
     pulses.watch("one", one);
     pulses.watch("two", two);
-    EXPECT_FALSE(pulses.oldest()) << "all rest";
+    EXPECT_FALSE(pulses.oldest()) << "all threads are at rest";
     one.beat(t0 + seconds{2});
     two.beat(t0 + seconds{1});
     EXPECT_EQ(pulses.oldest()->who, "two");

@@ -23,7 +23,7 @@ TEST(ChunkKey, IsReadAndWrittenAgain) {
     EXPECT_EQ(to_string(*key), text);
     EXPECT_TRUE(parse_chunk_key("TOKC/999/20261128-115959-094-E", now));
     EXPECT_TRUE(parse_chunk_key("KTLX/1/20261129-110000-002-I", now))
-        << "within a day of the clock";
+        << "the time is within a day of the clock";
 }
 
 TEST(ChunkKey, NothingElseIsTaken) {

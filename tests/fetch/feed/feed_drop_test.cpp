@@ -44,7 +44,7 @@ TEST_F(Dropping, AChunkLiesWhereLdmPutsIt) {
     EXPECT_FALSE(drop.has(chunk, 100));
     write(drop, chunk);
     EXPECT_TRUE(drop.has(chunk, 100));
-    EXPECT_FALSE(drop.has(chunk, 99)) << "of another size";
+    EXPECT_FALSE(drop.has(chunk, 99)) << "the size differs";
     EXPECT_EQ(files_below(root()).begin()->first, "KTLX/494/20261128-120000-001-S");
     EXPECT_EQ(files_below(root()).size(), 1U);
 }
@@ -78,7 +78,7 @@ TEST_F(Dropping, OldVolumesAreRemovedAndNothingElse) {
         left.push_back(name);
     EXPECT_EQ(left, (std::vector<std::string>{"KTLX/1/20261128-110000-001-S", "KTLX/1/notes.txt",
                                               "KTLX/2/20261128-120000-001-S"}));
-    EXPECT_FALSE(fs::exists(root() / "KFDR")) << "a directory that is empty goes too";
+    EXPECT_FALSE(fs::exists(root() / "KFDR")) << "empty directories are removed, too";
 }
 
 TEST_F(Dropping, TheOldestGiveWayToTheLimitOfBytes) {
@@ -124,7 +124,7 @@ TEST_F(Dropping, AfterAPowerCutNoChunkIsThereInPart) {
     disk.power_cut();
     std::ofstream(root() / "KTLX/494/20261128-120000-002-I");  // empty, as after a power cut
     FeedDrop again = open();
-    EXPECT_FALSE(again.has(key("KTLX", 494, drop_now, 1), 100)) << "so it is fetched again";
+    EXPECT_FALSE(again.has(key("KTLX", 494, drop_now, 1), 100)) << "so the chunk is fetched again";
     EXPECT_TRUE(files_below(root()).empty());
 }
 

@@ -121,14 +121,15 @@ TEST_F(FeedPrograms, KilledInTheMiddleOfAVolumeItLosesNothing) {
     for (int kills = 0; kills < 3; ++kills) {
         start_feed("[\"KLOT\"]");
         ASSERT_TRUE(testing::eventually([&] { return !is_killed; })) << feed_->err();
-        EXPECT_LT(files().size(), bucket_.objects().size()) << "in the middle of the volume";
+        EXPECT_LT(files().size(), bucket_.objects().size())
+            << "the feed must be in the middle of the volume";
         EXPECT_EQ(feed_->end(SIGKILL), -SIGKILL);
         is_killed = true;
     }
     start_feed("[\"KLOT\"]");
     ASSERT_TRUE(wait_for_files(55)) << feed_->err();
     EXPECT_EQ(files(), bucket_.objects());
-    EXPECT_LE(gets, 55 + 3) << "only what was on its way is fetched again";
+    EXPECT_LE(gets, 55 + 3) << "only chunks that had not arrived are fetched again";
     ASSERT_TRUE(are_ingested(daemon_, 1)) << daemon_.log();
     EXPECT_TRUE(files_below(daemon_.cache()) == grids_by_ldm(bucket_.objects(), 1));
 }

@@ -236,11 +236,11 @@ TEST_F(FeedingFrom, AStationThatFallsSilentIsNamedUntilItSendsAgain) {
     ASSERT_TRUE(feed_.wait_for_files(12));
     ASSERT_TRUE(testing::eventually(
         [&] { return feed_.station(0).is_silent && feed_.station(1).is_silent; }));
-    EXPECT_EQ(feed_.station(0).error, "") << "that is no failure";
+    EXPECT_EQ(feed_.station(0).error, "") << "silence is no failure";
     bucket_.put_volume("KTLX", 495, recent + minutes{30}, 3, false);
     ASSERT_TRUE(feed_.wait_for_files(15));
     ASSERT_TRUE(testing::eventually([&] { return !feed_.station(0).is_silent; }));
-    EXPECT_TRUE(feed_.station(1).is_silent) << "which the bucket does not have";
+    EXPECT_TRUE(feed_.station(1).is_silent) << "the bucket has nothing of this station";
 }
 
 // 2026-11-28: after an outage at the start, the feed took the first answer of a search as a sign

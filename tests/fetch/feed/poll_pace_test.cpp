@@ -35,7 +35,8 @@ TEST(PollPace, AnIdleStationIsAskedTwentyTimesAMinuteAtMost) {
             now += pace.pause(now, i % 3 == 0);  // a third of the answers are steps of a search
         }
         EXPECT_LE(most_a_minute(times), 20U);
-        EXPECT_LT(most_a_minute({times.end() - 100, times.end()}), 10U) << "it has become rare";
+        EXPECT_LT(most_a_minute({times.end() - 100, times.end()}), 10U)
+            << "a silent station is asked rarely";
     }
 }
 
@@ -61,7 +62,7 @@ TEST(PollPace, WhileChunksComeThePauseIsThePollingInterval) {
     }
     pace.note_news(now, seconds{12});
     EXPECT_LE(pace.pause(now), seconds{6});
-    EXPECT_GT(pace.pause(now), seconds{5}) << "half of 12 s, but for the chance";
+    EXPECT_GT(pace.pause(now), seconds{5}) << "half of 12 s, minus the random part";
     pace.note_news(now, seconds{60});
     EXPECT_LE(pace.pause(now), 3 * every);
 }
@@ -80,7 +81,7 @@ TEST(PollPace, AfterFailuresThePauseDoublesUpToAMinute) {
     }
     pace.note_news(now, {});
     pace.note_failure(now, seconds{30});
-    EXPECT_GE(pace.pause(now), seconds{30}) << "what the server asks for";
+    EXPECT_GE(pace.pause(now), seconds{30}) << "the pause that the server requests";
     pace.note_failure(now, std::chrono::hours{5});
     EXPECT_EQ(pace.pause(now), seconds{60}) << "but no more than a minute";
     pace.note_news(now, {});

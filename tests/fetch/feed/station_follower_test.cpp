@@ -114,7 +114,8 @@ TEST_F(Following, AChunkThatNeverComesIsCounted) {
     EXPECT_EQ(all().size(), 10U);
     (void)turns(20);
     EXPECT_EQ(follower_->missing(), 2U) << "number 3, and the end";
-    EXPECT_LE(std::ranges::count(questions_, "KTLX/494/"), 12) << "it is looked at for a minute";
+    EXPECT_LE(std::ranges::count(questions_, "KTLX/494/"), 12)
+        << "the left volume is listed for a minute";
 }
 
 TEST_F(Following, AnEndThatNeverComesHoldsUpNothing) {
@@ -129,7 +130,7 @@ TEST_F(Following, AfterNumber999ComesNumber1) {
     add_volume(keys_, 1, start - minutes{999 * 5}, 5);  // of the round before
     begin({{start, 999}});
     add_volume(keys_, 999, start, 5);
-    EXPECT_EQ(all().size(), 5U) << "the last round's is none of this one";
+    EXPECT_EQ(all().size(), 5U) << "the chunks of the last round must not be taken";
     add_volume(keys_, 1, start + minutes{5}, 3, false);
     EXPECT_EQ(all().front(), key(1, start + minutes{5}, 1, 'S'));
 }
@@ -192,7 +193,7 @@ TEST_F(Following, AStationThatWentOnAnywhereIsFound) {
     for (int i = 0; i < 14; ++i)
         add_volume(keys_, 700 + i, start + minutes{5 * i + 5}, 4);
     elapsed_ += minutes{80};
-    EXPECT_GE(turns(600).size(), 4U) << "the ring is gone round in steps of 13";
+    EXPECT_GE(turns(600).size(), 4U) << "the follower goes around the ring in steps of 13";
 }
 
 TEST_F(Following, JunkIsLeftOut) {
@@ -220,8 +221,9 @@ TEST_F(Following, GoesOnWithTheVolumesOfTheDropDirectory) {
     add_volume(keys_, 494, start, 4);
     add_volume(keys_, 495, start + minutes{5}, 4);
     begin({{start, 494}, {start + minutes{5}, 495}});
-    EXPECT_EQ(all().size(), 8U) << "both are compared with what was written";
-    EXPECT_EQ(std::ranges::count(questions_, "KTLX/"), 0) << "nothing is searched";
+    EXPECT_EQ(all().size(), 8U)
+        << "the listings of both volumes are compared with the written chunks";
+    EXPECT_EQ(std::ranges::count(questions_, "KTLX/"), 0) << "no search takes place";
 }
 
 }  // namespace

@@ -180,7 +180,8 @@ TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
     other_.server().forget_asked();
     ASSERT_TRUE(puller()->turn());
     const auto is_file = [](const Asked& asked) { return asked.path.ends_with("/file"); };
-    EXPECT_EQ(std::ranges::count_if(other_.server().asked(), is_file), 1) << "of two young ones";
+    EXPECT_EQ(std::ranges::count_if(other_.server().asked(), is_file), 1)
+        << "only one of two young grids";
 }
 
 // 2026-11-28: at the limit of bytes, each turn fetched only one new grid and one grid again, so the
@@ -243,7 +244,7 @@ TEST_F(Pulling, ABadGridWaitsAndHoldsUpNoOther) {
     ASSERT_TRUE(north->turn());
     ASSERT_TRUE(north->turn());
     EXPECT_EQ(north->status().pulled, 1U);
-    EXPECT_EQ(north->status().refused, 1U) << "it is not asked for at once again";
+    EXPECT_EQ(north->status().refused, 1U) << "the grid is not requested again at once";
     EXPECT_TRUE(pulled(1) == other_.file(1));
 }
 
@@ -273,11 +274,11 @@ TEST_F(Pulling, AMachineOfJunkIsLeftAloneAndLeavesNothing) {
         EXPECT_THAT(done.error().message, HasSubstr("16 grids in a row were refused"));
     }
     const std::string log = ::testing::internal::GetCapturedStderr();
-    EXPECT_EQ(std::ranges::count(log, '\n'), 20) << "lines of a minute";
+    EXPECT_EQ(std::ranges::count(log, '\n'), 20) << "the limit of lines in a minute";
     EXPECT_EQ(north->status().refused, 48U);
-    EXPECT_EQ(north->remembered(), 16U) << "what is no longer listed is forgotten";
+    EXPECT_EQ(north->remembered(), 16U) << "grids that are no longer listed are forgotten";
     EXPECT_EQ(north->pause(), std::chrono::milliseconds{4000});
-    EXPECT_TRUE(fs::is_empty(this->north())) << "directories are made for what is kept";
+    EXPECT_TRUE(fs::is_empty(this->north())) << "directories are made only for kept grids";
 }
 
 TEST_F(Pulling, StationsThatAreNotItsAreNotPulled) {
@@ -367,14 +368,14 @@ TEST_F(Pulling, TheOldestGiveWay) {
     auto few = PulledGrids::open(real_file_system(), north(),
                                  {config_.bytes_a_source, std::chrono::hours{1}, 0});
     ASSERT_TRUE(few);
-    EXPECT_EQ(few->prune(now_utc()), 1U) << "so many grids at most";
+    EXPECT_EQ(few->prune(now_utc()), 1U) << "the limit of the number of grids";
     ASSERT_TRUE(puller()->turn());
     config_.bytes_a_source = 100;
     auto grids = PulledGrids::open(real_file_system(), north(), {100, std::chrono::hours{1}});
     ASSERT_TRUE(grids);
     EXPECT_EQ(grids->prune(now_utc()), 1U);
     EXPECT_EQ(grids->bytes(), 0U);
-    EXPECT_TRUE(fs::is_empty(north())) << "directories without grids go, too";
+    EXPECT_TRUE(fs::is_empty(north())) << "directories without grids are removed, too";
 }
 
 // 2026-11-28: after memory had run out once, the client never made another request.
