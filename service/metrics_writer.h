@@ -2,8 +2,8 @@
 //
 // Each family has the lines "# HELP" and "# TYPE", and then a line for each sample:
 //   name{label="value",...} 12.5
-// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN. Numbers have enough
-// digits to read the same double back; others are NaN, +Inf and -Inf.
+// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN. Finite numbers have
+// enough digits to read the same double back; all other numbers are written as NaN, +Inf or -Inf.
 //
 // Threads   One thread at a time.
 // Source    prometheus.io, "Exposition formats". tests/daemon/metrics_reader.h checks it strictly.

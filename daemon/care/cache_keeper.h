@@ -34,7 +34,7 @@ class CacheKeeper {
     void roll_soon() { next_ = {}; }  // call when the budgets have changed
     // Returns when poll() has something to do next. The end of a roll also calls `wake`.
     [[nodiscard]] SteadyTime next_time() const { return next_; }
-    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread of the roll
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread that rolls
 
   private:
     CacheRolled roll(const cache::Budgets& budgets);  // runs in its own thread

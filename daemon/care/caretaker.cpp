@@ -26,7 +26,7 @@ void log_problem(std::string_view what, const Error& error) {
 }
 
 // Returns true if the database cannot be used at all. The service reports this, so the caretaker
-// need not.
+// need not report it.
 bool is_in_trouble(const catalog::CatalogReader& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
     return std::any_of(troubles.begin(), troubles.end(),

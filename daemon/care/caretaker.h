@@ -52,7 +52,7 @@ class Caretaker {
     Caretaker& operator=(const Caretaker&) = delete;
     ~Caretaker();
 
-    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the object's thread
 
   private:
     void run();
@@ -70,7 +70,7 @@ class Caretaker {
     bool compare_sites();
     // Waits for `least`, and then until the service is idle. Returns false if the thread must end.
     bool pause(std::chrono::milliseconds least);
-    // Waits for `time`. Returns true at once when the thread must end, else false.
+    // Waits for `time` and returns false. Returns true as soon as the thread must end.
     bool is_stopped_within(std::chrono::milliseconds time) STORMCELLAR_REQUIRES(mutex_);
     // Waits for `least`, and then until the service is idle. In the meantime, compares the sites
     // that are due. Returns false if the thread must end.

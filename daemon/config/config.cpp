@@ -36,8 +36,8 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
     std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
     if (error) resolved = (base / path).lexically_normal();
-    // "a/" has an empty last part; with it, the comparison would not find that "a/b" is within
-    // "a/".
+    // Remove the empty last part of "a/". With that part, the comparison would not find that "a/b"
+    // is within "a/".
     if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
     return resolved;
 }

@@ -91,8 +91,8 @@ struct PartialsConfig {
 // Storage of results in the catalog and the cache.
 struct StorageConfig {
     cache::Packing packing = cache::Packing::none;
-    std::chrono::milliseconds refill{std::chrono::hours{6}};  // age of the newest missing grids
-                                                              // that are made again
+    // missing grids that are newer than this are made again; 0: none
+    std::chrono::milliseconds refill{std::chrono::hours{6}};
     std::optional<std::uint64_t> catalog_bytes = default_catalog_bytes;  // none: no limit
     bool operator==(const StorageConfig&) const = default;
 };
@@ -136,7 +136,7 @@ struct Config {
 };
 
 // Returns a sentence for each part of `fresh` that differs from `running`, because a reload cannot
-// apply it. The sentence names the keys. Returns none exactly if the two are equal.
+// apply it. The sentence names the keys. Returns no sentences exactly if `fresh` equals `running`.
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);
 

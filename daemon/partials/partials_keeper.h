@@ -3,14 +3,15 @@
 //
 // As soon as a partial is complete, the keeper copies it into the cache and makes the frames that
 // the partial changes, the newest partial first. It checks a damaged or truncated file again when
-// the file changes; if the file was written less than 30 s ago, also at the next scan. If the cache
-// has lost a partial, the keeper copies it again. While no partials wait, it checks the frames
-// around older partials, and makes a frame again if the frame lacks one of its partials.
+// the file changes. If the file was written less than 30 s ago, the keeper also checks it again at
+// the next scan. If the cache has lost a partial, the keeper copies it again. While no partials
+// wait, it checks the frames around older partials, and makes a frame again if the frame lacks one
+// of its partials.
 //
 // A partial is accepted if its station is known, as for raw files ([ingest] stations), or is listed
 // for its machine or its mosaic. A station that [partials.stations] lists for some machines is
 // accepted only from those machines. If machines bring different partials of a volume, the better
-// one counts, so that the frames do not depend on the order of arrival. If a partial replaces a
+// partial counts, so that the frames do not depend on the order of arrival. If a partial replaces a
 // partial of another machine, the log and the status say so.
 //
 // A machine is late while it has brought nothing for `late_after`, or while its newest volume is
@@ -65,7 +66,7 @@ class PartialsKeeper {
     // Returns the number of scans of the directory that was scanned least often. A scan counts when
     // the turn that made it has ended.
     [[nodiscard]] std::uint64_t scans() const { return published_scans_; }
-    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the object's thread
 
   private:
     struct Machine {
@@ -94,9 +95,9 @@ class PartialsKeeper {
     const PartialsConfig config_;
     const PartialsOf of_;
     const PartialsTimes times_;
-    std::vector<Machine> machines_;  // of the thread
-    bool has_more_ = false;          // of the thread: news wait
-    SteadyTime next_mending_{};      // of the thread
+    std::vector<Machine> machines_;  // used only by the thread
+    bool has_more_ = false;          // used only by the thread; news wait
+    SteadyTime next_mending_{};      // used only by the thread
     mutable Mutex mutex_;
     std::vector<MachineFacts> published_ STORMCELLAR_GUARDED_BY(mutex_);
     std::atomic<std::uint64_t> published_scans_{0};

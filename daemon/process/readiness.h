@@ -23,8 +23,8 @@ namespace stormcellar::daemon {
 
 class Readiness {
   public:
-    // Times between checks. The first ones are short, for example because a thread has only just
-    // begun to listen.
+    // Times between checks. The first times are short, because a failed check may succeed soon, for
+    // example once a thread has begun to listen.
     static constexpr std::chrono::milliseconds first_wait{20}, longest_wait{1000};
 
     // Returns an error that says what is missing, or ok.

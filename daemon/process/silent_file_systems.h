@@ -3,9 +3,9 @@
 //
 // The kernel reports changes made on this machine. It does not see writes of other machines to a
 // shared file system, or changes made by a program behind FUSE, so such directories must be polled.
-// It also does not report files that are written directly into a layer of an overlay, below the
-// mount. An overlay does not count as silent here, since most writers use its mount; rescans find
-// the other files.
+// The kernel also does not report files that are written directly into a layer of an overlay, below
+// the mount. An overlay does not count as silent here, since most writers use its mount; rescans
+// find the other files.
 //
 // Threads   Pure: may be called from any thread.
 // Source    statfs(2), linux/magic.h, and the headers of the projects in the table.

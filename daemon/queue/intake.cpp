@@ -18,7 +18,7 @@ constexpr std::size_t most_going_on = 4096;
 constexpr std::size_t most_problems = 64;
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
-// a younger file that a scan finds is live
+// a file that a scan finds is live if it is younger than this
 constexpr std::int64_t live_ns = 600 * recent_ns;
 
 // Returns the same key for all files of one volume.

@@ -1,7 +1,7 @@
 // daemon/status/http_listener.h -- serves pages at one address, with libmicrohttpd.
 //
-// Used only inside the daemon room, by status_server.h. Everything happens in turn(), which never
-// waits: the caller polls descriptor() until next_time() at most.
+// Only status_server.cpp uses this class. All work happens in turn(), which never waits: the caller
+// polls descriptor() until next_time() at most.
 //
 // Threads   One thread at a time.
 #pragma once

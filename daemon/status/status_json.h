@@ -39,11 +39,11 @@
 //                  to its grids in the cache, waiting included, over the last 4096 ingested files
 //                  whose close was seen; files found by a scan have none. The values are null if
 //                  count is 0
-//   sweep_latency_s  the same, from the close of the file that completed a sweep to the living grid
-//                    that shows the sweep
-//   antenna_to_cache_s  the same, from the newest radial of a volume to its grids in the cache, of
-//                       volumes that can be live (at most an hour old); "not_live": volumes that
-//                       are left out, for example old data that are replayed
+//   sweep_latency_s  like latency_s, but from the close of the file that completed a sweep to the
+//                    living grid that shows the sweep
+//   antenna_to_cache_s  like latency_s, but from the newest radial of a volume to its grids in the
+//                       cache, for volumes that can be live (at most an hour old); "not_live":
+//                       volumes that are left out, for example old data that are replayed
 //   volumes        the last 64 ingested files, oldest first: {"file", "station", "time", "grids",
 //                  "latency_s" (null: close not seen), "antenna_to_cache_s", "read_s", "decode_s",
 //                  "grid_s", "commit_s"}

@@ -1,5 +1,5 @@
 // daemon/status/status_names.h -- the words for results and errors in the status and in metrics.
-// They are an interface: dashboards and alerts use them.
+// These words are an interface: dashboards and alerts use them.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once

@@ -58,7 +58,7 @@ class StatusServer {
     // Returns ok if every address is served, else the first problem. Ignores [::1], which a machine
     // may lack, and paths that are too long. May be called from any thread.
     [[nodiscard]] Status answers() const;
-    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the object's thread
 
   private:
     class Worker;
@@ -68,7 +68,7 @@ class StatusServer {
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
     mutable Mutex unanswered_mutex_;
-    // Empty: all addresses are served.
+    // why an address is not served; empty: all addresses are served
     std::string unanswered_ STORMCELLAR_GUARDED_BY(unanswered_mutex_) =
         "the status is not served yet";
     Pulse pulse_;

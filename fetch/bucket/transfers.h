@@ -58,7 +58,7 @@ struct TransferOptions {
     std::chrono::seconds stall{30};   // a transfer without a byte for this long fails
     std::chrono::seconds longest{0};  // for a whole transfer; 0: no limit
     long most_redirects = 5;
-    std::string proxy = {};             // a URL; empty: none, or that of the environment
+    std::string proxy = {};             // a URL; empty: none, or the environment's proxy
     bool is_direct = false;             // ignore proxies of the environment
     std::string ca_file = {};           // certificates to trust; empty: the system's
     std::string agent = "stormcellar";  // the program's name for the server

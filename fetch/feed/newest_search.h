@@ -32,7 +32,7 @@ class NewestSearch {
 
     // The place at which StationFollower begins: the directory before the newest, so that a
     // complete volume comes first, or the newest directory if no directory is before it. Chunks
-    // older than `from` belong to an earlier round of the ring.
+    // older than `from` belong to an earlier round of the volume numbers.
     struct Start {
         int number = 0;
         UtcTime from;

@@ -4,11 +4,11 @@
 // The follower follows one volume. It lists the keys from the first missing chunk on, so that it
 // sees both late and new chunks. When the volume is complete, and at every fourth listing without
 // news, it lists the directory of the next number instead, but only keys from at most an hour
-// before this volume, because older keys belong to an earlier round of the ring. It also follows a
-// later volume in the same directory. If it left the last volume with gaps or without its end, it
-// lists that volume again every 15 s for a minute. If a station is silent, it lists the next
-// directory more often, and also directories where the station may have continued: two numbers
-// further, number 1, and in steps around the whole ring.
+// before this volume, because older keys belong to an earlier round of the ring of volume numbers
+// (1 follows 999). It also follows a later volume in the same directory. If it left the last volume
+// with gaps or without its end, it lists that volume again every 15 s for a minute. If a station is
+// silent, it lists the next directory more often, and also directories where the station may have
+// continued: two numbers further, number 1, and in steps around the whole ring.
 //
 // The caller asks the bucket, writes the chunks and passes the time.
 //

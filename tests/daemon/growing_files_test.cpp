@@ -168,7 +168,7 @@ TEST_F(Growing, HasABound) {
     EXPECT_TRUE(files_.add_incomplete("c", small, t0));
     EXPECT_FALSE(files_.add_new("d", small, t0));
     EXPECT_FALSE(files_.add_incomplete("d", small, t0));
-    EXPECT_TRUE(files_.add_incomplete("a", small, t0)) << "what it has may change its kind";
+    EXPECT_TRUE(files_.add_incomplete("a", small, t0)) << "a kept file may become incomplete";
     files_.forget("b");
     EXPECT_TRUE(files_.add_new("d", small, t0));
 }

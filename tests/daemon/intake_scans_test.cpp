@@ -62,7 +62,7 @@ TEST_F(IntakeTest, ProblemsAreGivenOnceAsLongAsScansFindThem) {
     EXPECT_EQ(first[0].message, at("link\n").native() + ": is a symbolic link, so it is not read");
     EXPECT_TRUE(scan(true).empty());
     EXPECT_TRUE(scan(false).empty());
-    EXPECT_EQ(scan(true).size(), 2U) << "they went and came again";
+    EXPECT_EQ(scan(true).size(), 2U) << "the entries vanished and came back";
     intake_.begin_scan();
     for (int i = 0; i < 100'000; ++i)
         intake_.entry_left_out(at(std::to_string(i).c_str()), "a FIFO");

@@ -248,7 +248,7 @@ TEST_F(IntakeTest, AFileThatFailsStaysAndWaits) {
     ASSERT_EQ(next(), "a");
     end("a", fail(ErrorCode::io, "cache: no"));
     EXPECT_EQ(intake_.pending().retrying, 1U);
-    EXPECT_EQ(intake_.pending().waiting, 0U) << "it keeps nothing from being idle";
+    EXPECT_EQ(intake_.pending().waiting, 0U) << "this file must not count as waiting";
     EXPECT_EQ(next(), "");
     now_ += seconds{1};
     EXPECT_EQ(next(), "a");
@@ -324,7 +324,8 @@ TEST_F(IntakeTest, AChunkThatWasRelievedBeforeItsJobEndedIsNotWaitedFor) {
     EXPECT_EQ(waits[0].file, at("b"));
 }
 
-// The same two chunks, but "a" took over from "b" again, so the intake must wait for "a".
+// Uses the same two chunks as the test above, but "a" took over from "b" again, so the intake must
+// wait for "a".
 TEST_F(IntakeTest, TheChunkThatTookOverLastIsWaitedFor) {
     begin_two();
     end("b", incomplete_after("a"));

@@ -119,7 +119,7 @@ TEST_F(LoopsOnly, ADaemonThatKeepsThemTooSaysSo) {
     EXPECT_EQ(loops_.terminate(), 0) << loops_.log();
 }
 
-// Two such services would write the same files.
+// Two services with the same state directory would write the same files.
 TEST_F(LoopsOnly, OneAStateDirectory) {
     loops_.start("", with_program(), {"--loops-only"});
     ASSERT_TRUE(comes([](const json& s) { return s["state"] == "running"; })) << loops_.log();

@@ -71,7 +71,7 @@ TEST_F(Recovery, ADatabaseDamagedAtRunTimeDoesNotStopItsStation) {
     write_file(daemon_.catalog() / "KBGM.sqlite", std::string(40'000, 'x'));
     put(second);
     ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 2; }))
-        << "the second, and the first once more\n"
+        << "the second volume, and the first volume once more\n"
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
     EXPECT_EQ(rows().size(), 2U);
@@ -180,7 +180,8 @@ TEST_F(Recovery, MosaicsAreMadeAgainFromRawFilesAndPartials) {
     EXPECT_EQ(list("north.KBGM").size(), 1U) << "the first volume's raw file is gone";
 }
 
-// If nothing is left to make a grid from, it is dropped, and the log says why.
+// If nothing is left from which a damaged grid can be made again, the service drops the grid, and
+// the log says why.
 TEST_F(Recovery, AMosaicThatNobodyConfiguresAnyMoreIsDroppedWithTheReason) {
     put(first);
     put(second);

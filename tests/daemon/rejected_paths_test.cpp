@@ -32,7 +32,7 @@ TEST(RejectedPaths, WhatWasGriddedOrWentIsNewsAgain) {
     for (const IngestResult result : {IngestResult::gridded, IngestResult::vanished}) {
         RejectedPaths paths;
         EXPECT_TRUE(paths.is_news("/d/a", rejected("bad")));
-        EXPECT_TRUE(paths.is_news("/d/a", outcome_of(result))) << "that is always news";
+        EXPECT_TRUE(paths.is_news("/d/a", outcome_of(result))) << "this outcome is always news";
         EXPECT_TRUE(paths.is_news("/d/a", rejected("bad")));
     }
     RejectedPaths paths;

@@ -326,7 +326,7 @@ TEST(Schedule, WhatWaitsIsToBeRegisteredAfterAWhileAndOnce) {
     ASSERT_TRUE(first);
     EXPECT_EQ(first->path, "a") << "the job that has waited longest";
     EXPECT_EQ(schedule.waiting_count(), 2U);
-    EXPECT_EQ(schedule.running_count(), 1U) << "not to be run meanwhile";
+    EXPECT_EQ(schedule.running_count(), 1U) << "the job must not run meanwhile";
     EXPECT_FALSE(schedule.next_unregistered(t0 + seconds{2}));
     EXPECT_EQ(next_path(schedule, t0 + seconds{2}), "c");
     schedule.registered("a");

@@ -52,7 +52,8 @@ TEST(StationBook, KeepsTheNewestVolumeWhateverComesLater) {
     EXPECT_EQ(state.close_to_cache.count(), 1U);
 }
 
-// Data count before anything is gridded: a feed whose volumes grow is not silent.
+// Data of growing volumes count, although no volume is gridded yet. So the feed does not look
+// silent.
 TEST(StationBook, AGrowingVolumesChunksAreDataAndItsSweepsHaveTimes) {
     StationBook book;
     IngestOutcome chunk = outcome_of(IngestResult::incomplete);

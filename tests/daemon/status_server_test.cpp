@@ -357,7 +357,7 @@ TEST_F(StatusServerTest, WhatCannotBeOpenedIsTriedAgain) {
     EXPECT_TRUE(testing::eventually([&] {
         const Status answers = server.answers();
         return !answers && answers.error().message.find(path().native()) != std::string::npos;
-    })) << "it has tried";
+    })) << "the server must have tried to open the address";
     std::ifstream file(path());
     EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), "somebody's file");
     std::filesystem::remove(path());

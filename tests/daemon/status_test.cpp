@@ -320,7 +320,8 @@ TEST(StatusBook, OddBytesInNamesAreEscaped) {
     EXPECT_EQ(status["volumes"][0]["file"], "/d/\\xc3(");
 }
 
-// A process that only runs loops must report them in the same way, and nothing about ingest.
+// A process that only runs loops must report its loops as the daemon does, and must report nothing
+// about ingest.
 TEST(LoopsStatus, IsTheSameForLoopsAlone) {
     std::vector<LoopState> loops(3);
     loops[0].name = "a";

@@ -73,7 +73,7 @@ bool ends_before(FaultyDaemon& daemon, SteeringFile& steering, bool lasts, std::
         if (const auto status = daemon.running().ended()) {
             EXPECT_EQ(*status, 1) << daemon.log_end();
             EXPECT_EQ(daemon.log_end().find("ready: watching"), std::string::npos)
-                << "it may give up at its start alone\n"
+                << "the daemon may give up only at its start\n"
                 << daemon.log_end();
             has_ended = true;
         }

@@ -34,7 +34,7 @@ enum class Attack : std::uint8_t {
     growth,     // further bytes for an endless file
     unsettled,  // a file that cannot be gridded, has no end, or has no meaning
     chunk,      // a chunk of one of hundreds of volumes, whose chunks come in turn without end
-    rename,     // a file or a directory is renamed, a directory also back
+    rename,     // a file is renamed, or a directory is renamed and renamed back
     link,       // a symbolic link that leads out, dangles or loops
     special,    // a FIFO or a socket
     sparse,     // a file of GiB to TiB of holes

@@ -1,9 +1,10 @@
 // tests/fault/load.h -- writes files into a drop directory during faults.
 //
 // The files are small simulated volumes (message 31, two cuts of 360 radials) of several stations,
-// each with its own time, some of them truncated; junk; and real volumes, if there are any, under
-// new names. The files are written in all four ways: whole by rename, growing and closed after each
-// piece, growing and kept open, and as one file for each chunk.
+// each with its own time. Some volumes are truncated, and some files are junk. If there are real
+// volumes, these are written, too, under new names. The files are written in all four ways: whole
+// by rename, growing and closed after each piece, growing and kept open, and as one file for each
+// chunk.
 #pragma once
 
 #include <atomic>

@@ -27,7 +27,7 @@ TEST(Notify, ReachesTheSocketOfTheManager) {
     ::unsetenv("NOTIFY_SOCKET");
     EXPECT_EQ(socket.receive(), "READY=1");
     notifier.send("STOPPING=1");
-    EXPECT_EQ(socket.receive(), "") << "nobody listens, nothing is sent, nothing fails";
+    EXPECT_EQ(socket.receive(), "") << "if nobody listens, nothing is sent and nothing fails";
 }
 
 TEST(Notify, ReloadingComesWithTheMonotonicTime) {

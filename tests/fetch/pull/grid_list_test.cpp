@@ -39,7 +39,7 @@ TEST(GridList, HasThePartsOfTheDomainsNewestFirst) {
                      {"north", "http://n", {}})
                   ->size(),
               1U)
-        << "without a list, all domains count";
+        << "without a list of domains, all domains count";
 }
 
 // 2026-11-28: a list of four megabytes has 67,000 names, and the puller kept all these names.

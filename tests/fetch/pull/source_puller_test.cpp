@@ -148,8 +148,8 @@ TEST_F(Pulling, BringsWhatIsMissingAndAsksForNothingTwice) {
     EXPECT_EQ(north->pause(), config_.every);
     other_.server().forget_asked();
     ASSERT_TRUE(north->turn());
-    // The second request is for the short list, which has another URL; the third sends the tag of
-    // the second list.
+    // The second request is for the short list, which has another URL; the third request sends the
+    // tag of the second list.
     ASSERT_TRUE(north->turn());
     const auto asked = other_.server().asked();
     ASSERT_EQ(asked.size(), 2U);
