@@ -30,7 +30,7 @@ class LineReader {
     LineReader() = default;
     explicit LineReader(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
-    // for poll(); -1 once the other end of the pipe is closed
+    // for poll(); -1 once read() has reached the end of the output
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     // Returns the lines that have arrived. At the end of the output, also returns a last line
     // without a line end. Reads at most 64 KiB a call.

@@ -12,8 +12,9 @@
 
 namespace stormcellar::daemon {
 
-// Returns the loops of a document that loops_json() wrote; none if the document is invalid. Unless
-// the `state` of the document is "running", all loops are returned as not running.
+// Returns the loops of a document that loops_json() wrote; none if the document is invalid. All
+// loops are returned as not running, unless the `state` of the document is "running" and its
+// process exists.
 [[nodiscard]] std::vector<LoopState> loops_of(std::string_view document);
 
 // Returns each configured loop with its state from STATE/loops/status.json. A loop that is missing

@@ -7,7 +7,7 @@
 // Anything else at the path is an error.
 //
 // Threads   One thread at a time.
-// Errors    bad_argument (a path of more than 107 bytes), permission, not_found (no such
+// Errors    bad_argument (an empty path, or more than 107 bytes), permission, not_found (no such
 //           directory), busy (in use), io.
 #pragma once
 

@@ -24,8 +24,9 @@ class RejectedPaths {
   public:
     explicit RejectedPaths(std::size_t most = 65'536) : most_(most) {}
 
-    // Returns false if the file was rejected for the same reason as the last time. A file that was
-    // gridded in the meantime, or vanished, counts as new when it is rejected again.
+    // Returns false if the file is rejected for the same reason as the last time, and true for
+    // every other outcome. A file that was gridded in the meantime, or vanished, counts as new when
+    // it is rejected again.
     bool is_news(const std::filesystem::path& path, const pipeline::IngestOutcome& outcome);
     [[nodiscard]] std::size_t count() const { return reasons_.size(); }
 

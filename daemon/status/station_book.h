@@ -62,8 +62,9 @@ class StationBook {
     static constexpr std::chrono::hours most_live_age{1};
     static constexpr std::chrono::hours known_for{7 * 24};
 
-    // Adds an ingested file. `latency_s`: from the close of the file to the end of its job, in
-    // seconds; `at`: when the job ended, by this machine's clock.
+    // Adds the outcome of a job; does nothing if the outcome has no station. `latency_s`: from the
+    // close of the file to the end of its job, in seconds; `at`: when the job ended, by this
+    // machine's clock.
     void add(const pipeline::IngestOutcome& outcome, std::optional<double> latency_s, UtcTime at);
     // add_data() notes when data arrived. add_missing_chunks() notes the chunks of a volume that
     // never came, once the service has given up waiting for them.

@@ -27,9 +27,9 @@ struct WalkVisitor {
     // Called before the entries of the directory are read, so that a watch set here misses nothing.
     std::function<void(const std::filesystem::path&)> directory;
     std::function<void(const std::filesystem::path&, const FileStamp&)> file;
-    // Reports a directory that cannot be read (permission, io), or names in the directory that are
-    // not used (unsupported: too deep, too long). The message is one line that names the directory.
-    // The walk goes on.
+    // Reports a directory that cannot be read or is too deep (unsupported), or the first reason why
+    // names in a directory are not used (unsupported: too long; other codes: an entry cannot be
+    // examined). The message is one line that names the directory. The walk goes on.
     std::function<void(const std::filesystem::path&, const Error&)> problem;
     // Reports an entry that is neither file nor directory: a link, a FIFO, a device. May be empty.
     std::function<void(const std::filesystem::path&, mode_t mode)> other = {};
@@ -42,9 +42,9 @@ struct WalkVisitor {
 };
 
 // Walks a tree. `depth` is the depth of `root` below the drop directory, for max_walk_depth; a root
-// of depth 0 may itself be a link. Errors: not_found, permission or io if the root cannot be read;
-// io also if the root was deleted and only a mount keeps it, so that nothing will ever appear in
-// it.
+// of depth 0 may itself be a link. A root that is too deep is reported to `problem` and not walked.
+// Errors: not_found, permission or io if the root cannot be read; io also if the root was deleted
+// and only a mount keeps it, so that nothing will ever appear in it.
 [[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor,
                           int depth = 0);
 

@@ -6,8 +6,9 @@
 // keeps chunks for hours. A power cut may lose the last chunks or leave them empty; open() removes
 // empty chunks, so that they are fetched again. The directory is the only record of the written
 // chunks. prune() removes volumes that are too old, and the oldest volumes until the rest fits the
-// limit of bytes. prune() removes only files with names of chunks; open() also removes temporary
-// files of a killed writer. Only one process may write to a directory.
+// limit of bytes. prune() removes only files whose names begin as the names of a volume's chunks
+// do; open() also removes temporary files of a killed writer. Only one process may write to a
+// directory.
 //
 // Units     Sizes are in bytes. A chunk counts as 16 KiB at least, so that a limit of bytes also
 //           limits the number of files.
