@@ -268,7 +268,7 @@ void Intake::job_failed(const Finished& finished) {
     }
 }
 
-// Queues the job behind everything that has arrived meanwhile.
+// Queues the job again, in the backlog, so that live jobs come first.
 void Intake::give_next_turn(const Finished& finished) {
     schedule_.finished(finished.job.path);
     Job job = job_for(finished.job.path, Urgency::backlog);

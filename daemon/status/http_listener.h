@@ -56,7 +56,7 @@ class HttpListener {
     // Returns when turn() is due even if nothing arrives; none: never.
     [[nodiscard]] std::optional<SteadyTime> next_time(SteadyTime now) const;
     // Accepts, reads, answers and closes connections as far as possible without waiting. If three
-    // quarters of the allowed connections are open, each new one closes the oldest.
+    // quarters of the allowed connections are open, each new connection closes the oldest one.
     void turn(SteadyTime now);
 
   private:

@@ -43,8 +43,8 @@ class BucketClient {
     BucketClient& operator=(const BucketClient&) = delete;
     ~BucketClient();
 
-    // Asks for a listing after `wait`. Joins the pages of a long listing, and passes the result to
-    // `taken`.
+    // Asks for a listing after `wait`, and passes the result to `taken`. Joins the pages of a long
+    // listing; if the question asks for fewer than 1,000 keys, takes only the first page.
     void list(fetch::ListingQuestion question, std::chrono::milliseconds wait,
               std::function<void(Result<fetch::ListingPage>)> taken);
     // Asks for an object that must have `size` bytes, and passes its bytes to `taken`.

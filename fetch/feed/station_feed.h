@@ -5,7 +5,8 @@
 // their numbers. A chunk that is in the drop directory with its size is not fetched again, for
 // example after a restart. If a chunk is smaller or larger than listed, or the bucket refuses it,
 // the station gives the chunk up after three tries. If requests fail for another reason, it gives
-// the chunk up after eight tries. After a failure the station pauses, and then lists again.
+// the chunk up after eight tries. A chunk that is listed with no bytes, or with more than 4 MiB, is
+// given up at once. After a failure the station pauses, and then lists again.
 //
 // Threads   The thread of BucketClient::run().
 // Errors    None. status() and the log report failures.
