@@ -163,7 +163,7 @@ TEST(Schedule, WhatIsTriedAgainTakesNoPlaceFromWhatComes) {
     const auto running = schedule.next(t0);
     EXPECT_FALSE(schedule.retry(*running, t0));
     EXPECT_EQ(schedule.running_count(), 0U);
-    // When the time of the failed jobs has come, they are like other jobs.
+    // Once the time of the failed jobs has come, they are like other jobs.
     for (int i = 0; i < 7; ++i)
         EXPECT_TRUE(schedule.next(t0 + seconds{1})) << i;
     EXPECT_EQ(schedule.retrying_count(), 0U);
