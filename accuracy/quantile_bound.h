@@ -37,8 +37,8 @@ struct BoundRequest {
 //   strata        Fix beforehand how many clusters to draw from each stratum; weight = (clusters in
 //                 the stratum) / (clusters drawn from it).
 //   proportional  Draw with replacement, in proportion to a size that is known for all clusters,
-//   such
-//                 as the number of cells in which the cheap form has a value; weight = 1 / size.
+//                 such as the number of cells in which the cheap form has a value; weight = 1 /
+//                 size.
 // `most_weight` is the largest possible (weight * errors) of any cluster that could have been
 // drawn. It must be known beforehand and not taken from the sample. Without weights it is the
 // number of levels. If a cluster exceeds `most_weight`, there is no bound.

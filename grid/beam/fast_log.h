@@ -1,8 +1,6 @@
 // grid/beam/fast_log.h -- a logarithm and an exponential that compilers can vectorize.
 //
-// Accuracy  Enforced by tests/grid/fast_log_test.cpp. fast_log2: 4e-7 + 1e-7
-// log2 x
-//  over all
+// Accuracy  Enforced by tests/grid/fast_log_test.cpp. fast_log2: 4e-7 + 1e-7 |log2 x| over all
 //           normal floats; for doubles it calls std::log2. fast_exp2: 3e-7 of its value, from -126
 //           to 127.
 // Threads   Pure functions, with the same bits on every machine.

@@ -5,10 +5,10 @@
 // height:
 //   nearest, linear, eight_point  The two adjacent sweeps around the height, linear in height (or
 //                                 only the nearer sweep).
-//   beam_weighted                 All sweeps on the same side of lost cuts, by the antenna's
-//   pattern
-//                                 (grid/beam/beam_pattern.h). The angle off the axis is the
-//                                 difference in height divided by the beam's rise per degree.
+//   beam_weighted                 All sweeps that no lost cut separates from the height, by the
+//                                 antenna's pattern (grid/beam/beam_pattern.h). The angle off the
+//                                 axis is the difference in height divided by the beam's rise per
+//                                 degree.
 // Elsewhere (below the lowest beam, above the highest, beside a lost cut) the nearer sweep counts
 // within its edges; beyond them the height is not seen. A cell with an extent is the mean over four
 // heights, in the middles of the quarters of its level. A level reaches half way to its neighbors.

@@ -4,9 +4,8 @@
 // rungs, from cheap to exact:
 //   nearest   The volume whose middle is nearer to the instant, unchanged.
 //   blend     The two volumes, with weights linear in time.
-//   advected  The same, but each volume is first moved with the echo to the instant:
-//   semi-Lagrangian,
-//             from both ends, bilinear between columns.
+//   advected  The two volumes, each moved with its echo to the instant (semi-Lagrangian, bilinear
+//             between columns), with weights linear in time.
 // With `sweep_times`, each cell has its own time (grid/sweep/sweep_clock.h) instead of the middle
 // of its volume. The time determines its weight and how far it moves, so all heights of a frame
 // show the same instant.

@@ -98,11 +98,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         const float sine = std::sin(turn_deg * degree);
         const float cosine = std::cos(turn_deg * degree);
         // Along this radial, the coordinates u and v of the outline are linear in the arc, so each
-        // of the conditions
-        // u
-        //  <= 1/2 and
-        // v
-        //  <= 1/2 limits the arcs to an interval.
+        // of the conditions |u| <= 1/2 and |v| <= 1/2 limits the arcs to an interval.
         float from_m = std::max(0.0F, footprint.arc_m - footprint.radius_m);
         float to_m = footprint.arc_m + footprint.radius_m;
         narrow(-footprint.u_along * footprint.arc_m,

@@ -15,8 +15,8 @@ using testing::random_chain;
 using testing::small_chain;
 using Rungs = std::vector<std::size_t>;
 
-// A sample on which each choice has a fixed error, and a clock that moves only while it is
-// measured.
+// A sample on which each choice has a fixed error, and a clock that advances by `each_s` with each
+// measurement.
 struct Sample {
     std::function<std::optional<double>(const Choice&)> value;
     double each_s = 0.25;
@@ -57,7 +57,7 @@ TEST(Governor, WhatMeasuringConfirmsIsTaken) {
 }
 
 TEST(Governor, APredictionThatWasWrongCostsTheNextRung) {
-    // 0.3 dB was predicted; the sample shows 0.8.
+    // The predicted error of linear_mean is 0.3 dB, but the sample shows 0.8 dB.
     Sample sample{[](const Choice& choice) { return choice.rungs[2] == 1 ? 0.0 : 0.8; }};
     const Plan plan = governed(small_chain(), "250 m, 0.5 dB", sample);
     EXPECT_TRUE(plan.meets_budget);

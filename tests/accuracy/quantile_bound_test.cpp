@@ -58,7 +58,8 @@ TEST(QuantileBound, IndependentErrorsAreCoveredAsPromised) {
     Random random(20261121);
     for (const Law& law : laws) {
         for (const BoundRequest request : {BoundRequest{0.99, 0.9}, BoundRequest{0.95, 0.99}}) {
-            // The smallest value that at most a share 1 - quantile of the magnitudes exceeds.
+            // The true quantile: the smallest value that at most a share 1 - quantile of the
+            // magnitudes exceeds.
             const double truth = law.inverse(std::nextafter(request.quantile, 0));
             const int trials = 4000;
             const Outcome outcome = simulate(trials, truth, [&] {
@@ -139,8 +140,8 @@ TEST(QuantileBound, HowManyClustersItTakes) {
     EXPECT_NEAR(static_cast<double>(needed(5, 20)), 4 * 902, 20);
 }
 
-// Columns, of which a share `bad` have errors in all of their cells; bad columns have more cells.
-// The errors of bad columns have a distribution whose tail has no mean.
+// Columns, a share `bad` of which have errors in all of their cells. Bad columns have more cells,
+// and the distribution of their errors has a tail without a mean.
 struct Columns {
     double bad = 0.01;
     std::size_t small = 4, large = 20;
@@ -201,8 +202,8 @@ TEST(QuantileBound, TakingCellsForIndependentWouldMiss) {
 }
 
 TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
-    // The sample draws as many columns from the tenth near the radar as from all others together,
-    // and columns near the radar are bad more often.
+    // One tenth of the columns are near the radar and are bad more often. The sample draws as many
+    // columns from this tenth as from all other columns together.
     Random random(13);
     const BoundRequest request{0.95, 0.9};
     const Columns near{0.3, 20, 20};
@@ -306,9 +307,8 @@ TEST(QuantileBound, AtTheConfidenceThatIsUsedNearlyNoneMisses) {
 }
 
 TEST(QuantileBound, WithManyClustersTheBoundComesNear) {
-    // With independent errors in columns, 20,000 columns of 10 cells bound the 99th percentile of
-    // e
-    //  to 1 %.
+    // With independent errors, the bound from 20,000 columns of 10 cells is within 1 % of the 99th
+    // percentile.
     Random random(16);
     std::vector<ErrorCluster> clusters(20000);
     for (ErrorCluster& cluster : clusters) {

@@ -29,9 +29,10 @@ inline constexpr std::size_t most_candidates = 65536;
 // was.
 //
 // A choice that leaves off an effect of unbounded size, although the settings allow it to be on, is
-// not listed: no budget allows that, not even a budget that does not bound the quantity. Among
-// choices of equal effort, the choice with fewer effects off comes first, because its accuracy
-// costs nothing; then the choice with the higher rung at the first step where two choices differ.
+// not listed. No budget allows such a choice, not even a budget that does not bound the quantity.
+// Among choices of equal effort, the choice with fewer effects off comes first, because its
+// accuracy costs nothing; then the choice with the higher rung at the first step where two choices
+// differ.
 //
 // Errors: the errors of validate(); unsupported for more than most_candidates choices.
 [[nodiscard]] Result<std::vector<Candidate>> list_candidates(const Chain& chain);
@@ -39,14 +40,14 @@ inline constexpr std::size_t most_candidates = 65536;
 // Returns true if each size is within the budget's limit, or the budget has no limit for it.
 [[nodiscard]] bool within(const ErrorSize& size, const Budget& budget);
 
-// Returns the largest share of its limit that any of the three errors takes: 0 if there is no
-// error, 1 if a limit is just used up, infinity for any error against a limit of 0. If the budget
-// bounds no error, the limits are 250 m, 0.5 of the moment's unit and dE 2, so that choices can
-// still be compared.
+// Divides each error that the budget bounds by its limit, and returns the largest quotient: 0 if
+// there is no error, 1 if a limit is just used up, infinity for any error against a limit of 0. If
+// the budget bounds no error, the limits are 250 m, 0.5 of the moment's unit and dE 2, so that
+// choices can still be compared.
 [[nodiscard]] double worst_share(const ErrorSize& size, const Budget& budget);
 
-// Returns true if `a` has the smaller worst_share(). If both have the same share, returns true if
-// `a` has the smaller sum of shares of 250 m, 0.5 of the unit and dE 2.
+// Returns true if `a` has the smaller worst_share(). If the shares are equal, returns true if `a`
+// has the smaller sum of three quotients: each error divided by 250 m, 0.5 of the unit or dE 2.
 [[nodiscard]] bool is_more_accurate(const ErrorSize& a, const ErrorSize& b, const Budget& budget);
 
 }  // namespace stormcellar::accuracy

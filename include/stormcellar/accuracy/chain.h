@@ -33,7 +33,7 @@ struct Step {
 };
 
 // The extra time that two rungs of different steps take together, beyond the sum of the times that
-// each takes alone. It is negative if one rung saves work for the other.
+// each takes alone. The extra time is negative if one rung saves work for the other.
 struct JointCost {
     std::size_t step = 0, rung = 0;
     std::size_t other_step = 0, other_rung = 0;
@@ -65,11 +65,12 @@ struct Choice {
 // Returns the predicted cost of the whole chain: the cost of the choice with every effect off, plus
 // the cost of each effect that is on, plus the joint costs. Never negative.
 [[nodiscard]] double cost_s(const Chain& chain, const Choice& choice);
-// Returns the same sum for efforts, in which the choice with every effect off counts as 0.
+// Returns the effort of the whole chain: the effort of each effect that is on, plus the joint
+// efforts. Never negative; 0 if every effect is off and no joint effort applies.
 [[nodiscard]] double effort(const Chain& chain, const Choice& choice);
 
-// Returns the exact form: each step has all effects on up to the first that the scene does not ask
-// for.
+// Returns the exact form. In each step, the effects are on from the lowest up to, but without, the
+// first effect that the scene does not ask for.
 [[nodiscard]] Choice exact_choice(const Chain& chain);
 
 // Returns the sum of the predicted sizes of the effects that are off, not counting effects that the

@@ -19,9 +19,9 @@
 
 namespace stormcellar::accuracy {
 
-// The requested state of an effect. not_asked: the scene does not ask for the effect, so the exact
-// form lacks it too, and leaving it off is no error. For example, a picture without shadows is not
-// wrong.
+// The requested state of an effect. An effect is not_asked if the scene does not ask for it. The
+// exact form then lacks the effect too, and leaving it off is no error. For example, a picture
+// without shadows is not wrong.
 enum class Setting { automatic, on, off, not_asked };
 
 // The source of the predicted size.

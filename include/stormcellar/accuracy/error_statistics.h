@@ -28,8 +28,8 @@ struct ErrorSummary {
     double rms = 0, p95 = 0, p99 = 0, max = 0;
 };
 
-// Returns the figures, or none without errors. The quantile q is the smallest of the errors that at
-// least a share q of the (weighted) errors does not exceed.
+// Returns the figures, or none without errors. The quantile q is the smallest error in the list for
+// which at least a share q of the (weighted) errors is as small or smaller.
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const double> errors);
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const ErrorCluster> clusters);
 

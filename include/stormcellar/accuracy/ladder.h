@@ -1,9 +1,8 @@
 // stormcellar/accuracy/ladder.h -- the table of accuracy against time, with a row for each rung.
 //
-// Each row describes one rung of a step, with everything else exact, compared with the exact form
-// of the chain. fields() serves the Markdown table and the command line's JSON; its keys name their
-// units, as in "value_p99_db". format_table() is for people: it has fewer columns, with words as
-// headings.
+// Each row compares one rung of a step, with all other steps exact, with the exact form of the
+// chain. fields() serves the Markdown table and the command line's JSON; its keys name their units,
+// as in "value_p99_db". format_table() is for people: it has fewer columns, with words as headings.
 //
 // Threads   Rows are plain values and all functions are pure, but for mark_pareto(), which changes
 //           its rows.

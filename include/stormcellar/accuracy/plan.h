@@ -1,7 +1,7 @@
 // stormcellar/accuracy/plan.h -- the planner's choice, and the reason why each effect is on or off.
 //
-// There is a plan even if nothing meets the budget. It then holds the best choice, and its line
-// `shortfall` names that choice, its error and the settings in the way.
+// There is a plan even if nothing meets the budget. The plan then holds the best choice, and
+// `shortfall` names this choice, its error and the settings in the way.
 //
 // Units     Times are in seconds; values are in `value_unit`; the units of sizes are in
 //           stormcellar/accuracy/quantity.h.
@@ -31,8 +31,8 @@ struct Decision {
 };
 
 // The result of measuring a choice on a sample: upper bounds against the exact form of the chain. A
-// bound is none if it was not measured or the sample was too small. In a plan, proven sums replace
-// the missing bounds of proven quantities.
+// bound is none if it was not measured or the sample was too small. If all effects that touch a
+// quantity are proven, a plan replaces its missing bound by the sum of their sizes.
 struct Measured {
     std::optional<double> position_m;
     std::optional<double> value;  // bounds the 99th percentile (accuracy/quantile_bound.h)

@@ -1,15 +1,14 @@
 // stormcellar/accuracy/planner.h -- finds the cheapest choice whose omitted effects stay within the
 // budget.
 //
-// Effects may stay off only while the sum of all predictions left off is within the budget, in
-// every quantity that the budget bounds. An effect that the user set off counts in the sum. The
-// plan holds
+// For every quantity that the budget bounds, the predicted sizes of all effects that are off must
+// add up to at most the limit. An effect that the user set off counts in the sum. Depending on what
+// the budget bounds, the plan holds
 //   for errors             the first of list_candidates() whose sums are within the budget
 //   for errors and a time  the first of these whose predicted cost is also within the time
-//   for a time alone       the most accurate within the time (is_more_accurate()); among equals,
-//   the
-//                          first of list_candidates()
-// If no candidate fits, the plan holds the most accurate within the time, or the first of
+//   for a time alone       the most accurate choice within the time (is_more_accurate()), and the
+//                          first of list_candidates() if several are equally accurate
+// If no candidate fits, the plan holds the most accurate candidate within the time, or the first of
 // list_candidates() if none is within the time. The search is exhaustive, for at most
 // most_candidates choices, so it cannot miss the best.
 //

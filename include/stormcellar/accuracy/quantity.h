@@ -24,7 +24,7 @@ enum class ValueUnit { db, mps, degree, ratio };
 enum class Quantity { position, value, image };
 inline constexpr std::array all_quantities = {Quantity::position, Quantity::value, Quantity::image};
 
-// Returns one of the three figures: the one for `quantity`.
+// Returns the figure for `quantity`.
 template <class Figure>
 [[nodiscard]] const Figure& figure_of(Quantity quantity, const Figure& position,
                                       const Figure& value, const Figure& image) {

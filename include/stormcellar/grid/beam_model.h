@@ -4,8 +4,8 @@
 // Units     Meters and degrees; heights are above mean sea level. The sphere is the sphere of
 //           stormcellar/grid/beam_geometry.h.
 // Range     As the radar reports it. The traced beam takes the range for the optical path
-//           (stormcellar/grid/ray_tracer.h). The two other beams take it for the length of the
-//           path.
+//           (stormcellar/grid/ray_tracer.h). The two other beams take the range for the length of
+//           the path.
 // Cost      path() integrates a traced beam once (some 70 us; 0.2 ms with 300 levels). After that,
 //           each call of the path costs tens of nanoseconds.
 // Threads   Both classes are immutable and cheap to copy; many threads may use one object.
@@ -65,9 +65,10 @@ class BeamModel {
                                           RangeKind range_kind = RangeKind::optical);
 
     [[nodiscard]] BeamPath path(double elevation_deg) const;
-    // Returns the gate that sees a point. The result is in closed form, or iterated until the gate
-    // is within 1 mm of the point. It is NaN if no beam reaches the point. In and below ducts,
-    // where several beams may reach a point, it is also NaN if 100 steps find none.
+    // Returns the gate that sees a point. The flat and the 4/3 earth have a closed form. For a
+    // traced beam, the call iterates until the gate is within 1 mm of the point. The result is NaN
+    // if no beam reaches the point. In and below ducts, where several beams may reach a point, the
+    // result is also NaN if 100 steps find no beam.
     [[nodiscard]] AntennaPoint inverse(EarthPoint point) const;
 
     [[nodiscard]] BeamKind kind() const noexcept { return kind_; }

@@ -46,10 +46,10 @@ class BrickGrid {
     // of their bricks.
     void finish(std::span<BricksWriter> writers);
 
-    // To write bricks anew, call clear() for each, which makes it not seen, then finish_again()
-    // with the writers, which may have written in any order. Afterward the states are in the order
-    // of their bricks, as if the grid had been written at once. Only clamped_count() differs: it
-    // still includes the values of cleared bricks.
+    // To write bricks anew, call clear() for each brick, which makes its cells not seen, and write
+    // the bricks in any order. Then call finish_again() with the writers. Afterward the states are
+    // in the order of their bricks, as if the grid had been written at once. Only clamped_count()
+    // differs, because it still includes the values of cleared bricks.
     void clear(std::size_t brick);
     void finish_again(std::span<BricksWriter> writers);
 

@@ -6,10 +6,9 @@
 // cut and for Interpolation::nearest, only the nearer sweep counts. Only gates that see the place
 // count, even if the method mixes in more gates:
 //   age            s; the weighted mean of the times of the radials of these gates, minus the frame
-//                  time (GridderOptions::frame_time): negative before it, positive after it. The
-//                  age
-//                  is unknown if one of these radials has no time, or if the volume has no time and
-//                  no frame time is given.
+//                  time (GridderOptions::frame_time); negative before the frame time. The age is
+//                  unknown if one of these radials has no time, or if the volume has no time and no
+//                  frame time is given.
 //   height_offset  m; the height of the cell minus the height of the center of the nearest of these
 //                  beams over the same place: positive above the beam
 //   distance       m; the distance in space from the center of the cell to the nearest center of
@@ -25,8 +24,8 @@
 // Threads   Plain values; see CellDetails::put() for writing.
 // Errors    None; an unknown detail is none.
 // Accuracy  Within 470 km, enforced by tests/grid/cell_details_test.cpp: height_offset and distance
-//           are within 0.5 m of the beam model. For linear weights, age and weight equal those of a
-//           cell up to 0.5 m higher or lower, within 2 ms and 1e-5.
+//           are within 0.5 m of the beam model. With linear weights, age and weight equal the age
+//           and weight of a cell up to 0.5 m higher or lower, within 2 ms and 1e-5.
 #pragma once
 
 #include <array>

@@ -15,8 +15,8 @@
 //             solved exactly (grid/place/frame_table.h).
 //   sphere    The integral along the arc of the largest error in scale of the sphere (see
 //             docs/geometry.md): 239 / 573 / 1226 m at 100 / 230 / 460 km and 35 N.
-// A grid in the azimuthal equidistant projection about the site itself is in closed form on every
-// rung, and has only the error of storage.
+// If the grid's projection is azimuthal equidistant about the site itself, every rung uses a closed
+// form, and storage is the only error.
 //
 // Units     Meters and degrees.
 // Threads   Pure functions.
@@ -56,7 +56,7 @@ using ChosenFrame = Chosen<FrameKind::table, FrameKind::sphere>;
 // of reach_m() and the radar's range.
 [[nodiscard]] double frame_error_bound_m(FrameKind kind, double site_latitude_deg,
                                          double reach_m) noexcept;
-// Returns the same bound for all columns of a site's grid.
+// Returns a bound on the whole error of the rung for all columns of a grid, as seen from the site.
 [[nodiscard]] double frame_error_bound_m(FrameKind kind, const SitePosition& site,
                                          const GridSpec& spec);
 

@@ -6,9 +6,9 @@
 // grid is regular either in meters on the plane of its projection, or in degrees of latitude and
 // longitude. stormcellar/grid/projection.h converts between columns and places on the earth.
 //
-// A window of a grid is itself a grid. It has the same projection and center, but its middle is off
-// the center by `offset_*_cells` (stormcellar/grid/grid_window.h). Its columns are exactly at
-// columns of the larger grid, to the bit.
+// A window of a grid is itself a grid (stormcellar/grid/grid_window.h). A window has the projection
+// and the center of the larger grid, but the middle of the window is off the center by
+// `offset_*_cells`. The window's columns are exactly at columns of the larger grid, to the bit.
 //
 // Units     Meters and degrees (WGS84).
 // Threads   Plain data and pure functions.
@@ -25,7 +25,7 @@
 
 namespace stormcellar::grid {
 
-// These numbers are part of the cache's file format, so they do not change.
+// The cache's file format contains the numbers of the enumerators, so they do not change.
 enum class Projection {
     azimuthal_equidistant = 0,  // about the center, by geodesics of WGS84
     latitude_longitude = 1,     // no projection: rows and columns regular in degrees
@@ -102,10 +102,11 @@ struct GridSpec {
     [[nodiscard]] double center_x() const { return 0.5 * (nx - 1) - offset_x_cells; }
     [[nodiscard]] double center_y() const { return 0.5 * (ny - 1) - offset_y_cells; }
     // These return the center of column ix (meters east of the grid's center) and of row iy (meters
-    // north of it), in that plane.
+    // north of the grid's center), with columns of this size.
     [[nodiscard]] double x_m(int ix) const { return (ix - center_x()) * cell_width_m(); }
     [[nodiscard]] double y_m(int iy) const { return (iy - center_y()) * cell_height_m(); }
-    // These return the same from the middle of the grid, which is the origin in pictures.
+    // These return the center of column ix and of row iy in meters from the middle of the grid,
+    // which is the origin in pictures.
     [[nodiscard]] double x_from_middle_m(int ix) const {
         return (ix - 0.5 * (nx - 1)) * cell_width_m();
     }

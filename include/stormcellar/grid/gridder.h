@@ -4,8 +4,8 @@
 // (nearest gate and radial). Then the column is filled upward, linear in height between the beams
 // of sweeps that are adjacent in the VCP. The gridder invents nothing: cells are "not seen" more
 // than half a beam width above the highest and below the lowest sweep, beyond the last gate, in
-// azimuth gaps, and where a cut is missing. docs/geometry.md has the rule for mixed states. This
-// describes the default method; stormcellar/grid/method.h lists others.
+// azimuth gaps, and where a cut is missing. docs/geometry.md has the rule for mixed states. Other
+// methods (stormcellar/grid/method.h) may take more gates.
 //
 // Values are averaged as the method says. Values that wrap (VEL, PHI) are averaged on their circle,
 // unless the method says otherwise.
@@ -46,8 +46,8 @@ struct GridderOptions {
     Method method;
     // The profile of the air for traced beams; none: the exponential reference atmosphere.
     std::optional<RefractivityProfile> profile = std::nullopt;
-    // The rule that chooses among equally good sweeps of an elevation: the newest, or the nearest
-    // to the frame time (stormcellar/grid/sweep_choice.h).
+    // The choice among equally good sweeps of an elevation: the newest, or the nearest to the frame
+    // time (stormcellar/grid/sweep_choice.h).
     enum class Repeats { newest, nearest_in_time };
     Repeats repeats = Repeats::newest;
     // The instant for which the grid is made; none: the start of the volume.

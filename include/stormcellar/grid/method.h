@@ -39,7 +39,8 @@ using ChosenAveraging = Chosen<Averaging::in_db, Averaging::in_db>;
 using ChosenElevation = Chosen<true, false>;
 using ChosenCircle = Chosen<true, false>;
 
-// Returns the extent of cells in a method that Method::name() calls so; point for an unknown name.
+// Returns the cell extent of a method by its name, which Method::name() wrote. Returns point for an
+// unknown name.
 [[nodiscard]] CellExtent cell_extent_of(std::string_view method_name);
 
 // Facts about an interpolation. CONTRIBUTING.md says how to add one.

@@ -10,9 +10,8 @@
 // depends on the arc r from the cell's column to the site:
 //   mean               The weight is 1.
 //   distance_weighted  The weight is exp(-r^2 / L^2) (Zhang, Howard and Gourley 2005; with L = 250
-//                      km Lakshmanan et al. 2006). It is never below 1e-30, so that a cell that
-//                      only
-//                      one far site sees keeps its state.
+//                      km Lakshmanan et al. 2006). The weight is never below 1e-30, so that a
+//                      cell that only one far site sees keeps its state.
 //     both             States mix by the rule of docs/geometry.md: the cell is range folded if that
 //                      state has the largest weight, else no echo if that state outweighs values,
 //                      else the weighted mean of the values. For REF, a site that sees no echo
@@ -124,12 +123,13 @@ struct Mosaic {
                                     std::span<const GridWindow> changed,
                                     const MosaicOptions& options);
 
-// Changes `mosaic` into the same bits as update() returns. Copies nothing, so the cost is the
-// changed bricks and one pass over the table and the states. Needs only the partials whose windows
-// touch `changed`. A mosaic too large for all partials at once can be made stripe by stripe from an
-// empty one, which merge() of no partials returns.
+// Changes `mosaic` into the same bits as update() returns. Copies nothing, so the call costs only
+// the merging of the changed bricks and one pass over the table and the states. The call needs only
+// the partials whose windows touch `changed`. A mosaic too large for all partials at once can be
+// made stripe by stripe from an empty one, which merge() of no partials returns.
 //
-// No view of the mosaic may be in use. Errors: the same as update(), before anything changes.
+// No view of the mosaic may be in use. Errors: the errors of update(); the mosaic is then
+// unchanged.
 [[nodiscard]] Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
                                      std::span<const GridWindow> changed,
                                      const MosaicOptions& options);

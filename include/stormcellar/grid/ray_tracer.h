@@ -4,9 +4,10 @@
 // Model     A ray over the sphere of stormcellar/grid/beam_geometry.h, bent by Bouguer's law: n r
 //           cos(elevation) is the same everywhere along the ray.
 // Range     The optical path. The radar measures time and multiplies it by the speed of light in
-//           vacuum, so its range is the integral of n along the ray. That is longer than the
-//           geometric path: by 56 m at 230 km and 75 m at 460 km, at 0.5 degrees in the exponential
-//           reference atmosphere. RangeKind::geometric uses the geometric path, as textbooks do.
+//           vacuum, so its range is the integral of n along the ray. The optical path is longer
+//           than the geometric path: by 56 m at 230 km and 75 m at 460 km, at 0.5 degrees in the
+//           exponential reference atmosphere. RangeKind::geometric uses the geometric path, as
+//           textbooks do.
 // Method    Runge-Kutta of order 4 for the height, the sine of the elevation and the arc. Steps are
 //           at most 2 km and end at each border between layers and at each turning point. Hermite
 //           cubics interpolate between the ends of steps.
@@ -55,7 +56,7 @@ class TracedRay {
     // ray has no nodes and all results are NaN.
     TracedRay(const RefractivityProfile& profile, const RayOptions& options);
 
-    // Both return NaN where the ray does not go.
+    // at() and over() return NaN where the ray does not go.
     [[nodiscard]] EarthPoint at(double range_m) const noexcept;
     [[nodiscard]] BeamGeometry::BeamPoint over(double arc_m) const noexcept;
 

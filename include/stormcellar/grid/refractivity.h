@@ -55,7 +55,8 @@ struct RefractivityLevel {
 
 class RefractivityProfile {
   public:
-    // The limits of a profile. Nobody ever measured 2 N-units per meter over several meters.
+    // The limits of a profile. No measured gradient over several meters comes near 2 N-units per
+    // meter.
     static constexpr double least_height_m = -500;
     static constexpr double greatest_height_m = 100'000;
     static constexpr double highest_first_level_m = 9000;

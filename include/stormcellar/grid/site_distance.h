@@ -4,8 +4,8 @@
 // Merging (stormcellar/grid/mosaic.h) needs the square of the arc to each column, which is smooth.
 // So the constructor solves geodesics only at nodes, which neighboring patches of columns share;
 // inside a patch the square is a polynomial of second degree in both directions through the patch's
-// nodes. Nodes are 8, 4 or 2 columns apart, whichever is the widest that keeps the accuracy; if
-// even 2 is too wide, every column is a node. The constructor checks patches where their error
+// nodes. Nodes are 8, 4 or 2 columns apart: the widest spacing that keeps the accuracy. If even 2
+// columns are too wide, every column is a node. The constructor checks patches where their error
 // peaks: all patches, or about one in 16 if there are many.
 //
 // A window of 460 km about a site at 1 km takes 15,000 geodesics (some 20 ms) and 0.1 MiB, so make

@@ -3,9 +3,8 @@
 // A place belongs to the radial whose azimuth is nearest. If neighboring radials are more than one
 // and a half spacings apart, each covers half a spacing, and the gap between was not seen. Along
 // the radial, a place belongs to the gate whose center is nearest, by the 4/3-earth beam at the
-// median elevation of the sweep's radials. Radials measured more than half a beam off that
-// elevation are left out, as in grids. Nothing is mixed or quantized: the result is the value of
-// one gate.
+// median elevation of the sweep's radials. Radials measured more than half a beam off the median
+// are left out, as in grids. Nothing is mixed or quantized: the result is the value of one gate.
 //
 // Units     Meters and degrees; values are in the unit of the moment. Heights are above mean sea
 //           level. Places are azimuth and arc from the antenna (stormcellar/grid/site_frame.h).
@@ -31,10 +30,10 @@
 
 namespace stormcellar::grid {
 
-// Selects a sweep of a volume: by its number, if that is given; else the sweep whose fixed angle is
-// nearest to the elevation, at most `farthest_deg` from it; without an elevation, the lowest sweep.
-// If several sweeps have one angle (SAILS, split cuts), the rules of choose_sweeps() select the
-// newest that is as good as the others, or the nearest to a time.
+// Selects a sweep of a volume. If `number` is given, it selects the sweep. Otherwise the sweep
+// whose fixed angle is nearest to the elevation is selected, at most `farthest_deg` away, or the
+// lowest sweep if no elevation is given. If several sweeps have this angle (SAILS, split cuts), the
+// rules of choose_sweeps() select one of them, where `nearest_to` is the time.
 struct SweepWish {
     static constexpr double farthest_deg = 1;
     std::optional<double> elevation_deg{};
@@ -77,7 +76,7 @@ class SweepLookup {
   public:
     // Finds the sweep and prepares it. The object shares ownership of the volume. Errors: not_found
     // if no sweep holds the moment, the numbered sweep does not hold it, or no sweep is near the
-    // elevation; except in the first case, the message lists the sweeps that hold it.
+    // elevation. In the last two cases, the message lists the sweeps that hold the moment.
     [[nodiscard]] static Result<SweepLookup> find(std::shared_ptr<const level2::Volume> volume,
                                                   const SitePosition& site, level2::Moment moment,
                                                   double half_beam_deg, const SweepWish& wish);

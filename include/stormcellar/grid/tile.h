@@ -1,7 +1,7 @@
 // stormcellar/grid/tile.h -- tiles of columns, and their bounds as the site sees them.
 //
 // A grid is filled tile by tile, because neighboring columns need gates that are close together in
-// memory, and because a sweep that holds only no echo over a whole tile need not be sampled there.
+// memory, and because a sweep that shows no echo anywhere over a tile need not be sampled there.
 //
 // Units     Degrees and meters.
 // Threads   Plain values and pure functions.
