@@ -1,18 +1,20 @@
 // accuracy/governor.h -- makes a plan and checks on the scene itself that the plan keeps the
 // budget.
 //
-// Predictions from a sample can be wrong, and effects can act together. So govern() takes the
-// choices whose predicted sums are within the budget, in order of rising effort, has the caller's
-// `measure` measure each, and returns the first that meets the budget. A choice meets a limit
+// Predictions from a sample can be wrong, and effects can act together. So govern() goes through
+// the choices whose predicted sums are within the budget, in order of rising effort. It calls the
+// caller's `measure` for each choice and returns the first choice that meets the budget. A choice
+// meets a limit
 //   by proof       if every effect left off that touches the quantity has a proven bound (a sample
 //                  that shows no effect is no proof), or
 //   by measuring   if the measured upper bound is within the limit.
 // A choice that is proven in every bounded quantity is not measured. If the sample is too small for
 // a bound, the limit is not met, so that no choice passes by luck. At most `most_measured` choices
-// are tried. If there are more, the most accurate of all is tried last.
+// are tried. If there are more choices, the most accurate of all is tried last.
 //
 // The time for measuring counts toward a budget's time: a choice is taken only if its cost plus the
-// time measured so far is within it. A budget with only a time is planned and not measured.
+// time spent on measuring so far is within the budget's time. For a budget with only a time,
+// nothing is measured.
 //
 // Units     As in stormcellar/accuracy/budget.h.
 // Threads   Calls `measure` from the calling thread, one call at a time.

@@ -31,8 +31,8 @@ struct BoundRequest {
                                                          const BoundRequest& request);
 
 // Bounds errors in clusters, such as the columns of a grid. Only the clusters are independent; all
-// cells of one cluster may be off together. Clusters may be empty, may differ in size, may be
-// larger the more they are off, and may be drawn without replacement. The sample may favor some
+// cells of one cluster may be off together. Clusters may be empty and may differ in size. Their
+// size may depend on their errors. They may be drawn without replacement. The sample may favor some
 // clusters:
 //   strata        Fix beforehand how many clusters to draw from each stratum; weight = (clusters in
 //                 the stratum) / (clusters drawn from it).
@@ -40,19 +40,19 @@ struct BoundRequest {
 //                 such as the number of cells in which the cheap form has a value; weight = 1 /
 //                 size.
 // `most_weight` is the largest possible (weight * errors) of any cluster that could have been
-// drawn. It must be known beforehand and not taken from the sample. Without weights it is the
-// number of levels. If a cluster exceeds `most_weight`, there is no bound.
+// drawn. Pass a number that is known beforehand, not one taken from the sample; for columns with
+// weight 1, pass the number of levels. If a cluster exceeds `most_weight`, there is no bound.
 //
-// The method is a wager that t is at least the quantile. A cluster with weight w and m errors, of
-// which k exceed t, multiplies the stake by 1 - l w (k - (1 - quantile) m). If t were below the
-// quantile, the expected stake would not grow (for strata by the inequality of the means). So by
-// Markov's inequality the stake reaches 1 / (1 - confidence) with a probability of at most 1 -
-// confidence. The stake is shared among eight values of l. (After Waudby-Smith and Ramdas 2024,
-// "Estimating means of bounded random variables by betting".)
+// The method bets that t is at least the quantile. A cluster with weight w and m errors, of which k
+// exceed t, multiplies the stake by 1 - l w (k - (1 - quantile) m), where l is a constant. If t
+// were below the quantile, the expected stake would not grow (for strata by the inequality of the
+// means). So by Markov's inequality the stake reaches 1 / (1 - confidence) with a probability of at
+// most 1 - confidence. The stake is shared among eight values of l. (After Waudby-Smith and Ramdas
+// 2024, "Estimating means of bounded random variables by betting".)
 //
 // The 99th percentile at 99.9 % needs 902 clusters whose (weight * errors) is most_weight, or ten
-// times as many with a tenth of that. So draw columns in proportion to the number of errors that
-// they may hold.
+// times as many clusters with a tenth of most_weight. So draw columns in proportion to the number
+// of errors that they may hold.
 [[nodiscard]] std::optional<double> quantile_upper_bound(std::span<const ErrorCluster> clusters,
                                                          double most_weight,
                                                          const BoundRequest& request);

@@ -12,13 +12,16 @@ namespace stormcellar::accuracy {
 
 // Returns the seconds of a monotonic clock.
 [[nodiscard]] double monotonic_s();
-// Returns the processor time of the calling thread, which other work of the machine does not enter.
+// Returns the processor time of the calling thread in seconds. Other work of the machine does not
+// count.
 [[nodiscard]] double thread_s();
 
 struct Timing {
-    double first_s = 0;   // the first run, which also makes everything that later runs reuse
-    double least_s = 0;   // the fastest later run, or the first run if there is only one
-    double median_s = 0;  // median of the same runs; of an even number, the mean of the middle two
+    double first_s = 0;  // the first run, which also makes everything that later runs reuse
+    double least_s = 0;  // the fastest later run, or the first run if there is only one
+    // Median of the later runs, or the first run if there is only one. For an even number of runs,
+    // the mean of the middle two.
+    double median_s = 0;
 };
 
 // Runs each piece of work `rounds` times (0 counts as 1). Each round runs every piece once, so that

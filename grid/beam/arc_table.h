@@ -35,8 +35,8 @@ class ArcTable {
     }
     // Returns the value at the arc index * step_m.
     [[nodiscard]] float operator[](std::size_t index) const { return values_[index]; }
-    // Returns the place of an arc, which must be at least 0. A table can evaluate it only if it has
-    // more than index + 1 entries.
+    // Returns the place of an arc, which must be at least 0. at() requires a table with more than
+    // index + 1 entries.
     [[nodiscard]] static ArcPlace place_of(float arc_m) {
         const float along = arc_m / static_cast<float>(step_m);
         const auto index = static_cast<std::size_t>(along);

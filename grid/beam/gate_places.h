@@ -1,7 +1,7 @@
 // grid/beam/gate_places.h -- where the centers of a sweep's gates are.
 //
-// For each gate, the place of the gate is a parabola in the elevation, through three places: at the
-// sweep's elevation, half a beam below it and half a beam above it.
+// The place of each gate is a parabola in the elevation, through three places: at the sweep's
+// elevation, half a beam below it and half a beam above it.
 //
 // Accuracy  0.02 m of the beam model, for radials up to half a beam off, ranges to 470 km,
 //           elevations of -5 to 60 degrees and the 4/3 earth (enforced by

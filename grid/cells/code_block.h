@@ -22,8 +22,8 @@ struct ColumnBox {
 
 class CodeBlock {
   public:
-    // Returns the state of all columns of the box in the bricks at `bz` if those are uniform with
-    // one state, else none. Columns beyond the grid count as not seen.
+    // Returns the state that all cells of the box have at brick height `bz` if all bricks there are
+    // uniform with one state, else none. Columns beyond the grid count as not seen.
     [[nodiscard]] static std::optional<CellStatus> uniform_status(const BrickView& view,
                                                                   const ColumnBox& box, int bz);
     void read(const BrickView& view, const ColumnBox& box, int bz);

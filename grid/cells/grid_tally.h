@@ -42,12 +42,12 @@ class GridTally {
     [[nodiscard]] std::uint64_t grids() const { return grids_; }
     // Returns the tally of the columns' greatest values; the index is iy * nx + ix.
     [[nodiscard]] const ValueTally& columns() const { return columns_; }
-    // Returns the tally of the cells' values; the index is GridSpec::index(). None if cells are not
-    // counted.
+    // Returns the tally of the cells' values, or none if cells are not counted. The index is
+    // GridSpec::index().
     [[nodiscard]] const std::optional<ValueTally>& cells() const { return cells_; }
     [[nodiscard]] std::uint32_t tops_from(std::size_t column, std::size_t level) const;
 
-    // to_bytes() returns all counts and sums, bytes() bytes in all. from_bytes() reads them back.
+    // to_bytes() writes all counts and sums into bytes() bytes. from_bytes() reads them back.
     // Errors: truncated, corrupt.
     [[nodiscard]] std::vector<std::byte> to_bytes() const;
     [[nodiscard]] Status from_bytes(std::span<const std::byte> bytes);

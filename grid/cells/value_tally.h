@@ -52,11 +52,12 @@ class ValueTally {
     [[nodiscard]] double greatest_dbz(std::size_t place) const;
     [[nodiscard]] double mean_dbz(std::size_t place) const;       // mean of the values in dBZ
     [[nodiscard]] double mean_z_as_dbz(std::size_t place) const;  // mean of the values as Z, in dBZ
-    // Returns the middle of the first bin up to which at least this share of the values is.
+    // Returns the middle of the lowest bin for which at least this share of the values is in or
+    // below the bin.
     [[nodiscard]] double quantile_dbz(std::size_t place, double share) const;
 
-    // append_to() appends all counts and sums, bytes_of() bytes in all. take_from() reads and
-    // removes as many bytes from the front. Errors: corrupt, for a greatest value that no grid can
+    // append_to() appends bytes_of() bytes, which hold all counts and sums. take_from() reads these
+    // bytes at the front and removes them. Errors: corrupt, for a greatest value that no grid can
     // have.
     void append_to(std::vector<std::byte>& bytes) const;
     [[nodiscard]] Status take_from(std::span<const std::byte>& bytes);

@@ -2,9 +2,9 @@
 //
 // Between the beams of adjacent sweeps, a cell is blended from both, linear in height, or takes the
 // nearer beam (Interpolation::nearest). Elsewhere (below the lowest beam, above the highest, and
-// between sweeps with a lost cut between them), a cell takes the sample of the nearer beam if it is
-// within the edges of that beam; if not, it is not seen. grid/sweep/mixture.h has the rule for a
-// blend of two samples.
+// between sweeps with a lost cut between them), a cell takes the sample of the nearer beam if the
+// cell is within the edges of that beam; if not, the cell is not seen. grid/sweep/mixture.h has the
+// rule for a blend of two samples.
 //
 // Threads   Pure functions.
 #pragma once
@@ -32,8 +32,8 @@ struct BeamSample {
 void fill_column(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                  ChosenInterpolation interpolation, std::span<CellStatus> status,
                  std::span<float> values);
-// Does the same for callers that know once for all columns whether the nearer beam counts and
-// whether the moment wraps. The loops then test neither.
+// Fills a column like fill_column(). The template parameters say whether the nearer beam counts
+// alone and whether the moment wraps, so that the loops need not test it.
 template <bool nearest, bool circular>
 void fill_column_as(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                     std::span<CellStatus> status, std::span<float> values);

@@ -10,8 +10,9 @@
 //                                 axis is the difference in height divided by the beam's rise per
 //                                 degree.
 // Elsewhere (below the lowest beam, above the highest, beside a lost cut) the nearer sweep counts
-// within its edges; beyond them the height is not seen. A cell with an extent is the mean over four
-// heights, in the middles of the quarters of its level. A level reaches half way to its neighbors.
+// within its edges; beyond the edges the height is not seen. A cell with an extent is the mean over
+// four heights, which are the middles of the quarters of its level. A level reaches half way to its
+// neighbors.
 //
 // Threads   A MixedColumn may be used by one thread at a time.
 #pragma once

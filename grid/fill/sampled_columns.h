@@ -1,8 +1,8 @@
 // grid/fill/sampled_columns.h -- fills the columns of a tile from one gate of each sweep.
 //
-// First it goes sweep by sweep over all columns, so that the tables and gates of a sweep stay in
-// the processor's cache. A column leaves this pass when a beam is above its top level. Then each
-// column is filled (grid/fill/column.h).
+// The first pass goes sweep by sweep over all columns, so that the tables and gates of a sweep stay
+// in the processor's cache. A column leaves this pass when a beam is above its top level. The
+// second pass fills each column (grid/fill/column.h).
 //
 // Threads   One object for each thread.
 #pragma once

@@ -3,9 +3,9 @@
 //
 // Units     Meters along the sphere; degrees; azimuths are clockwise from north, [0, 360).
 // Accuracy  Against the same sphere in 113-bit floats (tests/grid/frame_ladder_test.cpp): 1e-7 m on
-//           the sphere, also close to the site and up to the antipode; in the plane of azimuth and
-//           arc, which stretches the surroundings of the antipode, the same up to 19,000 km.
-//           Against WGS84: sphere_error_bound_m() (stormcellar/grid/frame_ladder.h).
+//           the sphere, also close to the site and up to the antipode. In the plane of azimuth and
+//           arc, which stretches the surroundings of the antipode, 1e-7 m up to 19,000 km. Against
+//           WGS84: sphere_error_bound_m() (stormcellar/grid/frame_ladder.h).
 // Threads   A SphereFrame is immutable.
 #pragma once
 

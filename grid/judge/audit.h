@@ -18,8 +18,8 @@
 // Result    The RMS and the mean of grid minus gate in the unit of the moment, for each sweep and
 //           class of ranges, over gates that have a value where the grid also has one. Separately,
 //           how often the statuses agree. The result measures this grid against this volume and is
-//           no bound: the grid smooths gates between levels and columns, including their noise, and
-//           neighboring gates of a radar differ by 2.6 dB.
+//           no bound. The grid smooths gates between levels and columns, including the gates'
+//           noise, and neighboring gates of a radar differ by 2.6 dB.
 // Cost      Half the time of gridding, in proportion to the number of gates. For 460 x 460 x 32
 //           cells with one thread of a busy machine, 19 to 29 ms about the site, and 24 to 39 ms
 //           away from the site.
@@ -46,7 +46,7 @@ struct AuditOptions {
     double azimuth_step_deg = 5;  // between sampled radials; a very small step takes all
     double range_step_m = 1500;   // between sampled gates; a very small step takes all
     int threads = 1;
-    // Columns made for the site, the spec of the grid and audit_reach_m. If null, the call makes
+    // Columns made for the site, the spec of the grid and audit_reach_m. If null, audit() makes
     // them.
     const SiteColumns* columns = nullptr;
 };

@@ -6,7 +6,8 @@
 // growth and decay of the echo and the noise of the gates, in the same way for each rung.
 //
 // Units     Errors of REF in dB, over cells that both grids have seen (value or no echo) and that
-//           have 5 dBZ or more in at least one. No echo, and anything below 0 dBZ, counts as 0 dBZ.
+//           have 5 dBZ or more in at least one of the grids. No echo, and anything below 0 dBZ,
+//           counts as 0 dBZ.
 // Threads   Pure functions.
 #pragma once
 

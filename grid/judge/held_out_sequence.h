@@ -34,7 +34,7 @@ inline constexpr std::size_t least_sequence = 3;
 
 struct HeldOutRow {
     std::string name;                  // name of the held-out volume
-    double before_s = 0, after_s = 0;  // time from the middle of each neighbor to its middle
+    double before_s = 0, after_s = 0;  // between its middle time and each neighbor's
     HeldOut held_out;
 };
 

@@ -8,21 +8,22 @@
 //   elevation_deg  B's echo is raised, by range times this angle: its elevations are too large.
 //   time_s         B's clock is late: its time stamps are too early by this much, so its echo is
 //                  displaced along the motion. This needs a motion.
-// Two sites cannot tell which site is at fault. With three sites, it is the site that appears in
-// both faulty pairs.
+// A comparison of two sites cannot tell which site is at fault. With three sites, the faulty site
+// is in both pairs that differ.
 //
 // Method    Least squares of A's cells minus B, where B is read (trilinear) at the places to which
-//           the faults move the cells, over the derivatives of the cells by each fault. Gauss and
-//           Newton with B evaluated anew in each step, Huber's weights, and the jackknife over
-//           blocks of 24 km (grid/judge/robust_fit.h). docs/geometry.md has the formulas.
-// Cells     Every n-th column, at all levels, from `least_range_m` (clutter) to `greatest_range_m`
-//           of both sites. A cell counts if A has a value there and B has values in it and in its
-//           six neighbors. The mean of A and B must be at least `least_dbz`, so that no site's
-//           detection limit decides which cells count.
+//           the faults move the cells, over the derivatives of the cells by each fault. The fit
+//           uses Gauss and Newton with B evaluated anew in each step, Huber's weights, and the
+//           jackknife over blocks of 24 km (grid/judge/robust_fit.h). docs/geometry.md has the
+//           formulas.
+// Cells     Every n-th column, at all levels, at ranges from `least_range_m` (nearer cells have
+//           clutter) to `greatest_range_m` from both sites. A cell counts if A has a value there
+//           and B has values in it and in its six neighbors. The mean of A and B must be at least
+//           `least_dbz`, so that no site's detection limit decides which cells count.
 // Untold    A fault that the cells do not determine has no estimate: if there are too few cells, if
 //           the sites hardly see the same (correlation), or if faults have the same effect there.
-//           Without a motion, this is the case for the time, and also for azimuth and elevation if
-//           the sites looked minutes apart.
+//           Without a motion, the time has no estimate, and azimuth and elevation have none either
+//           if the sites looked minutes apart.
 // Grids     The grids may be windows of one domain or differ altogether, because places are
 //           compared through the earth and columns through each grid's projection. Reflectivity
 //           only.
@@ -82,8 +83,9 @@ struct SiteComparison {
     double apart_s = 0;       // median time between the two looks at a cell
 };
 
-// Compares two sites. If there is too little echo, the estimates are untold, without an error.
-// Errors: bad_argument for invalid options, such as NaN, or details of another size.
+// Compares two sites. If there is too little echo, no fault has an estimate (`untold` says why);
+// this is not an error. Errors: bad_argument for invalid options, such as NaN, or details of
+// another size.
 [[nodiscard]] Result<SiteComparison> compare_sites(const SiteGrid& a, const SiteGrid& b,
                                                    const ComparisonOptions& options = {});
 

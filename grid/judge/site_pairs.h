@@ -1,5 +1,5 @@
 // grid/judge/site_pairs.h -- pairs cells of one site's grid with the places where another site
-// shows the same echo, depending on its faults.
+// shows the same echo, as a function of that other site's faults.
 //
 // Only grid/judge/site_comparison.cpp uses this; its header says which cells count.
 //

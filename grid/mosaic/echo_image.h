@@ -35,7 +35,8 @@ struct EchoImageOptions {
 };
 [[nodiscard]] EchoImage echo_image(const BrickView& view, const EchoImageOptions& options);
 
-// Makes each pixel from four: the mean of the seen pixels. It is seen if at least half are seen.
+// Returns an image with one pixel for each four: the mean of the seen pixels among them. The new
+// pixel is seen if at least half of them are seen.
 [[nodiscard]] EchoImage halved(const EchoImage& image);
 
 }  // namespace stormcellar::grid

@@ -2,7 +2,7 @@
 //
 // A cell is treated as a parallelogram in the plane of azimuth and arc about the site. Its sides
 // reach half way to the neighboring columns. In a grid of one column or one row, the missing side
-// follows from the other side, or from the spacing of the spec.
+// is computed from the other side, or from the spacing of the spec.
 //
 // Accuracy  Within 460 km, for cells of 500 m to 10 km, the gaps and overlaps between outlines of
 //           neighboring cells are less than 0.1 % of a cell. The rows of a latitude-longitude grid

@@ -48,23 +48,23 @@ struct SourceWish {
     std::optional<UtcTime> start = std::nullopt;
 };
 
-// Returns the decode options for the wish. The station in the file name counts if the file names
-// none.
+// Returns the decode options for the wish. If the file itself names no station, the station in
+// `file_name` counts.
 [[nodiscard]] level2::DecodeOptions decode_options_of(const SourceWish& wish,
                                                       const std::string& file_name);
 
-// Decodes the bytes of a file. With `choose_cuts`, decodes only these cuts, but all sweeps if the
-// file has no pattern or several volumes, or if the cuts hold none of the moments. Errors: the
-// errors of decoding, with the name of the file.
+// Decodes the bytes of a file. With `choose_cuts`, decodes only the chosen cuts; but decodes all
+// sweeps if the file has no pattern or several volumes, or if the chosen cuts hold none of the
+// moments. Errors: the errors of decoding, with the name of the file.
 [[nodiscard]] Result<level2::Decoded> decode_wished(std::span<const std::byte> bytes,
                                                     const std::string& file,
                                                     const level2::DecodeOptions& options,
                                                     const ChooseCuts& choose_cuts);
 
 // Returns the volume with the wanted number or start, else the first that holds one of the moments,
-// else the first. Errors, with the name of the file: bad_argument if it has fewer volumes;
-// not_found if none of several volumes has that start, or if the position of the radar is unknown;
-// the errors of `place`.
+// else the first. Errors, with the name of the file: bad_argument if the wanted number is above the
+// number of volumes; not_found if none of several volumes has the wanted start, or if the position
+// of the radar is unknown; the errors of `place`.
 [[nodiscard]] Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& file,
                                                const SourceWish& wish);
 

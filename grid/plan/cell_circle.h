@@ -4,8 +4,9 @@
 // VEL is on a circle of twice the Nyquist velocity and PHI on a circle of 360 degrees, so their
 // values differ by the shorter way around. Sweeps may have different Nyquist velocities. A cell
 // uses the circles of the two sweeps whose beams (4/3 earth) pass next above and below it. If these
-// circles differ, the larger of the two differences counts, so that no difference looks smaller
-// than it is. If a circle is unknown, and for all other moments, values differ as plain numbers.
+// circles differ, the circle that gives the larger difference counts, so that no difference looks
+// smaller than it is. If a circle is unknown, and for all other moments, values differ as plain
+// numbers.
 //
 // Threads   One thread for each object.
 #pragma once

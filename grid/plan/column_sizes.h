@@ -20,10 +20,11 @@
 namespace stormcellar::grid {
 
 // Returns the sizes. `base` is the grid by the default method, `stack` has its sweeps, and
-// `geometry` its columns. If a column or a neighbor of it holds values, its size is twice their
-// number plus four, at most all levels, because other methods bring in values from neighboring
-// columns. If neither holds values but a gate with a value is near, the size is the number of
-// levels from the sweep below that gate to the sweep above it.
+// `geometry` its columns. Let `most` be the largest number of values in the column or one of its
+// eight neighbors. If `most` is above 0, the size is 2 * most + 4, at most all levels, because
+// other methods bring in values from neighboring columns. If `most` is 0 but gates with values are
+// near, the size is the number of levels that these gates may fill: from the sweep below a gate to
+// the sweep above it.
 [[nodiscard]] std::vector<std::uint16_t> column_sizes(const Grid& base, const SweepStack& stack,
                                                       const ColumnGeometry& geometry);
 

@@ -49,16 +49,17 @@ inline constexpr std::string_view circle = "circle";
 // radial's elevation, linear along the column at a point, in the unit of the moment, on its circle.
 [[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
 
-// Returns the choice with which others are compared: the last rung of every step, but the table as
-// the frame. A geodesic for each column differs from the table by a millimeter and takes half a
-// second.
+// Returns the choice with which other choices are compared: the last rung of every step, except
+// that the frame is the table. A geodesic for each column differs from the table by a millimeter
+// and takes half a second.
 [[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
 
-// Returns the choice to measure instead: the same, but the table in place of geodesics.
+// Returns the choice to measure in place of `choice`: its frame is the table if it was geodesics;
+// all else is equal.
 [[nodiscard]] SceneChoice as_measured(SceneChoice choice);
 
 // Returns the extra effort (stormcellar/accuracy/effect.h) of these two rungs together, beyond the
-// sum of both alone.
+// sum of their efforts.
 [[nodiscard]] double joint_effort(Interpolation interpolation, CellExtent cell);
 
 // Returns the choice that is used without a budget: usual_choice(), except that cells are areas if

@@ -1,13 +1,14 @@
 // grid/plan/grid_ladder.h -- measures the time and the error of each rung on one scene.
 //
-// Each rung of each step has a row. Its error is against the exact form of the chain, with every
-// other step exact, over sampled columns. Its time is the time of a whole grid with the other steps
-// at their default, which is what a user gains or pays by changing this rung. Rows of the step
-// "chain" are whole chains, including the default methods, with their own times and errors.
+// Each rung of each step has a row. The row's error is against the exact form of the chain, with
+// every other step exact, over sampled columns. The row's time is the time of a whole grid with the
+// other steps at their default, so a difference of two rows is what a user pays for the better
+// rung. Rows of the step "chain" are whole chains, including the default methods, with their own
+// times and errors.
 //
-// Position errors of the frame cover the sampled columns; position errors of the beam cover the
-// gates of the sweeps, and of the elevation the radials. Times are single-threaded unless the scene
-// has more threads.
+// Position errors of the frame cover the sampled columns, position errors of the beam cover the
+// gates of the sweeps, and position errors of the elevation cover the radials. Times are
+// single-threaded unless the scene has more threads.
 //
 // Threads   As for the scene (grid/plan/grid_scene.h).
 #pragma once
@@ -37,8 +38,8 @@ struct NamedChain {
     std::string name;
     SceneChoice choice;
 };
-// Returns nearest, linear, ..., area, for REF also area with the other averaging, and the exact
-// chain.
+// Returns the chains nearest, linear, ..., area and exact; for REF also area with the other
+// averaging.
 [[nodiscard]] std::vector<NamedChain> named_chains(level2::Moment moment, Averaging averaging);
 
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(GridScene& scene,

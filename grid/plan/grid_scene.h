@@ -3,7 +3,7 @@
 //
 // Geometries and prepared sweeps serve several methods, so a scene keeps them. Columns are drawn in
 // proportion to the number of their cells that may hold a value, so that few draws are wasted on
-// clear air. If there are few such columns, all of them are taken.
+// clear air. If few columns may hold a value, all of these are taken.
 //
 // Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
@@ -105,8 +105,8 @@ class GridScene {
         return sizes_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(spec_.nx) +
                       static_cast<std::size_t>(ix)] > 0;
     }
-    // tiles() returns all tiles of the grid. fill() returns the seconds it takes to fill some of
-    // them (with the table as frame).
+    // tiles() returns all tiles of the grid. fill() fills the given tiles, with the table as frame,
+    // and returns the seconds that took.
     [[nodiscard]] std::span<const Tile> tiles() const;
     [[nodiscard]] Result<double> fill(const Method& method, std::span<const Tile> tiles);
 

@@ -2,9 +2,9 @@
 //
 // The table finds the nearest radial, the two on either side of an azimuth, or all within a reach.
 // Where neighboring radials are more than one and a half spacings apart, there is a gap: each of
-// the two reaches half a spacing into it, and no radial sees the rest. Pairs and neighborhoods do
-// not extend across gaps. If radials have the same azimuth, the later one in the given order
-// counts. Radials may be in any order and number, and may wrap around north.
+// the two radials reaches half a spacing into the gap, and no radial sees the rest. Pairs and
+// neighborhoods do not extend across gaps. If radials have the same azimuth, the later one in the
+// given order counts. Radials may be in any order and number, and may wrap around north.
 //
 // A lookup is exact: it starts from a table of quarter degrees and takes a step or two along
 // sorted boundaries.
@@ -30,7 +30,8 @@ class AzimuthTable {
     // There must be one azimuth in [0, 360) for each radial. The spacing is above 0.
     AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg);
 
-    // Returns the position in the constructor's list, or none. The azimuth must be in [0, 360).
+    // Returns the position of the nearest radial in the constructor's list, or none if no radial
+    // sees the azimuth, which must be in [0, 360).
     [[nodiscard]] int find(float azimuth_deg) const { return radials_[sector_at(azimuth_deg)]; }
 
     // The nearest radial and its neighbor on the other side of the azimuth. `other_weight`, in [0,

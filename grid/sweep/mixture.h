@@ -59,7 +59,8 @@ struct CellResult {
 
 // Blends two samples; `weight_b`, in [0, 1], is the share of `b`.
 [[nodiscard]] CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blending);
-// Does the same for callers that know is_circular(blending) at compile time.
+// Returns blend(), for callers that know at compile time whether the moment wraps: `circular` must
+// equal is_circular(blending).
 template <bool circular>
 [[nodiscard]] CellResult blend_as(const Sample& a, const Sample& b, float weight_b,
                                   Blending blending);
@@ -81,7 +82,7 @@ class Mixture {
         is_circular(blending) ? add_as<true>(sample, weight, blending)
                               : add_as<false>(sample, weight, blending);
     }
-    // Does the same for callers that know is_circular(blending) at compile time.
+    // Adds a sample like add(). `circular` must equal is_circular(blending).
     template <bool circular>
     void add_as(const Sample& sample, float weight, Blending blending);
     // Adds `count` samples of one status, each with weight 1. `sum` is the sum of their values, or

@@ -49,7 +49,8 @@ class PolarSweep {
     [[nodiscard]] Sample sample(float azimuth_deg, ArcPlace place) const {
         return sample(radial_at(azimuth_deg), place);
     }
-    // Does the same for callers that already have `beam`, which is beam().at(place).
+    // Returns the nearest gate of the radial at `position`, for callers that already have `beam`,
+    // which is beam().at(place).
     [[nodiscard]] Sample sample(int position, ArcPlace place, const BeamAtArc& beam) const {
         return gates_.sample(position, place, beam.gate_and_half);
     }

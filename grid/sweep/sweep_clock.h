@@ -26,7 +26,7 @@
 
 namespace stormcellar::grid {
 
-// No antenna turns faster. A higher speed counts as unknown.
+// No antenna turns faster than this. A higher speed counts as unknown.
 inline constexpr double fastest_turn_deg_per_s = 360;
 
 // Returns one SweepTime for each sweep that has times, in order.
@@ -35,9 +35,9 @@ inline constexpr double fastest_turn_deg_per_s = 360;
 
 class SweepClock {
   public:
-    // Returns none if there are no sweeps, or if a sweep is more than 10 minutes from `middle`, the
-    // middle of its volume. Such times are wrong, and would move echo too far. The caller then uses
-    // one time for the whole volume.
+    // Returns the clock of a volume. Returns none if there are no sweeps, or if a sweep is more
+    // than 10 minutes from `middle`, the middle time of the volume. Such times are wrong, and would
+    // move echo too far. The caller then uses one time for the whole volume.
     [[nodiscard]] static std::optional<SweepClock> of_volume(std::span<const SweepTime> sweeps,
                                                              BeamGeometry beam, UtcTime origin,
                                                              UtcTime middle);
