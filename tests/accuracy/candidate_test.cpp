@@ -46,8 +46,8 @@ TEST(Candidate, EffortGoesBeforeWhatWasMeasured) {
     chain.steps[2].effects[0].effort = 3;  // and 0.5 s
     const auto candidates = list_candidates(chain);
     ASSERT_TRUE(candidates);
-    // Without effort comes first {0, 1, 0}, then {0, 0, 0}, which has one more effect off. Measured
-    // costs do not count.
+    // Both {0, 1, 0} and {0, 0, 0} have no effort. {0, 0, 0} has one more effect off, so it comes
+    // second. Measured costs do not count.
     EXPECT_EQ((*candidates)[0].choice.rungs, (std::vector<std::size_t>{0, 1, 0}));
     EXPECT_EQ((*candidates)[2].choice.rungs, (std::vector<std::size_t>{1, 1, 0}));
     EXPECT_EQ(candidates->back().effort, 6);

@@ -114,9 +114,9 @@ TEST(Chain, JointCostsAddToThoseOfEachRung) {
     EXPECT_DOUBLE_EQ(cost_s(chain, {{1, 2, 1}}), 4.6);
     chain.joint_costs = {{1, 2, 2, 1, 0.25}, {0, 1, 1, 1, -9}};
     EXPECT_EQ(error_of(chain), "");
-    EXPECT_DOUBLE_EQ(cost_s(chain, {{1, 2, 0}}), 4.1) << "one of the two alone";
+    EXPECT_DOUBLE_EQ(cost_s(chain, {{1, 2, 0}}), 4.1) << "the joint cost needs both rungs";
     EXPECT_DOUBLE_EQ(cost_s(chain, {{1, 2, 1}}), 4.85);
-    EXPECT_EQ(cost_s(chain, {{1, 1, 0}}), 0) << "never less than nothing";
+    EXPECT_EQ(cost_s(chain, {{1, 1, 0}}), 0) << "a cost is never negative";
 }
 
 TEST(Chain, JointCostsOfNoTwoRungsAreRefused) {

@@ -33,8 +33,8 @@ TEST(ErrorStatistics, FiguresAreOfMagnitudes) {
     EXPECT_EQ(zero->max, 0);
 }
 
-// Counts the quantile by its definition: the smallest error that at least q percent of all errors
-// do not exceed.
+// Finds the quantile by counting: the smallest error for which at least q percent of all errors are
+// as small or smaller.
 double counted_quantile(const std::vector<double>& errors, std::size_t q_percent) {
     std::vector<double> magnitudes;
     for (const double error : errors)

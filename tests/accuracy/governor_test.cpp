@@ -193,7 +193,7 @@ TEST(Governor, ASampleThatShowsNoEffectIsMeasuredAllTheSame) {
     budget.value = 1;
     const auto plan = govern(chain, budget, sample.measure(), {});
     ASSERT_TRUE(plan);
-    EXPECT_EQ(sample.seen.size(), 1U) << "the exact form needs no proof";
+    EXPECT_EQ(sample.seen.size(), 1U) << "the exact form is not measured";
     EXPECT_EQ(plan->choice, Choice{Rungs{1}});
 
     chain.steps[0].effects[0].evidence = Evidence::proven_bound;

@@ -32,7 +32,7 @@ TEST(LadderMessage, NamesTheBestBuyAndWhatLiesBeyond) {
               "area costs 50 % more time than linear and divides the error by 4 (to 1 dB)");
     EXPECT_EQ(said_by({message_row("chain", "a", 2, 4), message_row("chain", "exact", 20, 0)}),
               "exact costs 10 times the time of a and leaves no error")
-        << "nothing else is there";
+        << "no other rung is better";
 }
 
 TEST(LadderMessage, PassesOverAGainThatIsNoneToSpeakOf) {
@@ -46,8 +46,7 @@ TEST(LadderMessage, PraisesNothingThatIsNotBetter) {
     EXPECT_EQ(said_by({message_row("chain", "linear (default)", 2, 4),
                        message_row("chain", "slow", 20, 4.5)}),
               "no slower rung has a smaller error than linear");
-    // A rung that is faster and more accurate than the slow rung: only the former is worth its
-    // time.
+    // "good" is faster and more accurate than "bad", so only "good" is worth its time.
     EXPECT_EQ(said_by({message_row("chain", "linear (default)", 2, 4),
                        message_row("chain", "good", 4, 1), message_row("chain", "bad", 8, 2)}),
               "good costs 2 times the time of linear and divides the error by 4 (to 1 dB)");

@@ -54,7 +54,7 @@ TEST(LadderTable, FitsAHundredColumnsWhateverItHolds) {
         std::istringstream lines(table);
         for (std::string line; std::getline(lines, line);)
             EXPECT_LE(line.size(), 100U) << line;
-        EXPECT_THAT(table, HasSubstr("...")) << "the name gives way, no figure does";
+        EXPECT_THAT(table, HasSubstr("...")) << "only the name is shortened";
         EXPECT_THAT(table, HasSubstr("12.30"));
     }
 }

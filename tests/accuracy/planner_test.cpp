@@ -25,7 +25,8 @@ Budget budget_of(const char* text) {
 }
 
 TEST(Planner, TheSumOfWhatIsLeftOffIsWithinTheBudgetNotEachAlone) {
-    // The errors are 200, 240 and 30 m. Each alone is within 250 m, but their sum is not.
+    // The position errors are 200, 240 and 30 m. Each error alone is within 250 m, but the sum of
+    // all three is not.
     const Plan made = plan_of(small_chain(), "250 m, 0.5 dB");
     EXPECT_TRUE(made.meets_budget);
     EXPECT_EQ(made.choice.rungs, (Rungs{0, 1, 0}));
@@ -48,8 +49,8 @@ TEST(Planner, AnEffectThatChangesNothingStaysOffEvenWhenExact) {
     EXPECT_EQ(plan_of(chain, "0 m, 0 dB").choice.rungs, (Rungs{0, 2, 1}));
 }
 
-// Refraction is set off, which alone exceeds the budget. The other quantities and effects must
-// still count.
+// Refraction is set off, and its error alone exceeds the budget. The other quantities and effects
+// must still count.
 TEST(Planner, TheBestOfThoseThatAllMissIsTheMostAccurateInTheRest) {
     Chain chain = small_chain();
     chain.steps[0].effects[0].setting = Setting::off;
@@ -62,10 +63,11 @@ TEST(Planner, AnEffectWithoutABoundIsOn) {
     Chain chain = small_chain();
     chain.steps[0].effects[0].predicted.value = std::numeric_limits<double>::infinity();
     EXPECT_EQ(plan_of(chain, "100 km, 100 dB").choice.rungs[0], 1U);
-    EXPECT_EQ(plan_of(chain, "100 km").choice.rungs[0], 1U) << "not budgeted, but no trifle";
-    EXPECT_EQ(plan_of(chain, "1 s").choice.rungs[0], 1U) << "there is no time for less";
+    EXPECT_EQ(plan_of(chain, "100 km").choice.rungs[0], 1U)
+        << "no budget allows an unbounded error";
+    EXPECT_EQ(plan_of(chain, "1 s").choice.rungs[0], 1U) << "a short time does not allow it either";
     chain.steps[0].effects[0].setting = Setting::off;
-    EXPECT_TRUE(plan_of(chain, "100 km").meets_budget) << "the user knows";
+    EXPECT_TRUE(plan_of(chain, "100 km").meets_budget) << "the user set it off";
 }
 
 TEST(Planner, ATimeBuysTheMostAccuracyThatFits) {

@@ -1,6 +1,7 @@
 // Tests the coverage that accuracy/quantile_bound.h promises, by simulations whose true quantile is
-// known: with heavy tails, ties, clusters of related errors, and strata. Each test states how many
-// of its trials may miss: the promised share plus four standard deviations of the number of misses.
+// known: with heavy tails, ties, clusters of related errors, and strata. In each test, the number
+// of trials that may miss is the promised share of the trials plus four standard deviations of the
+// number of misses.
 #include "accuracy/quantile_bound.h"
 
 #include <algorithm>
@@ -234,8 +235,8 @@ TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
 }
 
 TEST(QuantileBound, ColumnsDrawnInProportionToTheirSizeAreCovered) {
-    // Columns have 1 to 20 cells, and large columns are bad more often. A sample of 1000 drawn by
-    // size is as good as a much larger sample drawn evenly.
+    // Columns have 1 to 20 cells, and large columns are bad more often. A sample of 1000 columns
+    // drawn by size is as good as a much larger sample drawn evenly.
     struct Held {
         std::size_t size;
         bool bad;

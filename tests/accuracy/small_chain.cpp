@@ -49,7 +49,8 @@ Chain random_chain(std::mt19937_64& random) {
             effect.cost_s = below(4);
             step.effects.push_back(effect);
         }
-        // Some of the first effects are set on, and some of the last are set off; others keep auto.
+        // Some of the first effects are set on, and some of the last are set off; other effects
+        // stay automatic.
         const unsigned on = effects > 0 && below(4) == 0 ? below(effects) : 0;
         for (unsigned k = 0; k < on; ++k)
             step.effects[k].setting = Setting::on;

@@ -10,7 +10,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Each piece of work advances the test's own clock by the time that the test states.
+// Each piece of work advances the test's own clock by the next time in its list.
 TEST(Timing, FirstLeastAndMedianOfRuns) {
     double clock_s = 0;
     const auto now_s = [&] { return clock_s; };
@@ -67,7 +67,7 @@ TEST(Timing, AThreadsSecondsAreThoseItWorks) {
         while (thread_s() - before_s < work_s) {
         }
     }).join();
-    EXPECT_LT(thread_s() - start_s, work_s) << "waiting for another thread's work is none";
+    EXPECT_LT(thread_s() - start_s, work_s) << "waiting for a thread takes no time";
     double last_s = start_s;
     while (last_s - start_s < work_s) {
         const double now_s = thread_s();

@@ -82,26 +82,27 @@ AuditRow total(const Result<Audit>& audit) {
     return audit ? pooled(audit->rows) : AuditRow{};
 }
 
-// Both sides are rounded to steps of 0.5 dB, which adds an RMS of 0.144 dB from the gate, and less
-// from the eight cells around it.
+// Gates and cells are both rounded to steps of 0.5 dB. The rounding of a gate adds an RMS of 0.144
+// dB, and the rounding of the eight cells around the gate adds less.
 TEST(Audit, AFieldThatCellsHoldAuditsToTheQuantisation) {
     const BrickGrid grid = grid_of_field(small_spec());
     const auto audited = audit(grid.view(), observed(), site, {});
     const AuditRow row = total(audited);
     EXPECT_GT(row.count, 3000U);
     EXPECT_EQ(row.count, row.sampled);
-    EXPECT_LT(row.rms, 0.205) << "both at most sqrt(2) * 0.5 / sqrt(12)";
-    EXPECT_GT(row.rms, 0.144) << "that of the gates";
+    EXPECT_LT(row.rms, 0.205) << "rounding of both: sqrt(2) * 0.5 / sqrt(12)";
+    EXPECT_GT(row.rms, 0.144) << "rounding of the gates alone";
     EXPECT_NEAR(row.mean, 0, 0.01);
 }
 
 TEST(Audit, AGridShiftedByACellShowsIt) {
     const BrickGrid grid = grid_of_field(small_spec(), 1000);
     const AuditRow row = total(audit(grid.view(), observed(), site, {}));
-    EXPECT_NEAR(row.mean, -0.1, 0.01) << "0.1 dB a kilometre to the east";
+    EXPECT_NEAR(row.mean, -0.1, 0.01) << "0.1 dB per kilometer to the east";
 }
 
-// At 100 km, half a degree is 0.87 km. It shows most where the field changes around the radar.
+// At 100 km, half a degree is 0.87 km. The turn shows most where the field changes around the
+// radar.
 TEST(Audit, AVolumeTurnedByHalfADegreeShowsItAndMoreWithRange) {
     const BrickGrid grid = grid_of_field(small_spec());
     const level2::Volume straight = observed();
@@ -168,8 +169,8 @@ TEST(Audit, WhatItCannotDoIsAnError) {
 }
 
 // Audits real volumes gridded with the defaults. Near the radar, where most gates are and echo
-// changes most between gates and cells, the method nearest is worse. Far away it repeats gates and
-// is better.
+// changes most between gates and cells, the method `nearest` is worse. Far away, `nearest` repeats
+// gates and is better.
 struct Real {
     level2::Volume volume;
     SitePosition site;
@@ -210,7 +211,7 @@ TEST_P(AuditOfRealVolumes, HasItsStatedErrorsAndMoreByNearest) {
         SCOPED_TRACE(range_text(ranges[i]) + ": " + errors_text(ranges[i], "dB"));
         EXPECT_GT(ranges[i].count, 500U);
         EXPECT_LT(ranges[i].rms, GetParam().rms_db[i]);
-        EXPECT_GT(ranges[i].rms, 0.7 * GetParam().rms_db[i]) << "stated too loosely";
+        EXPECT_GT(ranges[i].rms, 0.7 * GetParam().rms_db[i]) << "the stated error is too large";
     }
     for (const AuditRow& row : found->rows)
         EXPECT_TRUE(is_possible(row)) << errors_text(row, "dB");
@@ -261,7 +262,8 @@ TEST(Audit, IsTheSameForAnyNumberOfThreadsAndOffCentre) {
     ASSERT_TRUE(one && three);
     EXPECT_EQ(one->rows, three->rows);
     EXPECT_EQ(one->states, three->states);
-    EXPECT_NEAR(pooled(one->rows).rms, centred.rms, 0.15 * centred.rms) << "no frame's error";
+    EXPECT_NEAR(pooled(one->rows).rms, centred.rms, 0.15 * centred.rms)
+        << "the frame adds no error";
 }
 
 TEST(AuditRows, ArePooledByTheirCounts) {

@@ -183,7 +183,8 @@ TEST(BeamModel, DifferenceOfAModelFromItselfIsNothing) {
     EXPECT_EQ(none.gate_m, 0);
 }
 
-// Checks every 10 m that the excess between the points at every 500 m is within the stated limit.
+// Checks every 10 m that, between the compared points 500 m apart, the difference exceeds the
+// result by no more than the stated limit.
 TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
     const std::vector<RefractivityLevel> levels = {{0, 330},    {300, 300},  {350, 294},
                                                    {1500, 250}, {6000, 140}, {12e3, 60}};
@@ -236,7 +237,8 @@ TEST(BeamModel, DifferenceIsInfiniteWhereABeamIsLost) {
         std::isinf(greatest_difference(BeamModel::four_thirds(35, 100), traced, low, {}).height_m));
     BeamLimits near;
     near.arc_m = near.range_m = 20e3;
-    // Half the square of 20 km times the difference of the curvatures, 259 minus 39 N-units per km.
+    // Expect half the square of 20 km times the difference of the curvatures, which is 259 minus 39
+    // N-units per km.
     EXPECT_NEAR(greatest_difference(BeamModel::four_thirds(35, 100), traced, low, near).height_m,
                 0.5 * 20e3 * 20e3 * 220e-9, 5);
 }

@@ -185,7 +185,8 @@ TEST(BrickGrid, CellsBeyondTheEdgeDoNotCountAgainstABrickAllAlike) {
         const auto other = static_cast<CellStatus>((static_cast<int>(status) + 1) % 3);
         grid.status[grid.spec.index(16, 0, 32)] = other;
         const BrickGrid different = BrickGrid::from(grid, {});
-        EXPECT_EQ(different.view().bricks.back().uniform_status, other) << "its only cell";
+        EXPECT_EQ(different.view().bricks.back().uniform_status, other)
+            << "the last brick has one cell";
         EXPECT_EQ(to_dense(different.view()).status, grid.status);
     }
 }

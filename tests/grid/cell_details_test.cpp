@@ -55,7 +55,8 @@ struct Tally {
     int seen = 0, compared = 0, partly_seen = 0, undated = 0;
 };
 
-// Returns the largest difference between a cell and the same cell 0.5 m higher or lower.
+// Returns the largest difference between the detail of a cell (`here`) and of a cell 0.5 m lower or
+// higher.
 double play(std::optional<double> low, std::optional<double> here, std::optional<double> high) {
     return std::max(std::abs(*low - *here), std::abs(*high - *here));
 }
@@ -65,7 +66,7 @@ void compare_cell(const Grid& grid, const SlowColumn& slow, std::size_t cell, do
     const CellDetails& details = grid.details;
     if (grid.status[cell] == CellStatus::not_seen) {
         for (const Detail detail : all_details)
-            ASSERT_FALSE(details.at(detail, cell)) << "nothing is known of what was not seen";
+            ASSERT_FALSE(details.at(detail, cell)) << "a cell that is not seen has no details";
         return;
     }
     ++tally.seen;

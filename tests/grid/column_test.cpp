@@ -39,7 +39,7 @@ TEST(FillColumn, BeyondTheBeamsItIsNotSeen) {
                                {800, 899, 900, 950, 1000, 1500, 2000, 2050, 2100, 2101});
     EXPECT_EQ(column.status,
               (std::vector<CellStatus>{no, no, val, val, val, val, val, val, val, no}));
-    EXPECT_FLOAT_EQ(column.values[3], 10) << "within the lowest beam: its sample";
+    EXPECT_FLOAT_EQ(column.values[3], 10) << "within the edges of the lowest beam";
     EXPECT_FLOAT_EQ(column.values[5], 15);
     EXPECT_FLOAT_EQ(column.values[8], 20);
 }

@@ -30,7 +30,8 @@ double cross(Vector a, Vector b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// The center and the sides of a footprint, from the header's definition of u and v.
+// The center and the sides of a footprint, computed from the definition of u and v in
+// grid/place/footprint.h.
 struct Outline {
     Vector center, u, v;
 };

@@ -59,7 +59,8 @@ TEST(FrameLadder, TheBoundOfTheSphereHoldsToTheAntipode) {
     }
 }
 
-// At 35 N, 237, 566 and 1209 m were measured independently before this code was written.
+// The errors at 35 N (237, 566 and 1209 m) were measured independently before this code was
+// written.
 TEST(FrameLadder, TheSphereIsOffByWhatWasMeasured) {
     EXPECT_NEAR(sphere_error_m({35, -97}, 100e3), 237, 1);
     EXPECT_NEAR(sphere_error_m({35, -97}, 230e3), 566, 1);

@@ -48,7 +48,7 @@ TEST(GatePlaces, AreThoseOfTheBeamModel) {
         }
     }
     EXPECT_LT(worst_m, accuracy_m);
-    EXPECT_GT(worst_m, accuracy_m / 10) << "the stated accuracy is no idle one";
+    EXPECT_GT(worst_m, accuracy_m / 10) << "the stated accuracy is too loose";
 }
 
 TEST(GatePlaces, ThereAreNoneWhereTheBeamDoesNotGo) {
@@ -60,7 +60,7 @@ TEST(GatePlaces, ThereAreNoneWhereTheBeamDoesNotGo) {
     const BeamModel traced = BeamModel::traced(35, 0, RefractivityProfile::reference());
     const GatePlaces low(gates(0, 1000, 400), traced, -0.3, 0.475);
     EXPECT_TRUE(low.at(50, 0));
-    EXPECT_TRUE(low.at(100, 0.3)) << "the lower edge is in the ground there, the radial is not";
+    EXPECT_TRUE(low.at(100, 0.3)) << "only the lower edge is below the ground";
     const GatePlaces buried(gates(0, 1000, 400), traced, -3, 0.475);
     EXPECT_FALSE(buried.at(100, 0));
 }

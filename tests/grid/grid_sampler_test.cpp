@@ -60,7 +60,8 @@ TEST(GridSampler, BeyondTheOutermostCellsIsNothing) {
     EXPECT_TRUE(std::isnan(sampler.level_at(nan)));
 }
 
-// In every kind of brick, find() must agree with the view about the cell.
+// The corners that find() returns must have the status and value of the view's cells, in every kind
+// of brick.
 TEST(GridSampler, ReadsEveryKindOfBrickAsTheViewDoes) {
     Grid grid = linear_grid();
     for (std::size_t i = 0; i < grid.status.size(); ++i) {

@@ -115,8 +115,8 @@ TEST(GridWindow, WholeBricksEndAtBricksOrAtTheDomain) {
     EXPECT_FALSE(is_whole_bricks(domain, {16, 32, 47, 16}));
 }
 
-// Finds the extremes of the columns within reach, by geodesics where great circles are too close to
-// decide.
+// Finds the outermost columns within reach. Solves the geodesic where the great circle is too close
+// to the reach to decide.
 struct Extremes {
     int least_x = 1 << 20, greatest_x = -1, least_y = 1 << 20, greatest_y = -1;
 };

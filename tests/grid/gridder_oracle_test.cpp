@@ -33,9 +33,9 @@ struct Tally {
     std::vector<double> differences;
 };
 
-// Compares a column. A cell must equal what the oracle finds somewhere within the stated accuracy
-// of height. `slack` is an additional tolerance, because a gate on the edge of a cell's outline may
-// count or not.
+// Compares a column. The status and the value of a cell must equal the oracle's at some height
+// within the stated accuracy. `slack` is an additional tolerance, because a gate on the edge of a
+// cell's outline may count or not.
 void compare_column(const Grid& grid, const OracleColumn& slow, int ix, int iy, double slack,
                     Tally& tally) {
     for (std::size_t level = 0; level < grid.spec.levels_m.size(); ++level) {

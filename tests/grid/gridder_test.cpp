@@ -115,7 +115,7 @@ TEST(Gridder, AMissingCutIsNotBridged) {
     volume.vcp = 21;
     const Grid grid = make(volume);
     EXPECT_EQ(status_at(grid, 100, 0, 5.5), CellStatus::not_seen);
-    EXPECT_EQ(status_at(grid, 100, 0, 2), CellStatus::value) << "0.5 and 1.45 are neighbours";
+    EXPECT_EQ(status_at(grid, 100, 0, 2), CellStatus::value) << "0.5 and 1.45 are neighbors";
     EXPECT_EQ(status_at(grid, 100, 0, 8.5), CellStatus::value) << "within the 4.3 degree beam";
     ASSERT_EQ(grid.provenance.notes.size(), 1U);
     EXPECT_NE(grid.provenance.notes[0].find("missing above 1.45"), std::string::npos);
@@ -182,7 +182,8 @@ TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
 }
 
 // Regression of 2026-11-21: where sweeps changed places, a tile's plan lacked a sweep beside a
-// cell, so cells that were not seen became no echo. Every second radial is off, up or down.
+// cell, so cells that were not seen became no echo. In this test, every second radial is above or
+// below the elevation of its sweep.
 TEST(Gridder, SweepsThatChangePlacesAreAllLookedAt) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 0.9, 1.3, 1.7, 2.1}) {
@@ -200,7 +201,7 @@ TEST(Gridder, SweepsThatChangePlacesAreAllLookedAt) {
             sweep.radials[i].elevation_deg += flipped ? -off_deg : off_deg;
         }
     }
-    // With a folded gate in every stretch, nothing is uniform, so every sweep is sampled.
+    // Put a folded gate into every stretch, so that no sweep is uniform and every sweep is sampled.
     level2::Volume sampled = volume;
     for (level2::Sweep& sweep : sampled.sweeps) {
         for (std::size_t at = 0; at < sweep.moments[0].codes8.size(); at += 16)

@@ -141,11 +141,11 @@ TEST_P(Honesty, WhatIsLeftOffIsLessThanTheBudget) {
     EXPECT_LE(position_m, *prepared->budget.position_m);
     const Grid with_all = whole_grid(*prepared, scene_choice(prepared->chain, all));
     EXPECT_LE(difference(*prepared, chosen, with_all), *prepared->budget.value)
-        << "all that was left off";
+        << "with all effects on that the plan left off";
 }
 
-// At most one cell in a hundred of the grid may be off by more than the budget; the sample may have
-// some more.
+// In the whole grid, at most one cell in a hundred may be off by more than the budget. A sample of
+// the grid may contain a larger share of such cells.
 TEST_P(Honesty, TheGridIsWithinTheBudgetOfTheOracle) {
     STORMCELLAR_NEED_DATA();
     const HonestScene& honest = scenes()[GetParam()];
@@ -228,7 +228,7 @@ TEST(Honesty, EveryEffectThatIsTurnedOnMattersInSomeScene) {
     for (const char* effect :
          {"refraction", "antenna_jitter", "column_interpolation", "horizontal_interpolation",
           "beam_width", "cell_size", "velocity_folding"}) {
-        EXPECT_TRUE(ever_on_for_a_reason[effect]) << effect << " is never called for";
+        EXPECT_TRUE(ever_on_for_a_reason[effect]) << effect << " is on in no scene for its size";
     }
 }
 

@@ -140,8 +140,8 @@ TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
     }
 }
 
-// Damages bricks in which nothing is seen, and bricks that no changed window touches: neither must
-// be read.
+// Damages bricks in which nothing is seen, and bricks that no changed window touches. The merge
+// must read none of them.
 TEST(MosaicBits, ReadsOnlyWhatIsOccupiedAndTouched) {
     Partials partials = random_partials(one_byte, 9);
     const GridSpec& domain = partials.domain();

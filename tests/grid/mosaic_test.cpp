@@ -176,8 +176,9 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, nothing, weak), no_echo);
 }
 
-// Two radars see one smooth field, but the second is 2 dB too strong. Where its window ends, its
-// weight is at most 3.4 % of 1, and half the weight of the first radar, which is 140 km nearer.
+// Two radars see one smooth field, but the second radar is 2 dB too strong. Where the second
+// radar's window ends, its weight is at most 0.034, which is half the weight of the first radar,
+// 140 km nearer.
 TEST(Mosaic, NoSeamWhereAWindowEnds) {
     GridSpec domain = default_spec(41, -76);
     domain.nx = 256;
@@ -188,7 +189,7 @@ TEST(Mosaic, NoSeamWhereAWindowEnds) {
     const SitePosition second{"KENX", 41, -72, 500};
     const auto window = site_window(domain, second);
     ASSERT_TRUE(window);
-    ASSERT_GT(window->first_x, 16) << "it ends within the domain";
+    ASSERT_GT(window->first_x, 16) << "the window must end within the domain";
     const auto field = [](int ix, int iy) { return 30 + 10 * std::sin(ix / 40.0 + iy / 60.0); };
     Partials partials(domain);
     const auto fill_with = [&](double more) {
@@ -215,7 +216,7 @@ TEST(Mosaic, NoSeamWhereAWindowEnds) {
         return largest;
     };
     EXPECT_LT(largest_step(Overlap::distance_weighted), 0.1);
-    EXPECT_GT(largest_step(Overlap::mean), 0.9) << "what weights are for";
+    EXPECT_GT(largest_step(Overlap::mean), 0.9) << "without weights there is a seam";
     EXPECT_GT(largest_step(Overlap::nearest), 1.9);
 }
 
@@ -239,7 +240,8 @@ TEST(Mosaic, MeansBelowTheCodesAreClampedAndCounted) {
     EXPECT_LT(made->cells.clamped_count(), 60U);
 }
 
-// docs/geometry.md states how near c (arc^2 + height^2) is to the slant range over the 4/3 earth.
+// docs/geometry.md states how near the merging's approximation c (arc^2 + height^2) is to the limit
+// at the slant range over the 4/3 earth.
 TEST(Mosaic, TheDetectionLimitIsThatOfTheSlantRange) {
     double largest_db = 0;
     for (const double altitude_m : {0.0, 3000.0}) {
@@ -303,7 +305,8 @@ TEST(Mosaic, WhatCannotBeMergedIsABadArgument) {
 
     const auto previous = merge(domain, good, {});
     MosaicOptions counted{.counts = true};
-    EXPECT_FALSE(update(previous->view(), good, {}, counted)) << "it has no counts";
+    EXPECT_FALSE(update(previous->view(), good, {}, counted))
+        << "the previous mosaic has no counts";
 }
 
 TEST(Mosaic, NamesAreReadAsTheyAreWritten) {

@@ -31,7 +31,7 @@ struct Prepared {
     [[nodiscard]] Sample at(double azimuth_deg, double arc_m) const {
         return sweep.sample(static_cast<float>(azimuth_deg), place_at(arc_m));
     }
-    // Samples a place over this range, or straight above it at least.
+    // Samples the place below the point of the sweep's beam at this range.
     [[nodiscard]] Sample at_range(double azimuth_deg, double range_m) const {
         return at(azimuth_deg, beam.forward({range_m, chosen[0].elevation_deg}).arc_m);
     }
@@ -142,8 +142,8 @@ TEST(PolarSweep, TakesTheNearestGate) {
 }
 
 // Tests stretches of gates against single gates, with echo, range folded and no echo in them.
-// Regression of 2026-11-22: an empty stretch beyond the last gate read sums of limits behind their
-// end, which crashed once in a few thousand volumes.
+// Regression of 2026-11-22: for an empty stretch beyond the last gate, the code read sums of limits
+// beyond the end of their array, which crashed once in a few thousand volumes.
 TEST(PolarSweep, StretchesOfGatesAreTheirGates) {
     std::mt19937 random(3);
     SweepPlan plan;
@@ -191,7 +191,7 @@ TEST(PolarSweep, GatesAtNegativeRangeAreDropped) {
     plan.code = [](int, int gate) { return ref_code(gate); };
     const Prepared prepared(plan);
     EXPECT_EQ(prepared.at_range(10.5, 0).status, CellStatus::value);
-    EXPECT_EQ(prepared.at_range(10.5, 0).value, 2) << "at 125 m, not the one at -125 m";
+    EXPECT_EQ(prepared.at_range(10.5, 0).value, 2) << "the gate at 125 m, not the gate at -125 m";
     EXPECT_EQ(prepared.at_range(10.5, 300).value, 3);
 }
 
@@ -272,7 +272,8 @@ TEST(PolarSweep, TheGreatestArcIsThatOfTheLastGate) {
     EXPECT_NEAR(arc_m, beam.forward({300e3, 0.5}).arc_m, 1);
 }
 
-// The edges that pass over an arc on their proper side of the beam's center, by the model itself.
+// The edges of a beam over an arc, computed from the model without tables. An edge is present only
+// if it is on its proper side of the beam's center.
 struct Edges {
     bool lower = false, upper = false;
     bool operator==(const Edges&) const = default;

@@ -17,7 +17,7 @@ GridSpec small_spec() {
     return square_spec(site.latitude_deg, site.longitude_deg, 101);
 }
 
-// Returns two sweeps at one elevation. One radial of the first is 0.3 degrees off.
+// Returns two sweeps at one elevation. One radial of the first sweep is 0.3 degrees off.
 level2::Volume unsteady_then_steady() {
     SweepPlan plan;
     auto volume = make_volume({plan, plan});

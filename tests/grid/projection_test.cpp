@@ -275,7 +275,7 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
     world.spacing_deg = 0.5;
     world.nx = 720;
     world.ny = 360;
-    EXPECT_EQ(why_refused(world), "") << "pole to pole, all round";
+    EXPECT_EQ(why_refused(world), "") << "from pole to pole and all around the earth";
 }
 
 TEST(GridProjection, NamesAreReadAsTheyAreWritten) {

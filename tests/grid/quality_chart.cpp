@@ -207,7 +207,7 @@ PointSums point_sums(const Observed& given, const grid::Method& method, double s
 Observed observe_point(double range_m, Gates gates) {
     synth::Scene scene = scene_of(gates);
     synth::Storm storm;
-    storm.footprint = footprint_at(range_m, 2000, 2000);  // there 10 dBZ, 40 dB below the peak
+    storm.footprint = footprint_at(range_m, 2000, 2000);  // at its edge 40 dB below the peak
     storm.peak_dbz = 50;
     scene.weather.storms.push_back(storm);
     return observed(std::move(scene), range_m);

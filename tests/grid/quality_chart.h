@@ -1,5 +1,5 @@
-// tests/grid/quality_chart.h -- quality figures of a grid: the width of a point, how far it moves,
-// the steepness of an edge, how much of a wave remains, and whether reflectivity is conserved.
+// tests/grid/quality_chart.h -- quality figures of a grid: the width and the shift of a point, the
+// steepness of an edge, how much of a wave remains, and whether reflectivity is conserved.
 //
 // A simulated radar (synth/observe.h, VCP 212) observes one small feature at a range. Its gates are
 // points, or means over the beam and the pulse of a WSR-88D. The grid about the feature is compared

@@ -44,9 +44,9 @@ TEST_P(AtRange, APointStaysWhereItIs) {
     }
 }
 
-// Sampling adds at most the variance s^2 / 12 of each box that it treats as a point (a gate, the
-// distance between radials, and a cell). Linear weights double the variance of the boxes between
-// which they interpolate.
+// A gate, the distance between radials, and a cell are boxes that sampling treats as points. Each
+// box of width s adds at most the variance s^2 / 12. Linear weights between boxes double their
+// variance.
 TEST_P(AtRange, APointIsNoWiderThanGateRadialAndCellMakeIt) {
     const double range_km = GetParam();
     const Observed point = observe_point(range_km * 1000, Gates::of_points);

@@ -63,8 +63,8 @@ int turns_before(const TracedRay& ray, double range_m) {
         if (node.height_rate * last < 0) ++turns;
         if (node.height_rate != 0) last = node.height_rate;
     }
-    // The stretch that holds the range begins at a turning point, or continues the previous
-    // stretch.
+    // The stretch of nodes that holds the range begins at a turning point, or continues the
+    // previous stretch.
     const auto next = std::find_if(ray.nodes().begin(), ray.nodes().end(),
                                    [&](const RayNode& node) { return node.range_m > range_m; });
     if (next != ray.nodes().end() && next->height_rate * last < 0) ++turns;
@@ -106,7 +106,8 @@ void check_strata(const Site& site, const RefractivityProfile& profile, Worst& w
         std::uniform_real_distribution<double> anywhere(0, ray.nodes().back().range_m);
         for (const double range_m : {-1000.0, -10.0, 10.0, 1e3, 3e4, 1e5, 2.3e5, 4.7e5,
                                      anywhere(random), anywhere(random)}) {
-            // Height says little about range where a level beam turns; another test covers this.
+            // Where a level beam turns, the height says little about the range;
+            // ALevelBeamBeginsAsAParabola tests such beams.
             if (range_m < 1e3 && std::abs(elevation_deg) < 0.01) continue;
             check(profile, options, ray, range_m, worst);
         }

@@ -59,7 +59,7 @@ TEST(RobustFit, OutliersHardlyCount) {
 }
 
 // The stated errors must equal the scatter over many draws, although the rows of a block are off
-// together. Errors from the number of rows alone would be a quarter of that.
+// together. Errors computed from the number of rows alone would be a quarter of the scatter.
 TEST(RobustFit, ErrorsAreThoseOfBlocksThatAreOffTogether) {
     std::array<double, fit_size> scatter{}, stated{};
     constexpr int draws = 200;

@@ -37,7 +37,7 @@ TEST(GridScene, ACensusHoldsEveryColumnWithEcho) {
     EXPECT_TRUE(sample.is_census);
     EXPECT_EQ(sample.columns.size(), scene->columns_with_echo());
     EXPECT_GE(sample.columns.size(), 40U * 20U - 40U);
-    EXPECT_LE(sample.columns.size(), 40U * 23U) << "the east, and a column or two beyond";
+    EXPECT_LE(sample.columns.size(), 40U * 23U) << "columns of the east, and two beyond";
 }
 
 TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
@@ -57,7 +57,8 @@ TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
     // Weights are 1 / size, so the weighted share of each size must equal its share of columns.
     EXPECT_GT(columns, 0);
     const ColumnSample again = scene->draw(3000, 1);
-    EXPECT_EQ(again.columns.size(), sample.columns.size()) << "the same seed, the same columns";
+    EXPECT_EQ(again.columns.size(), sample.columns.size())
+        << "the same seed draws the same columns";
 }
 
 TEST(GridScene, SampledCellsAreThoseOfTheWholeGrid) {
@@ -122,9 +123,9 @@ TEST(Effects, TheDefaultIsTheGriddersOwn) {
     const SceneChoice usual = scene_choice(chain, default_choice(chain, spec_of(460, 1000), 0.95));
     EXPECT_EQ(usual, SceneChoice{});
     const SceneChoice coarse = scene_choice(chain, default_choice(chain, spec_of(115, 4000), 0.95));
-    EXPECT_EQ(coarse.method.cell, CellExtent::area) << "4 km, the beam being 2.7 km at 160 km";
+    EXPECT_EQ(coarse.method.cell, CellExtent::area) << "4 km cells are wider than the beam";
     const SceneChoice part = scene_choice(chain, default_choice(chain, spec_of(50, 1000), 0.95));
-    EXPECT_EQ(part, usual) << "a part is gridded as the whole";
+    EXPECT_EQ(part, usual) << "the extent of the grid does not matter";
 }
 
 TEST(Effects, ErrorsAreInTheUnitOfTheMoment) {

@@ -80,7 +80,7 @@ SlowColumn::SlowColumn(const level2::Volume& volume, const std::vector<ChosenSwe
 std::optional<std::uint32_t> SlowColumn::nearest_radial(const level2::Sweep& sweep,
                                                         const ChosenSweep& chosen,
                                                         Real azimuth_deg) {
-    // The nearest radial on each side with its distance, and the nearest of both.
+    // The nearest radial on each side with its distance, and the nearer of the two.
     Real left_deg = 1e9L;
     Real right_deg = 1e9L;
     std::uint32_t left = 0;

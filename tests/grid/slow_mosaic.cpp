@@ -25,7 +25,7 @@ long double limit_dbz(const SitePosition& site, long double arc_m, double level_
     return (tdwr ? -46.0L : -41.5L) + 20 * std::log10(range_km);
 }
 
-// Mixes states by the rule of docs/geometry.md; none of them is not seen.
+// Mixes states by the rule of docs/geometry.md. No state in `seen` may be not_seen.
 void mix(const std::vector<Seen>& seen, const MosaicOptions& options, SlowCell& cell) {
     long double v = 0, n = 0, f = 0, sum = 0, weight = 0;
     const bool in_z = options.averaging == Averaging::in_z;
@@ -86,7 +86,7 @@ void take_nearest(const std::vector<Seen>& seen, SlowCell& cell) {
     cell.value = nearest->value;
 }
 
-// Returns the partials sorted by name, because the first of two equally near ones counts.
+// Returns the partials sorted by name, because the first by name counts if two are equally near.
 std::vector<const Partial*> by_name(std::span<const Partial> partials) {
     std::vector<const Partial*> sorted;
     for (const Partial& partial : partials)

@@ -14,7 +14,7 @@ struct SlowCell {
     long double value = 0;
     int count = 0;
     long double weight = 0;
-    // True if two weights, or two distances, that decide the state are nearly equal.
+    // True if two weights or two distances that decide the state are nearly equal.
     bool is_close = false;
 };
 

@@ -77,8 +77,8 @@ bool Walk::find_turn(Quad from, Quad to, std::size_t layer, Quad& turn) const {
     return false;
 }
 
-// Uses the tanh-sinh rule, whose nodes are dense at the ends, where the integrand may grow as 1 /
-// sqrt.
+// Uses the tanh-sinh rule, whose nodes are dense at the ends. There the integrand may grow like 1 /
+// sqrt of the distance from the end.
 void Walk::integrate(Quad from, Quad to, std::size_t layer) {
     constexpr int halves = 64;
     const Quad spacing = Quad{1} / 16;

@@ -80,8 +80,8 @@ TEST(Sounding, AByteOrderMarkIsNoPartOfTheFirstColumn) {
     const auto marked = parse_sounding("\xEF\xBB\xBF" + text, "n");
     ASSERT_TRUE(marked) << marked.error().message;
     EXPECT_NEAR(marked->at(0).n_units, 320, 1e-9);
-    EXPECT_FALSE(parse_sounding("\xEF\xBB" + text, "n")) << "half a mark is none";
-    EXPECT_FALSE(parse_sounding("\xEF\xBB\xBF", "n")) << "a mark alone names nothing";
+    EXPECT_FALSE(parse_sounding("\xEF\xBB" + text, "n")) << "a truncated mark is no mark";
+    EXPECT_FALSE(parse_sounding("\xEF\xBB\xBF", "n")) << "no line names the columns";
 }
 
 TEST(Sounding, EveryTextThatIsNoSoundingIsTheSameError) {

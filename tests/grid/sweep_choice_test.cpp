@@ -66,7 +66,7 @@ TEST(ChooseSweeps, OfRepeatedCutsTheNearestInTimeCountsWhereATimeIsGiven) {
     };
     EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{0, 1, 3}));
     EXPECT_EQ(indices(at(48.99)), (std::vector<std::size_t>{0, 1, 3}));
-    EXPECT_EQ(indices(at(49)), (std::vector<std::size_t>{2, 1, 3})) << "as near: the later";
+    EXPECT_EQ(indices(at(49)), (std::vector<std::size_t>{2, 1, 3})) << "equally near: the later";
     EXPECT_EQ(indices(at(88.9)), (std::vector<std::size_t>{2, 1, 3}));
     EXPECT_EQ(indices(at(1e5)), (std::vector<std::size_t>{4, 1, 3}));
     EXPECT_EQ(at(0)[0].median_time, at_s(29));
@@ -74,12 +74,14 @@ TEST(ChooseSweeps, OfRepeatedCutsTheNearestInTimeCountsWhereATimeIsGiven) {
     EXPECT_EQ(at(0)[1].repeats, 1U);
     for (level2::Radial& radial : volume.sweeps[0].radials)
         radial.time = UtcTime{} - std::chrono::hours(24);
-    EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{2, 1, 3})) << "the first is not dated";
+    EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{2, 1, 3}))
+        << "the first sweep has no times";
     for (const std::size_t other : {2U, 4U}) {
         for (level2::Radial& radial : volume.sweeps[other].radials)
             radial.time = UtcTime{} - std::chrono::hours(24);
     }
-    EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{4, 1, 3})) << "none is dated: the newest";
+    EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{4, 1, 3}))
+        << "no sweep has times: the newest";
     EXPECT_EQ(at(0)[0].median_time, std::nullopt);
 }
 
@@ -90,8 +92,8 @@ TEST(ChooseSweeps, TheNearestInTimeMustBeFitToo) {
     EXPECT_EQ(chosen[0].repeats, 1U);
 }
 
-// Regression of 2026-11-21: where gates end at a ceiling, a Doppler sweep that reaches 90 % as far
-// as its surveillance sweep (KDMX and KCCX at 2.5 degrees) was chosen for reflectivity.
+// Regression of 2026-11-21: where gates end at a ceiling (KDMX and KCCX at 2.5 degrees), a Doppler
+// sweep reaches 90 % as far as its surveillance sweep, and was chosen for reflectivity.
 TEST(ChooseSweeps, ASplitCutGivesTheSurveillanceSweepThatReachesHardlyFarther) {
     auto volume = make_volume({plan(2.5, 330), plan(2.5, 298)});
     for (level2::Radial& radial : volume.sweeps[0].radials)
@@ -105,7 +107,8 @@ TEST(ChooseSweeps, ASplitCutGivesTheSurveillanceSweepThatReachesHardlyFarther) {
     for (level2::Sweep& sweep : volume.sweeps)
         sweep.moments[0].moment = level2::Moment::vel;
     const auto velocity = choose_sweeps(volume, level2::Moment::vel, 0.475);
-    EXPECT_EQ(indices(velocity), (std::vector<std::size_t>{1})) << "short by nature: the newest";
+    EXPECT_EQ(indices(velocity), (std::vector<std::size_t>{1}))
+        << "the unambiguous range is ignored";
 }
 
 // The sweep chosen at each elevation for a moment. `surveillance` is true for sweeps without VEL.
@@ -224,11 +227,11 @@ TEST(ChooseSweeps, NothingForAMomentThatIsNotThere) {
 
 TEST(ChooseSweeps, ALostCutIsNoticedByTheVcp) {
     auto volume = make_volume({plan(0.5), plan(1.45), plan(3.35)});
-    EXPECT_TRUE(choose(volume)[1].adjacent_to_next) << "without a VCP neighbours are adjacent";
+    EXPECT_TRUE(choose(volume)[1].adjacent_to_next) << "without a VCP, all are adjacent";
     set_vcp(volume, {0.5F, 0.5F, 1.45F, 2.4F, 3.35F, 4.3F});
     EXPECT_TRUE(choose(volume)[0].adjacent_to_next);
     EXPECT_FALSE(choose(volume)[1].adjacent_to_next);
-    EXPECT_TRUE(choose(volume)[2].adjacent_to_next) << "nothing above the highest";
+    EXPECT_TRUE(choose(volume)[2].adjacent_to_next) << "no sweep is above the highest";
     set_vcp(volume, {0.5F, 1.45F, 3.35F, 4.3F});
     EXPECT_TRUE(choose(volume)[1].adjacent_to_next);
 }

@@ -43,8 +43,8 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// The slow and obvious form, which searches every radial and every gate. Shares only the decoded
-// volume and the formula of the beam with the lookup.
+// Finds gates the slow and obvious way: searches every radial and every gate. Shares only the
+// decoded volume and the formula of the beam with SweepLookup.
 class SlowSweep {
   public:
     SlowSweep(const level2::Sweep& sweep, Moment moment, const SitePosition& site)
@@ -100,7 +100,8 @@ class SlowSweep {
         if (is_gap && off > spacing_deg_ / 2) return answer;
         const level2::SweepMoment& kind = *kind_of(nearest);
         for (std::int32_t gate = 0; gate < kind.gate_counts[nearest]; ++gate) {
-            // A gate before the antenna is not seen, even if half of it is beyond.
+            // A gate whose center is behind the antenna is not seen, even if part of the gate is in
+            // front of the antenna.
             if (kind.range_m(gate) < 0) continue;
             const double from = arc_of(kind.range_m(gate) - 0.5 * kind.gate_spacing_m);
             const double to = arc_of(kind.range_m(gate) + 0.5 * kind.gate_spacing_m);
@@ -223,7 +224,7 @@ TEST(SweepLookup, EqualsTheGatesValueForValue) {
             compare(*lookup, sweep, slow, random, compared);
             if (HasFatalFailure()) return;
             EXPECT_GT(compared.places[CellStatus::value], 40);
-            EXPECT_LT(compared.skipped, 80) << "places beside borders are few";
+            EXPECT_LT(compared.skipped, 80) << "few places are beside a border";
             for (const auto& [status, places] : compared.places)
                 by_file[one.file][status] += places;
         }
@@ -244,7 +245,7 @@ TEST(SweepLookup, FindsSweepsByNumberAngleAndTime) {
         return found ? static_cast<int>(found->facts().number) : -1;
     };
     EXPECT_EQ(number_of(Moment::ref, {}), 0)
-        << "the lowest; the Doppler sweep has reflectivity too";
+        << "the lowest elevation, whose Doppler sweep also has reflectivity";
     EXPECT_EQ(number_of(Moment::vel, {}), 1);
     EXPECT_EQ(number_of(Moment::ref, {.number = 1}), 1);
     EXPECT_EQ(number_of(Moment::ref, {.elevation_deg = 3}), 5);
@@ -269,7 +270,8 @@ TEST(SweepLookup, FindsSweepsByNumberAngleAndTime) {
     EXPECT_THAT(elevations_deg(*real.volume, Moment::vel, half_beam_deg), ::testing::SizeIs(9));
 }
 
-// With SAILS, the low sweep is repeated later in the volume, and the newest is found.
+// With SAILS, the lowest sweep is repeated later in the volume, and the lookup finds the newest
+// repetition.
 TEST(SweepLookup, TakesTheNewestOfSeveralSweepsOfAnAngle) {
     STORMCELLAR_NEED_DATA();
     const RealVolume real = volume_of("KLBB20160601_150025_V06");
@@ -289,7 +291,7 @@ TEST(SweepLookup, TakesTheNewestOfSeveralSweepsOfAnAngle) {
     EXPECT_EQ(first->facts().start, start);
     EXPECT_EQ(elevations_deg(*again, Moment::rho, half_beam_deg),
               elevations_deg(*real.volume, Moment::rho, half_beam_deg))
-        << "a sweep that comes back is no elevation of its own";
+        << "a repeated sweep adds no elevation";
 }
 
 // Uses a sweep without the radials from 90 to 100 degrees, where nothing is seen.

@@ -41,8 +41,8 @@ TEST(ArcTable, ErrsByHalfTheSecondDerivativeTimes250MetresSquared) {
     EXPECT_GE(worst, 1e-6 * 250 * 250 - 1e-3);
 }
 
-// Returns the largest distance of a gate from its place in the plane through the center of a cell,
-// for outlines of 20 km.
+// Returns the largest distance between the true place of a gate and its place in the plane through
+// the center of a cell, for outlines of 20 km.
 double worst_off_plane_m(double elevation_deg, double farthest_m, double latitude_deg,
                          double altitude_m) {
     SweepPlan plan{.elevation_deg = elevation_deg, .gate_spacing_m = 1000};
@@ -84,7 +84,7 @@ TEST(GatesInside, StandWhereThePlaneThroughTheCentreHasThem) {
         EXPECT_LT(worst_m(1.5, 470e3), 3);
         EXPECT_LT(worst_m(5, 230e3), 4);
         EXPECT_LT(worst_m(19.5, 60e3), 10);
-        EXPECT_GT(worst_m(19.5, 60e3), 5) << "the header says more than it need";
+        EXPECT_GT(worst_m(19.5, 60e3), 5) << "the stated accuracy is too loose";
         EXPECT_LT(worst_m(60, 50e3), 90);
     }
 }

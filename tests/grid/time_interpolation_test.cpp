@@ -81,7 +81,8 @@ TEST(GridAt, AdvectedIsTheTruthOfWhatDrifts) {
     const MotionField motion({0.02F, 0.01F});
     for (const double t_s : {0.0, 60.0, 150.0, 222.0, 300.0}) {
         const Grid grid = pair.at(options_at(t_s, TimeMethod::advected, &motion));
-        // Both ends are rounded to steps of 0.5 dB, and linear interpolation lowers the peaks.
+        // The error is above 0 because both volumes are rounded to steps of 0.5 dB and linear
+        // interpolation lowers the peaks.
         EXPECT_LT(rms_error(pair, grid, t_s), 0.35) << t_s;
     }
 }
@@ -106,7 +107,7 @@ TEST(GridAt, NearestIsTheNearerVolumeUntouched) {
     const std::vector<float> before = to_dense(pair.before.view()).values;
     EXPECT_EQ(values_at(149), before);
     EXPECT_EQ(values_at(151), to_dense(pair.after.view()).values);
-    EXPECT_EQ(values_at(150), before) << "the earlier of two that are as near";
+    EXPECT_EQ(values_at(150), before) << "both are equally near: the earlier";
 }
 
 TEST(GridAt, BlendAtEitherEndIsThatVolume) {
