@@ -46,7 +46,7 @@ bool is_reckless(const Chain& chain, const Choice& choice, const std::vector<Run
     return false;
 }
 
-// Advances to the next choice within the ranges, like a counter with one wheel for each step.
+// Advances to the next choice within the ranges, like a counter with one digit for each step.
 // Returns false after the last choice.
 bool advance(Choice& choice, const std::vector<RungRange>& ranges) {
     for (std::size_t i = ranges.size(); i > 0; --i) {

@@ -10,8 +10,9 @@ namespace stormcellar::accuracy {
 namespace {
 
 // Returns true if only a sample shows how large the effect is. A sample in which the effect does
-// nothing proves nothing: in a sparse scene 1 of 8 cells was off by 1.4 dB, but none of the sampled
-// cells. Positions are computed from the geometry, so an effect with position size 0 moves none.
+// nothing proves nothing: in a sparse scene, 1 of 8 cells was off by 1.4 dB, but none of the
+// sampled cells was. Positions are computed from the geometry, so an effect with position size 0
+// moves no cell.
 bool rests_on_sample(const Effect& effect, Quantity quantity) {
     if (effect.evidence != Evidence::sample) return false;
     return quantity != Quantity::position || effect.predicted.position_m > 0;
@@ -47,7 +48,8 @@ bool shown(const Measured& measured, const Budget& budget, const std::vector<Qua
     });
 }
 
-// Returns the measurement with the proven sum of each quantity that has no measured bound.
+// Returns the measurement in which the proven sum of a quantity, if there is one, replaces a
+// missing bound.
 Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured measured) {
     const auto fill = [&](Quantity quantity, std::optional<double>& bound) {
         if (bound || !is_proven(chain, candidate.choice, quantity)) return;
@@ -60,7 +62,7 @@ Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured me
 }
 
 // Returns at most `most` candidates that fit the budget by prediction, in order of rising effort.
-// If more fit, the most accurate of all replaces the last.
+// If more candidates fit, the most accurate of all replaces the last.
 std::vector<Candidate> to_try(const std::vector<Candidate>& candidates, const Budget& budget,
                               std::size_t most) {
     std::vector<Candidate> good;

@@ -77,8 +77,8 @@ std::string gains(const Rung& rung, const Rung& base, ValueUnit unit) {
                        error_in_words(rung, unit));
 }
 
-// Returns the logarithm of the fall of the error over the logarithm of the rise of the time. An
-// exact rung is no bargain: its value is 0, so it is chosen only if there is no other.
+// Returns log(fall of the error) / log(rise of the time), from `base` to `rung`. Returns 0 for a
+// rung without any error, so that such a rung is chosen only if there is no other.
 double bargain(const Rung& rung, const Rung& base) {
     if (rung.error <= 0) return 0;
     return std::log(base.error / rung.error) / std::log(std::max(1.01, rung.time_s / base.time_s));
@@ -97,7 +97,8 @@ LadderMessage message_of(std::span<const LadderRow> rows, std::string_view step,
     std::ranges::stable_sort(rungs, {}, &Rung::time_s);
     const auto marked = std::ranges::find(rungs, true, &Rung::is_default);
     const Rung base = marked == rungs.end() ? rungs.front() : *marked;
-    // The slower, more accurate rungs, from fast to slow; each is better than the last.
+    // Rungs that are slower and more accurate than the base, from fast to slow; each is more
+    // accurate than the rung before it.
     std::vector<Rung> better;
     for (const Rung& rung : rungs) {
         const double last = better.empty() ? base.error : better.back().error;

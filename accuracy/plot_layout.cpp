@@ -122,8 +122,8 @@ PlotBox label_box(const PlotMarker& marker, const std::string& text, double dx, 
     return {x - width / 2, y - height / 2, x + width / 2, y + height / 2};
 }
 
-// Returns the length of a line inside a box, in pixels. Steps along the line are exact enough to
-// compare places.
+// Returns the length of a line inside a box, in pixels. The length is counted in steps of 2 pixels,
+// which is exact enough to compare places.
 double length_within(const PlotBox& box, const PlotMarker& from, const PlotMarker& to) {
     constexpr double step = 2;
     const double length = std::hypot(to.x - from.x, to.y - from.y);
@@ -154,8 +154,8 @@ double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room
     return cost + 4 * (area - box.overlap(room));
 }
 
-// Places a label beside its marker if there is room, else farther away; takes the first of the best
-// places.
+// Places a label beside its marker if there is room, else farther away. Among equally good places,
+// the first counts.
 PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::string& text) {
     struct Direction {
         double dx, dy;

@@ -9,7 +9,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// relative rounding that a weight times a count may have
+// Relative rounding error that a weight times a count may have.
 constexpr double weight_slack = 1e-9;
 
 double magnitude(double error) {

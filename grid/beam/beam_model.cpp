@@ -107,9 +107,9 @@ AntennaPoint BeamModel::inverse(EarthPoint point) const {
     return traced_inverse(point);
 }
 
-// Iterates to the gate whose traced beam meets the point. The inverse of the 4/3 earth turns the
-// remaining error into the next step. A step that does not help is shortened, because the two
-// models respond differently near ducts.
+// Iterates to the gate whose traced beam meets the point. The next step is computed from the
+// remaining error by the inverse of the 4/3 earth. A step that does not help is shortened, because
+// the two models respond differently near ducts.
 AntennaPoint BeamModel::traced_inverse(EarthPoint point) const {
     if (!std::isfinite(point.arc_m) || !std::isfinite(point.height_m)) return {nan, nan};
     const AntennaPoint target = four_thirds_.inverse(point);
@@ -169,8 +169,8 @@ void raise(BeamDifference& greatest, const BeamDifference& by, double if_missing
 }
 
 // Raises `greatest` to the differences at every step up to the limit, and at one step beyond. A
-// sample counts if it or a neighbor is within the limits, so that the ends of the reached part are
-// between samples.
+// sample counts if it or a neighboring sample is within the limits, so that the samples that count
+// enclose the part within the limits.
 template <class SampleAt>
 void raise_along(BeamDifference& greatest, double limit_m, SampleAt sample_at) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longest_step_m = 2000;
-// a step climbs at most this share of a layer's scale height
+// A step climbs at most this share of a layer's scale height.
 constexpr double share_of_scale = 0.25;
 constexpr double shortest_step_m = 0.01;
 constexpr std::size_t many_steps = 20'000;
@@ -118,8 +118,7 @@ double Tracer::where_zero(const State& state, double length_m, double guess_m, b
     return length;
 }
 
-// Returns the length after which a ray of constant curvature has risen by `rise_m`; the shorter of
-// two.
+// Returns the length after which a ray of constant curvature has first risen by `rise_m`.
 double Tracer::parabola_m(const State& state, double rise_m) const {
     const State rates = rate(state);
     const double root = rates.height_m * rates.height_m + 2 * rates.sine * rise_m;
@@ -186,8 +185,8 @@ bool Tracer::run(State state, double farthest_m, std::vector<RayNode>& nodes) {
         if (range_m > nodes.back().range_m) nodes.push_back(node(range_m, state));
         if (next.event == Event::floor) return true;
         if (next.event == Event::border) {
-            // On a border the direction of the ray determines the next layer, elsewhere the height
-            // does.
+            // On a border, the direction of the ray determines the next layer. Elsewhere, the
+            // height determines it.
             std::size_t index = profile_.layer_index(state.height_m);
             const bool at_bottom = index > 0 && state.height_m == profile_.layer(index - 1).top_m;
             if (at_bottom && state.sine < 0) --index;

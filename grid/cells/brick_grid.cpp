@@ -113,8 +113,8 @@ std::size_t count_of(const Code* codes, Code wanted) {
     return count;
 }
 
-// Each count has its own loop. The compiler vectorizes these loops, but not a single loop for all
-// counts, which took ten times as many instructions.
+// Each count has its own loop, because the compiler vectorizes such loops. A single loop for all
+// counts is not vectorized and took ten times as many instructions.
 template <class Code>
 CodeCounts count_codes(const Code* codes) {
     CodeCounts counts;
@@ -338,7 +338,7 @@ void BricksWriter::copy(std::size_t brick, const BrickView& from, std::size_t fr
         return add_states(brick, states, source.checksum);
     }
     grid_->bricks_[brick] = source;
-    // packed_bytes describes the source's file
+    // The source's packed_bytes is a length in the source's file.
     grid_->bricks_[brick].packed_bytes = 0;
     if (source.kind == BrickKind::uniform) return;
     const std::size_t size = brick_cells * static_cast<std::size_t>(from.quantization.code_bytes);

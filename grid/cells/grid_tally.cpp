@@ -40,8 +40,8 @@ Status GridTally::add(const BrickView& grid) {
     return {};
 }
 
-// Counts a column. If it has no stored brick, it has no value, so a single seen cell ends the
-// search.
+// Counts a column. If the column has no stored brick, no cell has a value, so the search ends at
+// the first seen cell.
 void GridTally::count_column(const BrickView& grid, int ix, int iy) {
     const std::size_t base = grid.offset_x(ix) + grid.offset_y(iy);
     std::uint16_t greatest = 0;

@@ -17,8 +17,8 @@ constexpr int circle_points = 720;
 // Between two sampled points, the circle bulges by 1e-5 of its radius. The rest of this factor is a
 // margin for projections.
 constexpr double bulge = 1.001;
-// If the distance of two neighboring points on the circle is more than this many times larger in
-// the plane than on the earth, the plane is torn between them.
+// If two neighboring points on the circle are more than this many times as far apart in the plane
+// as on the earth, the plane is torn between them.
 constexpr double largest_stretch = 8;
 
 // A range of columns or rows, both ends included.
@@ -87,7 +87,8 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
         box.y.add(at.y);
         last = at;
     }
-    // The box around the circle's image holds its inside, unless the image is inside out.
+    // The box around the image of the circle holds the image of the circle's inside, unless the
+    // projection turns the circle inside out.
     const ColumnPoint middle = projection.to_column({site.latitude_deg, site.longitude_deg});
     const bool inside = is_within(middle.x, box.x.least, box.x.greatest) &&
                         is_within(middle.y, box.y.least, box.y.greatest);
@@ -109,8 +110,8 @@ Span whole_bricks(const Range& range, int count) {
             std::min(count, bricks_along(static_cast<int>(end)) * brick_edge)};
 }
 
-// Returns whole bricks around a range. In a grid in degrees, columns one whole turn to the west and
-// to the east are the same places.
+// Returns whole bricks around a range. In a grid in degrees, a column and the columns one whole
+// turn to the west and to the east show the same places.
 Span whole_bricks_around(const Range& range, const GridSpec& domain) {
     const double turn = 360 / domain.spacing_deg;
     Span all;

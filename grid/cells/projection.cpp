@@ -76,8 +76,8 @@ Status validate_parallels(const GridSpec& spec) {
 }
 
 // Checks a cone, which is cut open along the meridian opposite its center. The wedge of the plane
-// behind the cut shows nothing, or places that are already elsewhere on the map. The same applies
-// beyond the pole at the tip of the cone. So the grid must reach neither.
+// behind the cut, and the part beyond the pole at the tip of the cone, show nothing, or places that
+// are already elsewhere on the map. So the grid must reach neither part.
 Status validate_cone(const GridSpec& spec) {
     const Cone cone = cone_of(spec);
     const double side = cone.OriginLatitude() < 0 ? -1 : 1;  // the pole at the tip

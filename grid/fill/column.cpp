@@ -25,8 +25,8 @@ class Filler {
     }
 
     // Fills the levels from `low` to below `high`. If both beams see no echo, or both are not seen,
-    // all levels between them have that state. Such levels form a run, which is only remembered
-    // here and filled when it ends.
+    // all levels between the beams have that state. Such levels form a run, which is only noted
+    // here. end_run() fills the run when it ends.
     void between(const BeamSample& low, const BeamSample& high) {
         const bool same_state = low.sample.status == high.sample.status;
         if (same_state && low.adjacent_to_next && low.sample.status != CellStatus::value) {

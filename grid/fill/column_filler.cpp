@@ -105,8 +105,8 @@ int sweeps_by_pattern(const SweepStack& stack) {
     return most;
 }
 
-// Returns how far samples reach beyond a column, so that the plan looks as far around a tile. With
-// one gate of each sweep they do not reach beyond the column.
+// Returns how far samples reach beyond a column, so that the plan of a tile looks as far beyond the
+// tile. A method with one gate of each sweep does not reach beyond the column.
 SampleReach reach_of(const SweepStack& stack, const Method& method) {
     const bool one_gate = facts_of(method.interpolation).takes_one_gate;
     if (one_gate && method.cell == CellExtent::point) return {0, 0, 1, stack.in_order};

@@ -197,8 +197,9 @@ class DetailColumns {
         return std::nullopt;
     }
 
-    // Writes the age, the height offset and the distance of a cell. The age is the weighted mean,
-    // the height offset belongs to the nearest beam, and the distance to the nearest gate.
+    // Writes the age, the height offset and the distance of a cell. The age is the weighted mean of
+    // the shares, the height offset is to the nearest beam, and the distance is to the nearest
+    // gate.
     void describe(std::size_t cell, float level_m, const Shares& shares) {
         double age_s = 0;
         bool dated = true;

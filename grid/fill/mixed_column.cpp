@@ -63,7 +63,7 @@ void MixedColumn::start(std::span<const BeamMixture> beams) {
         steepest_m_per_deg_ = std::max(steepest_m_per_deg_, rise_of(beam));
 }
 
-// Finds the beam above a height. Callers pass rising heights, so it is a step or two away.
+// Finds the beam above a height. Callers pass rising heights, so the search takes a step or two.
 void MixedColumn::find(float height_m) {
     while (above_ > 0 && beams_[above_ - 1].height_m > height_m)
         --above_;
@@ -91,9 +91,10 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
         total += weights_.back();
     }
     if (!(total > 0)) return of_one(beams_[nearest], blending_);
-    // If values wrap, the first beam added is the reference, so it must have the largest weight.
-    // Usually that is the nearest beam. If neighbors are far apart and rise differently, the
-    // nearest beam may be out of reach; then the first beam with a weight replaces it.
+    // If values wrap, the first beam added is the reference, so the first beam must have the
+    // largest weight. Usually the nearest beam has it. If neighbors are far apart and rise
+    // differently, the nearest beam may be out of reach; then the first beam with a weight is the
+    // reference.
     std::size_t first = nearest;
     if (!(weights_[nearest - run.first] > 0)) {
         const auto heavy =

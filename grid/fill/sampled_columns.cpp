@@ -22,8 +22,8 @@ void SampledColumns<radial_elevations, nearest, circular>::look_at(
         if (radial_elevations && position != AzimuthTable::none)
             heights = sweep.beam().offset(heights, sweep.gates().elevation_offset_deg(position));
         open_[still_open] = at;
-        // Unless the stack is out of order, all higher sweeps are even higher here, so the column
-        // is finished.
+        // If the sweeps are in order, all later sweeps pass even higher over this column, so the
+        // column is finished.
         const bool above_top = heights.center_m > top_m && heights.center_m < highest_beam_m;
         still_open += above_top && work_.stack.in_order ? 0 : 1;
         if (!(heights.center_m < highest_beam_m)) continue;

@@ -51,7 +51,7 @@ struct Finding {
 struct Gate {
     float value = 0;
     float period = 0;
-    // The detection limit, as which no echo counts; NaN: no echo does not count.
+    // The detection limit, which replaces no echo in a mean. NaN: no echo does not enter the mean.
     float limit = std::numeric_limits<float>::quiet_NaN();
 };
 

@@ -98,8 +98,8 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
         const TimeMethod method = facts.method;
         const auto start = Clock::now();
         InstantOptions options{.instant = held_out.middle, .method = method};
-        // The held-out volume also took minutes. Without sweep times, a cell of the reconstruction
-        // has about the same time within the volume as the cell with which it is compared.
+        // The held-out volume also took minutes. Without sweep times, a reconstructed cell and the
+        // held-out cell with which it is compared have about the same time within their volumes.
         options.sweep_times = false;
         options.threads = threads;
         std::optional<MotionField> motion;

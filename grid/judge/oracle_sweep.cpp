@@ -130,7 +130,7 @@ WeightedGate OracleSweep::gate(const Radial& radial, std::int32_t number, double
     return gate;
 }
 
-// Adds the nearest gate, or if `two` is true two gates, linear in range.
+// Adds the nearest gate of a radial, or, if `two` is true, two of its gates, linear in range.
 void OracleSweep::add_along(const Radial& radial, double range_m, double weight, bool two,
                             std::vector<WeightedGate>& gates, bool& doubtful) const {
     if (radial.kind == nullptr) {

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double huber_limit = 1.345;
 constexpr double deviations_a_median = 1.4826;
-// The rows do not determine a number if the other numbers explain all but this share of its square.
+// The rows do not determine a number if the other numbers explain all but this share of its sum of
+// squared gradients.
 constexpr double least_pivot = 1e-4;
 
 using Numbers = std::array<double, fit_size>;
@@ -128,8 +129,8 @@ std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought, std::size
         return std::nullopt;
     }
     Fit made{.deviation = deviation_of(rows)};
-    // If half the residuals are 0, so is the deviation, and all other rows would be outliers
-    // without weight. This least deviation keeps them.
+    // If half the residuals are 0, the deviation is also 0, and all other rows would be outliers
+    // without weight. With a deviation of at least 1e-9, these rows keep a weight.
     const double deviation = std::max(made.deviation, 1e-9);
     const std::vector<Equations> blocks = equations_of_blocks(rows, deviation);
     Equations all;

@@ -18,14 +18,14 @@ constexpr std::array<const char*, fit_size> fault_names = {"bias", "azimuth", "e
 constexpr std::size_t fewest_blocks = 8;
 constexpr std::size_t fewest_cells = 400;
 constexpr double slowest_mps = 2;
-// Without a motion, the two looks may be at most this far apart. In a longer time, echo moves as
-// far as a fault would move it.
+// Without a motion, the times at which the two sites looked may be at most this far apart. In a
+// longer time, echo moves as far as a fault would move it.
 constexpr double longest_apart_s = 90;
 constexpr int most_rounds = 12;
 // No step is longer than this (dB, degrees, degrees, seconds).
 constexpr std::array<double, fit_size> longest_step = {10, 0.5, 0.5, 60};
-// A step changes nothing if it is below this share of the error, or of the longest step if that is
-// less.
+// A step counts as no change if it is below this share of the standard error or of the longest
+// step, whichever is less.
 constexpr double settled = 0.02;
 
 using Numbers = std::array<double, fit_size>;
@@ -132,7 +132,7 @@ std::size_t blocks_of(const std::vector<FitRow>& rows) {
     return static_cast<std::size_t>(std::unique(blocks.begin(), blocks.end()) - blocks.begin());
 }
 
-// Adds a step, cut to its longest length. Returns true if it still changes anything.
+// Adds a step, cut to its longest length. Returns false if the step is too small to count.
 bool take_step(const Fit& found, Numbers& numbers) {
     bool changes = false;
     for (std::size_t i = 0; i < fit_size; ++i) {
@@ -155,7 +155,7 @@ double median_apart_s(const std::vector<SitePair>& pairs) {
     return *middle;
 }
 
-// Returns the faults to seek, and gives the others a reason why they are untold.
+// Returns the faults to estimate. Sets `untold`, the reason, in the estimates of all other faults.
 FitChoice choose_faults(const ComparisonOptions& options, SiteComparison& comparison) {
     FitChoice sought{true, true, true, true};
     const auto give_up = [&](Fault fault, std::string why) {

@@ -30,7 +30,7 @@ unsigned states_in(const Code* codes) {
 }
 
 // Columns whose sixteen cells all have one state. A uniform brick has no codes in memory, so all
-// its columns point to one of these.
+// columns of such a brick point to one of these arrays.
 template <class Code>
 constexpr std::array<std::array<Code, brick_edge>, 3> columns_of_states = [] {
     std::array<std::array<Code, brick_edge>, 3> columns{};
@@ -146,7 +146,7 @@ void BrickMerger<Code>::find_active(std::size_t column) {
 }
 
 // Merges a column by the weighted mean. Three frequent cases need no sums: no layer sees anything,
-// only one layer does, or all that do see only no echo.
+// only one layer sees something, or all layers that see something see only no echo.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size_t column,

@@ -66,8 +66,8 @@ class Search {
         }
     }
 
-    // Returns the best shift. Of equally good shifts, returns the shortest, because an image that
-    // does not change has not moved.
+    // Returns the best shift. If several are equally good, returns the shortest of them, because an
+    // image that does not change has not moved.
     [[nodiscard]] std::optional<Shift> best() const {
         std::optional<Shift> best;
         for (int dy = -search_.reach_y; dy <= search_.reach_y; ++dy) {

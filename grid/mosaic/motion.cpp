@@ -95,7 +95,7 @@ Vote vote_of_block(const Images& images, const Blocks& blocks, int column, int r
 }
 
 // Returns the mean of the votes of the blocks around a node, weighted by a Gaussian of one step.
-// The motion of the whole has a small weight, so it counts only where no block has a vote.
+// The motion of the whole image has a small weight, so it matters only where no block has a vote.
 Vote smoothed(const std::vector<Vote>& votes, const Blocks& blocks, int column, int row,
               const Vote& whole) {
     constexpr double weight_of_whole = 0.02;

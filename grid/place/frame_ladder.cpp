@@ -18,8 +18,8 @@ constexpr double geodesic_error_m = 1e-6;
 constexpr double half_meridian_m = 20003931.5;  // of WGS84; no two points are farther apart
 constexpr double quarter_meridian_m = 10001965.7;
 
-// By how much a length on the sphere exceeds the length on the ellipsoid, as a share, along the
-// meridian and along the parallel.
+// The share by which a length on the sphere exceeds the length on the ellipsoid, along the meridian
+// and along the parallel.
 struct ScaleError {
     double north = 0;
     double east = 0;
@@ -100,8 +100,8 @@ double reach_m(const SitePosition& site, const GridSpec& spec) {
         last = point;
         first = false;
     }
-    // Every column of the border is at most half a gap from a computed one. Add a tenth, because
-    // the border may be curved in between.
+    // Every column of the border is at most half a gap from a column whose arc is computed. Add a
+    // tenth, because the border may be curved between computed columns.
     return std::min(farthest_m + 0.55 * widest_gap_m, half_meridian_m);
 }
 
@@ -115,9 +115,9 @@ double storage_error_bound_m(double reach_m) noexcept {
 // Consider a step ds along a geodesic from the site. On the sphere, its image is stretched by (1 +
 // north) along the meridian and by (1 + east) along the parallel, both at the step's latitude. Only
 // these stretches turn the image away from a great circle, because latitude and azimuth change
-// alike on both. So the end of the image is off by at most the integral of the larger error. In the
-// equidistant plane, the error is multiplied by theta / sin(theta). The bound adds 1 % for products
-// of errors.
+// alike on both. So the end of the image is off by at most the integral of the larger of the two
+// errors. In the equidistant plane, this distance is multiplied by theta / sin(theta), where theta
+// is the angle of the arc. The bound adds 1 % for products of errors.
 double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept {
     if (!(reach_m > 0)) return 0;
     // Two points of the disc are at most its width apart.

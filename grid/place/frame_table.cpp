@@ -130,7 +130,7 @@ class TableFiller {
     }
 
     // At the peaks, the errors along x and along y occur with all pairs of signs, so they cannot
-    // hide each other.
+    // cancel each other at all peaks.
     bool holds(const Block& block) {
         for (std::size_t j = 0; j <= order; ++j) {
             const auto row = row_at(peak_weights_[j]);

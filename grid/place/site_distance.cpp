@@ -12,7 +12,7 @@ namespace {
 constexpr int widest_step = 8;
 constexpr double tolerance_m = 0.05;   // the greatest error of an arc that a check accepts
 constexpr double least_arc_m = 100e3;  // the square of a shorter arc may err as much as here
-// no caller uses patches whose nodes are all farther away
+// Patches whose nodes are all farther away are not checked, because no caller uses them.
 constexpr double farthest_asked_m = 2000e3;
 constexpr int patches_to_ask = 1024;  // of more patches, every fourth along x and y is checked
 
@@ -62,7 +62,8 @@ struct Lattice {
 };
 
 Lattice solve_nodes(const Solver& solver, const GridWindow& window, int step) {
-    // Counts a node for each column, or the nodes that cover whole bricks with both ends.
+    // Returns the number of nodes along a side of the window: one for each column, or enough to
+    // cover whole bricks, including nodes at both ends.
     const auto along = [&](int cells) {
         return step == 1 ? cells : bricks_along(cells) * brick_edge / step + 1;
     };

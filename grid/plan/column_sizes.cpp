@@ -45,7 +45,7 @@ class NearGates {
           half_cell_m_(static_cast<float>(std::hypot(spec.cell_width_m(), spec.cell_height_m())) /
                        2) {}
 
-    // Takes the sweeps that have anything but no echo or not seen over a tile.
+    // Selects the sweeps that are neither no echo everywhere nor not seen everywhere around a tile.
     void move_to(const Tile& tile) {
         busy_.clear();
         const auto table_end =

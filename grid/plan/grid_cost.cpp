@@ -45,7 +45,7 @@ TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     return stratum;
 }
 
-// Times a stratum. Times a short run again and takes the lesser time, which has less noise.
+// Times a stratum. If a run is short, repeats it and takes the lesser time, which has less noise.
 Result<double> stratum_s(GridScene& scene, const Method& method,
                          const TileSample::Stratum& stratum) {
     if (stratum.tiles.empty()) return 0.0;
@@ -105,7 +105,8 @@ double more(double with_s, double without_s) {
     return std::max(0.0, with_s - without_s);
 }
 
-// Sets the cost of each effect by itself: of interpolations for points, of areas for nearest gates.
+// Sets the cost of each effect without joint costs: the cost of an interpolation is that for point
+// cells, and the cost of areas is that for the nearest gate.
 void set_effect_costs(const Fills& fills, std::size_t interpolation, std::size_t cell,
                       accuracy::Chain& chain) {
     std::vector<accuracy::Effect>& rungs = chain.steps[interpolation].effects;
@@ -139,7 +140,7 @@ TileSample draw_tiles(GridScene& scene, std::size_t of_each) {
     std::vector<Tile> without;
     const auto reach_m = static_cast<float>(scene.reach_m());
     for (const Tile& tile : scene.tiles()) {
-        // beyond the reach nothing is seen, so a tile takes no time
+        // Nothing beyond the reach is seen, so a tile there takes no time.
         if (!(tile.bounds.least_arc_m < reach_m)) continue;
         (may_hold_values(scene, tile) ? with_echo : without).push_back(tile);
     }

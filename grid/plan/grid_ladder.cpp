@@ -124,7 +124,8 @@ Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
                     std::hypot(frame->rms_m, beam.rms_m, jitter.rms_m)};
 }
 
-// Times the grid: first with its geometry and all else, then without the parts that can be kept.
+// Times the grid twice: first including its geometry and all other preparation, then without the
+// parts that can be kept.
 Status time_grid(GridScene& scene, const SceneChoice& choice, int rounds,
                  accuracy::LadderRow& row) {
     const GridderOptions options{scene.options().moment, scene.options().beam_width_deg,

@@ -31,8 +31,8 @@ void AzimuthTable::add_sector(double end_deg, int entry) {
     radials_.push_back(entry == none ? none : entries_[static_cast<std::size_t>(entry)].radial);
 }
 
-// Goes around once, from the last radial before north to the first after north. Neighbors meet in
-// the middle between them, unless they are so far apart that there is a gap.
+// Goes around once, from the last radial before north to the first after north. The sectors of
+// neighboring radials meet in the middle, unless the radials are so far apart that there is a gap.
 void AzimuthTable::make_sectors() {
     const std::size_t count = entries_.size();
     if (count == 0) {

@@ -161,7 +161,7 @@ void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respec
     });
 }
 
-// Returns true if `later`, which is later in the file, is to be preferred.
+// Returns true if `later`, which is later in the file, is preferable to `other`.
 bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
                std::optional<UtcTime> nearest_to) {
     if (!nearest_to) return true;

@@ -84,8 +84,8 @@ double SweepClock::seconds_of(const Turn& sweep, double azimuth_deg) {
     return sweep.start_s + turn(sweep.first_azimuth_deg, azimuth_deg) / sweep.degrees_per_s;
 }
 
-// Goes up the column and through the sweeps together. `below` and `above` are the beams around the
-// level; below the first and above the last beam, only the nearer beam counts.
+// Goes up the column and through the sweeps together. `below` and `above` are the beams around a
+// level. Below the first and above the last beam, only the nearer beam counts.
 void SweepClock::read(double azimuth_deg, double arc_m, std::span<const double> levels_m,
                       std::span<float> seconds) const {
     const BeamGeometry::Angle half_arc = beam_.half_arc_angle(arc_m);

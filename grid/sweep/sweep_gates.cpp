@@ -8,7 +8,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The gate number where a beam does not pass over an arc.
+// The gate number in the table for arcs over which the beam does not pass.
 constexpr double no_gate = -1e9;
 
 ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std::size_t size) {
@@ -225,8 +225,8 @@ Sample SweepGates::gate(int position, std::int32_t gate) const {
     return gate_of(row, kinds_[row.kind], gate);
 }
 
-// Adds a run of gates with weight 1. Equal codes have the same result in 8 bits and in 16, because
-// the two branches below differ only in how they read a code and its value.
+// Adds a run of gates with weight 1. The two branches below differ only in how they read a code and
+// its value, so a code of 8 bits and an equal code of 16 bits have the same result.
 void SweepGates::add_gates(int position, std::int32_t first, std::int32_t end,
                            Mixture& mixture) const {
     if (first >= end) return;
