@@ -58,7 +58,7 @@ inline constexpr double label_size = 12;
 inline constexpr double title_y = 30;
 inline constexpr double line_height = 20;
 
-// Lays out a plot. Errors: the same as draw_plot().
+// Lays out a plot. Errors: the errors of draw_plot().
 [[nodiscard]] Result<PlotLayout> lay_out_plot(const Plot& plot);
 
 }  // namespace stormcellar::accuracy

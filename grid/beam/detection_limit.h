@@ -1,6 +1,7 @@
 // grid/beam/detection_limit.h -- the weakest reflectivity that a radar can show at a range.
 //
-// Where a cell mixes no echo with echo, no echo counts as this value (docs/geometry.md).
+// If a cell mixes gates with echo and gates without echo, a gate without echo counts as this value
+// (docs/geometry.md).
 //   limit_dbz = dbz0 + 20 log10(range / 1 km) + attenuation * range + snr_threshold
 // Message 31 has dbz0 (the calibration: the reflectivity at 1 km of an echo as strong as the
 // noise), the attenuation and the threshold. If the message has no calibration, a fixed curve

@@ -12,7 +12,7 @@
 
 namespace stormcellar::grid {
 
-// Converts to meters, rounded to the millimeter, so that 0.1 km is exactly 100 m.
+// Converts kilometers to meters, rounded to the millimeter, so that 0.1 km is exactly 100 m.
 [[nodiscard]] double metres_of_km(double km);
 
 // Parses "bottom:top:step" in kilometers into levels in meters. The top is a level if the steps

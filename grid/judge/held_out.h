@@ -1,9 +1,10 @@
 // grid/judge/held_out.h -- scores how well a grid made for an instant matches a volume that the
 // radar measured then.
 //
-// The middle one of three volumes is held out, and every rung of time
-// (grid/mosaic/time_interpolation.h) reconstructs it from the other two. So the errors include the
-// growth and decay of the echo and the noise of the gates, in the same way for each rung.
+// The middle volume of three is held out. Each method of interpolation in time
+// (grid/mosaic/time_interpolation.h) reconstructs it from the other two volumes. So the errors
+// include the growth and decay of the echo and the noise of the gates, in the same way for each
+// method.
 //
 // Units     Errors of REF in dB, over cells that both grids have seen (value or no echo) and that
 //           have 5 dBZ or more in at least one of the grids. No echo, and anything below 0 dBZ,
@@ -35,7 +36,7 @@ struct HeldOut {
     std::optional<CellMotion> motion_mps;
 };
 
-// Scores the rungs. Errors: not_found if there are no cells to compare; the errors of grid_at().
+// Scores the methods. Errors: not_found if there are no cells to compare; the errors of grid_at().
 [[nodiscard]] Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_out,
                                              const TimedView& after, const ColumnGeometry& geometry,
                                              int threads);

@@ -80,7 +80,7 @@ struct SiteComparison {
     std::size_t blocks = 0;   // blocks that have cells
     double deviation_db = 0;  // of A minus B, after removing the faults (Fit::deviation)
     double correlation = 0;   // of A and B, after removing the faults
-    double apart_s = 0;       // median time between the two looks at a cell
+    double apart_s = 0;       // median time between the two measurements of a cell
 };
 
 // Compares two sites. If there is too little echo, no fault has an estimate (`untold` says why);

@@ -23,11 +23,11 @@ struct Shift {
     std::size_t pixels = 0;  // pixels with echo in at least one image
 };
 
-// Searches shifts within +-reach_x and +-reach_y of (around_x, around_y). Each image is moved by
-// half of the shift, in opposite directions, so that the motion belongs to the box at the middle
-// time. The correlation covers the pixels that both images have seen. A parabola through the best
-// shift and its neighbors yields the fraction of a pixel. Returns none if no shift leaves echo in
-// both images.
+// best_shift() searches shifts within +-reach_x and +-reach_y of (around_x, around_y). Each image
+// is moved by half of the shift, in opposite directions, so that the motion belongs to the box at
+// the middle time. The correlation covers the pixels that both images have seen. A parabola through
+// the best shift and its neighbors yields the fraction of a pixel. The result is none if no shift
+// leaves echo in both images.
 struct ShiftSearch {
     int around_x = 0, around_y = 0;
     int reach_x = 0, reach_y = 0;

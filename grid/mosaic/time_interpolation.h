@@ -11,10 +11,11 @@
 // show the same instant.
 //
 // States    Between columns, the status rule (grid/sweep/mixture.h) applies with bilinear weights.
-//           Between the two ends, it applies with the weights in time, but if one end has not seen
-//           a cell, the cell is the other end's. Values are in dB. Moments that wrap (VEL, PHI) and
-//           their states are not mixed: the column and the end with the largest weight determine
-//           the cell. No echo enters a value with the range curve of grid/beam/detection_limit.h.
+//           Between the two volumes, the rule applies with the weights in time, but if one volume
+//           has not seen a cell, the cell is as in the other volume. Values are in dB. Moments that
+//           wrap (VEL, PHI) and their states are not mixed: the column and the volume with the
+//           largest weight determine the cell. No echo enters a value with the range curve of
+//           grid/beam/detection_limit.h.
 // Accuracy  No bound is known, because the errors come from how the echo changed between the
 //           volumes. docs/accuracy.md has the errors measured on held-out volumes.
 // Threads   Pure; the same bits for any number of threads.

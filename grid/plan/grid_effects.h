@@ -62,10 +62,10 @@ inline constexpr std::string_view circle = "circle";
 // sum of their efforts.
 [[nodiscard]] double joint_effort(Interpolation interpolation, CellExtent cell);
 
-// Returns the choice that is used without a budget: usual_choice(), except that cells are areas if
-// they are wider than the beam is at 160 km (2.7 km for a WSR-88D), because point samples would
-// alias. The extent of the grid does not matter, because a part of a grid must equal that part of
-// the whole grid.
+// default_choice() returns the choice that is used without a budget. The choice is usual_choice(),
+// except that cells are areas if they are wider than the beam at 160 km (2.7 km for a WSR-88D),
+// because point samples would alias. The extent of the grid does not matter, because a grid of a
+// part of an area must equal that part of a grid of the whole area.
 inline constexpr double wide_cells_arc_m = 160e3;
 [[nodiscard]] accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
                                               double beam_width_deg);

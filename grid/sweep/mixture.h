@@ -2,10 +2,11 @@
 // several gates.
 //
 // The rule (docs/geometry.md): the gates of a cell have the total weights v (valued), n (no echo),
-// f (range folded) and u (not seen). If u is over one half, the cell is not seen; else if f is the
-// largest, it is range folded; else if v < n, it is no echo; else it has a value. Range folded and
-// not seen never enter a value; the other weights are scaled to 1. For reflectivity, no echo enters
-// a value with the detection limit of its gate; for other moments it does not enter.
+// f (range folded) and u (not seen). If u is over one half of the sum, the cell is not seen.
+// Otherwise, if f is the largest, the cell is range folded. Otherwise, if v < n, the cell is no
+// echo. Otherwise, the cell has a value. Range folded and not seen never enter a value; the other
+// weights are scaled to 1. For reflectivity, no echo enters a value with the detection limit of its
+// gate; for other moments it does not enter.
 //
 // Values that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle: as
 // differences from the value with the largest weight, the shorter way around. Values whose circles

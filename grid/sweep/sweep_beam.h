@@ -5,7 +5,7 @@
 //
 // The beam of a radial that was measured higher or lower than its sweep is on the parabola through
 // the sweep beam's center and edges. An edge is lost if it never passes over an arc, or if it
-// passes on the other side of the beam's center; ducts and the ground do that. A lost edge is
+// passes on the wrong side of the beam's center. Ducts and the ground cause this. A lost edge is
 // replaced by the mirror image of the other edge. If both are lost, each edge is placed half a beam
 // width (at the range of the center) from the center. So a beam rises per degree as its remaining
 // half does. Nothing is seen between the center and a lost edge.

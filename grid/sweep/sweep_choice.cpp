@@ -20,7 +20,7 @@ constexpr float largest_value = 1e5F;  // for any moment, in its unit
 
 struct Candidate {
     ChosenSweep sweep;
-    double angle_deg = 0;  // the fixed angle if it is plausible, else the measured one
+    double angle_deg = 0;  // the fixed angle if it is plausible, else the measured elevation
     double covered_deg = 0;
     double reach_m = 0;
     double unambiguous_m = 0;  // 0: unknown, or without meaning for the moment

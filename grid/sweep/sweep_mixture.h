@@ -11,18 +11,18 @@
 
 namespace stormcellar::grid {
 
-// Returns only the nearest gate.
+// Returns a mixture of the nearest gate alone.
 [[nodiscard]] Mixture nearest_gate(const PolarSweep& sweep, float azimuth_deg, ArcPlace place);
 
-// Returns two gates of each of the two radials around the azimuth, linear in azimuth and range.
+// Mixes two gates of each of the two radials around the azimuth, linear in azimuth and range.
 [[nodiscard]] Mixture four_gates(const PolarSweep& sweep, float azimuth_deg, ArcPlace place);
 
-// Returns all radials within reach, weighted by the antenna's pattern in azimuth
-// (grid/beam/beam_pattern.h), with two gates of each, linear in range.
+// Mixes all radials within reach, weighted by the antenna's pattern in azimuth
+// (grid/beam/beam_pattern.h). Of each radial, two gates count, linear in range.
 [[nodiscard]] Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace place,
                                        float beam_width_deg);
 
-// Returns all gates whose centers are in the outline, each with the same weight. The parts of the
+// Mixes all gates whose centers are in the outline, each with the same weight. The parts of the
 // outline beyond the last gate and in azimuth gaps count as not seen. The weight is 0 if no gate's
 // center is inside.
 //

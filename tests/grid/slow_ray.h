@@ -1,8 +1,8 @@
 // tests/grid/slow_ray.h -- a ray through spherical layers, by quadrature of Bouguer's law.
 //
-// n r cos(elevation) = C makes range and arc between two heights integrals over height. They are
-// computed layer by layer between turning points, by the tanh-sinh rule in 113-bit floats, without
-// stepping along the ray.
+// Because n r cos(elevation) = C along the ray, range and arc between two heights are integrals
+// over height. The integrals are computed layer by layer between turning points, by the tanh-sinh
+// rule in 113-bit floats, without stepping along the ray.
 #pragma once
 
 #include "stormcellar/grid/ray_tracer.h"

@@ -21,8 +21,8 @@ namespace stormcellar::grid {
 
 struct AuditRow {
     float elevation_deg = 0;        // the measured elevation of the sweep
-    float range_from_m = 0;         // gates from this slant range on,
-    float range_to_m = 0;           // and below this slant range; infinite in the last class
+    float range_from_m = 0;         // least slant range of the class
+    float range_to_m = 0;           // end of the class (not included); infinite for the last class
     std::uint32_t sampled = 0;      // gates within the grid
     std::uint32_t same_status = 0;  // of these, gates whose cell has the same status
     std::uint32_t count = 0;        // of these, gates with a value whose cell also has a value

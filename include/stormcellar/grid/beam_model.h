@@ -89,9 +89,10 @@ class BeamModel {
     RangeKind range_kind_ = RangeKind::optical;
 };
 
-// The largest difference between two models, over the beams of some elevations, at all places
-// within the limits that either model reaches. It is infinite if only one model reaches some place,
-// for example because a duct bends the beam of the other model away.
+// greatest_difference() returns the largest difference between two models, over the beams of some
+// elevations, at all places within the limits that either model reaches. The difference is infinite
+// if only one model reaches some place, for example because a duct bends the beam of the other
+// model away.
 //
 // Arcs and ranges are compared every 500 m, up to one step beyond the limits. Between these points
 // the difference exceeds the result by less than 0.1 m (enforced for levels at least 50 m apart,

@@ -63,8 +63,8 @@ static_assert(sizeof(BrickEntry) == 24);
 
 class SweepLookup;  // stormcellar/grid/sweep_lookup.h
 
-// The view of one sweep (a ppi) has no bricks. Its spec has one level, the plane about the radar on
-// which the sweep is drawn, and `sweep` finds the gate at a place.
+// The view of one sweep (a ppi) has no bricks. The spec of such a view has one level, the plane
+// about the radar on which the sweep is drawn, and `sweep` finds the gate at a place.
 struct BrickView {
     const GridSpec* spec = nullptr;
     Quantization quantization;

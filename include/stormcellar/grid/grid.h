@@ -69,8 +69,9 @@ struct Provenance {
     // For a mosaic: machines whose partials came too late and are missing, with the time of their
     // last partial, as in "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
     std::vector<std::string> left_out;
-    // For a frame between volumes: true if a later volume will change the frame; and the number of
-    // volumes that it is made from, or 0 if the grid is not a frame.
+    // For a frame, which is a grid for an instant between volumes: `provisional` is true if a later
+    // volume will change the frame. `revision` is the number of volumes from which the frame is
+    // made, or 0 if the grid is not a frame.
     bool provisional = false;
     int revision = 0;
     std::vector<FramePart> parts;  // of a frame, by ICAO, then time; empty: unknown, or not a frame

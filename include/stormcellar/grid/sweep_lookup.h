@@ -45,7 +45,7 @@ struct SweepFacts {
     std::size_t number = 0;      // index in Volume::sweeps
     int cut = 0;                 // number of the VCP's cut, from 1
     double elevation_deg = 0;    // the median of the radials used
-    double fixed_angle_deg = 0;  // the VCP's if it is plausible, else the measured one
+    double fixed_angle_deg = 0;  // the VCP's angle if it is plausible, else `elevation_deg`
     std::size_t radial_count = 0;
     double azimuth_spacing_deg = 0;
     double gate_spacing_m = 0;  // the smallest, if the radials differ
