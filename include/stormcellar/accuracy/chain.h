@@ -69,8 +69,8 @@ struct Choice {
 // efforts. Never negative; 0 if every effect is off and no joint effort applies.
 [[nodiscard]] double effort(const Chain& chain, const Choice& choice);
 
-// Returns the exact form. In each step, the effects are on from the lowest up to, but without, the
-// first effect that the scene does not ask for.
+// Returns the exact form. In each step, the effects are on up to the first effect that the scene
+// does not ask for; that effect and all above it are off.
 [[nodiscard]] Choice exact_choice(const Chain& chain);
 
 // Returns the sum of the predicted sizes of the effects that are off, not counting effects that the

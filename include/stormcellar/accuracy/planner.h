@@ -5,7 +5,8 @@
 // add up to at most the limit. An effect that the user set off counts in the sum. Depending on what
 // the budget bounds, the plan holds
 //   for errors             the first of list_candidates() whose sums are within the budget
-//   for errors and a time  the first of these whose predicted cost is also within the time
+//   for errors and a time  the first of list_candidates() whose sums are within the budget and
+//                          whose predicted cost is within the time
 //   for a time alone       the most accurate choice within the time (is_more_accurate()), and the
 //                          first of list_candidates() if several are equally accurate
 // If no candidate fits, the plan holds the most accurate candidate within the time, or the first of

@@ -2,13 +2,14 @@
 // which chosen sweeps are neighbors in the VCP.
 //
 // Sweeps whose fixed angles differ by at most 0.2 degrees have the same elevation. One sweep of
-// each elevation is chosen. Three filters, one after another, keep the candidates - that cover at
-// least 90 % of the azimuths of the fullest candidate, - that reach at least 90 % as far as the
-// farthest candidate, and - whose unambiguous range is at least 90 % of the longest (not for VEL
-// and SW). The newest remaining candidate is chosen, or, if a time is given, the candidate nearest
-// to that time. So a split cut yields its surveillance sweep (for VEL and SW its Doppler sweep),
-// SAILS and MRLE yield their latest sweep or the sweep nearest to that time, and a sweep that broke
-// off does not displace a whole one. docs/geometry.md explains the rules.
+// each elevation is chosen. Three filters, one after another, keep the candidates
+// - that cover at least 90 % of the azimuths of the fullest candidate,
+// - that reach at least 90 % as far as the farthest candidate, and
+// - whose unambiguous range is at least 90 % of the longest (not for VEL and SW).
+// The newest remaining candidate is chosen, or, if a time is given, the candidate nearest to that
+// time. So a split cut yields its surveillance sweep (for VEL and SW its Doppler sweep), SAILS and
+// MRLE yield their latest sweep or the sweep nearest to that time, and a sweep that broke off does
+// not displace a whole one. docs/geometry.md explains the rules.
 //
 // Units     Degrees.
 // Threads   Plain values and pure functions.
