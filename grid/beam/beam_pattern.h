@@ -1,8 +1,8 @@
 // grid/beam/beam_pattern.h -- how much a gate counts for a point off the axis of its beam.
 //
 // The weight is the one-way power pattern of the antenna, a Gaussian of the half-power width, so it
-// is 1/2 at half a width off the axis. The pattern is lowered and scaled so that it is still 1 on
-// the axis and 0 from `reach` on:
+// is 1/2 at half a width off the axis. The pattern is lowered and scaled, so that the weight is 1
+// on the axis and 0 from `reach` on:
 //   weight(x) = (G(x) - G(reach)) / (1 - G(reach)),   G(x) = exp(-4 ln 2 (x / width)^2)
 // Here width = reach = the larger of the beam width and the distance between neighboring radials or
 // sweeps. So between two neighboring radials or sweeps both count, except on the axis of one of

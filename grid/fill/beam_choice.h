@@ -26,8 +26,8 @@ template <class Beam>
 }
 
 // Returns the share of the upper of two adjacent beams, 0 to 1; the lower beam has the rest.
-// `linear` is the fraction of the way from the lower beam to the upper one. With `nearest`, the
-// nearer beam has the whole share.
+// `linear` is the fraction of the way from the lower to the upper beam. With `nearest`, the nearer
+// beam has the whole share.
 [[nodiscard]] inline float upper_share(float linear, bool nearest) {
     if (!nearest) return linear;
     return linear > 0.5F ? 1.0F : 0.0F;

@@ -46,8 +46,8 @@ inline std::span<float> values_of(const FillWork& work, const TileColumn& column
 }
 
 // Sorts beams by height. Beams may be out of order if their radials were measured higher or lower
-// than their sweeps. A lost cut belongs to a position in the order and not to a beam, so it does
-// not move.
+// than their sweeps. A lost cut belongs to a position in the order and not to a beam, so lost cuts
+// do not move.
 template <class Beam>
 void put_in_order(std::span<Beam> beams) {
     const auto lower = [](const Beam& a, const Beam& b) { return a.height_m < b.height_m; };

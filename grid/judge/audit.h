@@ -4,8 +4,8 @@
 // from the beam of the grid's method and the radial's own azimuth and elevation, without the
 // gridder's tables. Then it reads the grid at that position and subtracts the gate. So the audit
 // measures the joint effect of cells, levels, quantization, beam table and frame, and of mistakes
-// in any of them. It needs no exact grid for comparison: a grid that is turned or shifted disagrees
-// with its own gates.
+// in any of them. The audit needs no exact grid for comparison, because a grid that is turned or
+// shifted disagrees with its own gates.
 //
 // Grid      Between cells the grid is trilinear, by the status rule of docs/geometry.md over the
 //           eight cells around the gate, because the nearest cell may be up to 0.9 km away in a
@@ -16,10 +16,10 @@
 //           are the same for any number of threads. Gates beyond the centers of the outermost cells
 //           are not used.
 // Result    The RMS and the mean of grid minus gate in the unit of the moment, for each sweep and
-//           class of ranges, over gates that have a value where the grid also has one. Separately,
-//           how often the statuses agree. The result measures this grid against this volume and is
-//           no bound. The grid smooths gates between levels and columns, including the gates'
-//           noise, and neighboring gates of a radar differ by 2.6 dB.
+//           class of ranges, over gates that have a value where the grid also has a value.
+//           Separately, how often the statuses agree. The result measures this grid against this
+//           volume and is no bound. The grid smooths gates between levels and columns, including
+//           the gates' noise, and neighboring gates of a radar differ by 2.6 dB.
 // Cost      Half the time of gridding, in proportion to the number of gates. For 460 x 460 x 32
 //           cells with one thread of a busy machine, 19 to 29 ms about the site, and 24 to 39 ms
 //           away from the site.

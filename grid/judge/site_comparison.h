@@ -6,8 +6,8 @@
 //   bias_db        B's values are higher than A's by this much.
 //   azimuth_deg    B's echo is turned about B, clockwise: its azimuths are too large by this much.
 //   elevation_deg  B's echo is raised, by range times this angle: its elevations are too large.
-//   time_s         B's clock is late: its time stamps are too early by this much, so its echo is
-//                  displaced along the motion. This needs a motion.
+//   time_s         B's clock is late: B's time stamps are too early by this much, so B's echo is
+//                  displaced along the motion. The estimate needs a motion.
 // A comparison of two sites cannot tell which site is at fault. With three sites, the faulty site
 // is in both pairs that differ.
 //

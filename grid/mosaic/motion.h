@@ -1,11 +1,11 @@
 // grid/mosaic/motion.h -- estimates how echo moved from one grid to a later one.
 //
 // Model     Echo moves in the plane of the grid, with the same motion at all heights; it may grow
-//           and decay. The estimate is the motion that makes parts of the two column-maximum images
-//           (grid/mosaic/echo_image.h) correlate best: first for the whole image, then for
-//           overlapping blocks, near the motion of the whole. Each block counts by its correlation.
-//           The field of motions is smoothed. Where there is no echo, the motion of the whole
-//           counts.
+//           and decay. The estimate is the motion with which the column-maximum images of both
+//           grids (grid/mosaic/echo_image.h) correlate best: first for the whole image, then for
+//           overlapping blocks, near the motion of the whole image. Each block counts by its
+//           correlation. The field of motions is smoothed. Where there is no echo, the motion of
+//           the whole image counts.
 // Units     Columns of the grid per second, east (x) and north (y), so that a grid in degrees needs
 //           no conversion. Multiply by GridSpec::cell_width_m() and cell_height_m() for m/s.
 // Accuracy  1.5 m/s for a pattern that moves rigidly, with pixels of 2 km and 300 s (enforced by

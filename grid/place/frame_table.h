@@ -7,9 +7,9 @@
 // antipode is far, even at the site itself, where azimuth and arc are not smooth.
 //
 // The polynomial is compared with exact geodesics where its error peaks: at the extremes of the
-// polynomial of the nodes. A block whose error exceeds half of frame_table_error_m is cut into
-// four, or solved exactly if it has 128 columns or fewer. The worst case costs one and a half times
-// as much as solving each column. Usually one column in 200 is solved.
+// polynomial of the nodes. A block whose error exceeds half of frame_table_error_m is cut into four
+// blocks, or solved exactly if the block has 128 columns or fewer. The worst case costs one and a
+// half times as much as solving each column. Usually one column in 200 is solved.
 //
 // Accuracy  frame_table_error_m from the exact place, before storage as floats. Enforced by
 //           tests/grid/frame_table_test.cpp for every column of grids of all projections, from pole

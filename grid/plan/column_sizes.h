@@ -2,8 +2,8 @@
 // method.
 //
 // Columns are sampled in proportion to these sizes, and a column of size 0 is never compared. So a
-// size must not be 0 where any method finds a value. The default method looks at one point of a
-// cell; only methods that take all gates of a cell see a gate between two points.
+// size must not be 0 where any method finds a value. The default method looks only at the center of
+// a cell, but methods that take all gates of a cell also see gates between two centers.
 //
 // Threads   Pure.
 // Accuracy  tests/grid/column_sizes_test.cpp compares with the exact form on real volumes with

@@ -6,8 +6,9 @@
 // the scene. Tiles differ: those with echo take longer than clear air, and cells with an extent
 // take longest near the radar, where gates are dense. So tiles are drawn from two strata, each
 // evenly along the arc: tiles where a cell may hold a value, and other tiles within reach. Each
-// stratum is timed separately and scaled to its number of tiles. The times of interpolation and
-// extent do not add up, so every pair of them is timed (accuracy::JointCost).
+// stratum is timed separately and scaled to its number of tiles. The times of an interpolation and
+// an extent do not add up, so every pair of interpolation and extent is timed
+// (accuracy::JointCost).
 //
 // Accuracy  The aim is a factor of 1.5 of the actual time. bench/bench_plan.cpp measures it over
 //           real volumes (docs/performance.md). No test enforces it, because it depends on a clock.

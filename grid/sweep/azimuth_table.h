@@ -1,10 +1,10 @@
 // grid/sweep/azimuth_table.h -- which radials of a sweep see an azimuth.
 //
-// The table finds the nearest radial, the two on either side of an azimuth, or all within a reach.
-// Where neighboring radials are more than one and a half spacings apart, there is a gap: each of
-// the two radials reaches half a spacing into the gap, and no radial sees the rest. Pairs and
-// neighborhoods do not extend across gaps. If radials have the same azimuth, the later one in the
-// given order counts. Radials may be in any order and number, and may wrap around north.
+// The table finds the nearest radial, the two radials on either side of an azimuth, or all radials
+// within a reach. Where neighboring radials are more than one and a half spacings apart, there is a
+// gap: each of the two radials reaches half a spacing into the gap, and no radial sees the rest.
+// Pairs and neighborhoods do not extend across gaps. If radials have the same azimuth, the later
+// one in the given order counts. Radials may be in any order and number, and may wrap around north.
 //
 // A lookup is exact: it starts from a table of quarter degrees and takes a step or two along
 // sorted boundaries.
@@ -44,8 +44,8 @@ class AzimuthTable {
     };
     [[nodiscard]] Bracket bracket(float azimuth_deg) const;
 
-    // Calls visit(position, offset_deg) for the nearest radial and for each radial within
-    // `reach_deg` of an azimuth that no gap separates from it. The offset is positive clockwise.
+    // Calls visit(position, offset_deg) for the radial nearest to the azimuth, and for each radial
+    // within `reach_deg` that no gap separates from the azimuth. The offset is positive clockwise.
     // Visits none if no radial sees the azimuth.
     template <class Visit>
     void visit(float azimuth_deg, float reach_deg, Visit visit) const;

@@ -24,9 +24,9 @@ struct Candidate {
 // The most choices that list_candidates() accepts; a search through more takes too long.
 inline constexpr std::size_t most_candidates = 65536;
 
-// Returns the choices that the settings allow, in order of rising effort. A chain without efforts
-// is ordered by cost instead; costs are measured, so that order depends on how busy the machine
-// was.
+// Returns the choices that the settings allow, in order of rising effort. The choices of a chain
+// without efforts are ordered by cost instead. Costs are measured, so the order then depends on how
+// busy the machine was.
 //
 // A choice that leaves off an effect of unbounded size, although the settings allow it to be on, is
 // not listed. No budget allows such a choice, not even a budget that does not bound the quantity.

@@ -40,9 +40,9 @@ enum class TimeKind { first, kept };
 
 // Sets `pareto` in every row, separately for each step. A row is on the front unless another row of
 // its step is at least as good in time, 99th percentile of the value, largest position error and
-// 99th percentile of the color, and better in one of them. Rows that are equal in all four are on
-// the front together. A missing error counts as infinite, so a row cannot win because it was not
-// measured.
+// 99th percentile of the color, and better in one of them. Rows that are equal in all four figures
+// are on the front together. A missing error counts as infinite, so a row cannot win because its
+// error was not measured.
 void mark_pareto(std::span<LadderRow> rows, TimeKind kind = TimeKind::first);
 
 struct LadderField {

@@ -4,8 +4,8 @@
 // Every brick has a fixed address (stormcellar/grid/brick_view.h), yet in a large grid a brick
 // without values takes no memory: 7000 x 3500 x 33 cells reserve 1.1 GiB of addresses, but use
 // memory pages only for bricks that were written. The last bricks reach beyond the edge of the
-// grid. Places beyond the edge are not cells: their code is 0, and a brick counts as uniform
-// whatever they hold.
+// grid. Places beyond the edge are not cells. Their code is 0, and they do not matter for whether a
+// brick is uniform.
 //
 // Threads   Any thread may call const functions. Different BricksWriters may write different bricks
 //           at the same time.
@@ -42,8 +42,8 @@ class BrickGrid {
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
 
     // Takes over the states and counts of the writers. Each writer must have written its bricks in
-    // rising order, after all bricks of the writer before it, so that the states are in the order
-    // of their bricks.
+    // rising order, and all of them must come after the bricks of the writer before it, so that the
+    // states are in the order of their bricks.
     void finish(std::span<BricksWriter> writers);
 
     // To write bricks anew, call clear() for each brick, which makes its cells not seen, and write

@@ -8,7 +8,8 @@
 //   cheapest  every effect off: flat earth, one elevation for each sweep, nearest, a point, on a
 //             sphere
 // In these builds a Chosen is a constant, so the compiler drops all other rungs and all tests of
-// the rung. Such a library serves only for counting: it aborts if a caller chooses another rung.
+// the rung. Such a library serves only for counting costs, because it aborts if a caller chooses
+// another rung.
 //
 // Threads   Plain values.
 // Errors    None; only the builds for counting abort.

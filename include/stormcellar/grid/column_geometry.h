@@ -7,9 +7,9 @@
 // Threads   Immutable; many threads may use one object.
 // Errors    See make_column_geometry().
 // Accuracy  Enforced by tests/grid/column_geometry_test.cpp. The arc is within 0.02 m up to 500 km.
-//           The azimuth is within 2e-5 degrees, plus the angle that an error of 1e-3 m (`table`) or
-//           1e-6 m (`geodesic`) makes close to the site. stormcellar/grid/frame_ladder.h has the
-//           bounds in meters, and the bounds of `sphere`.
+//           The azimuth is within 2e-5 degrees, plus the angle under which the site sees an error
+//           of 1e-3 m (`table`) or 1e-6 m (`geodesic`), which matters only close to the site.
+//           stormcellar/grid/frame_ladder.h has the bounds in meters, and the bounds of `sphere`.
 #pragma once
 
 #include <memory>

@@ -1,10 +1,10 @@
 // stormcellar/grid/grid_window.h -- rectangles of columns of a domain's grid, as grids of their
 // own.
 //
-// The data of one site in a large domain are gridded on columns of the domain, in a window: a
-// GridSpec with the same projection, center and levels, whose columns are exactly columns of the
-// domain, to the bit. So no step interpolates the data again, and the windows of many sites can be
-// merged cell by cell (stormcellar/grid/mosaic.h).
+// The data of one site in a large domain are gridded on columns of the domain, in a window. A
+// window is a GridSpec with the domain's projection, center and levels, whose columns are exactly
+// columns of the domain, to the bit. So no step interpolates the data again, and the windows of
+// many sites can be merged cell by cell (stormcellar/grid/mosaic.h).
 //
 // Units     Columns and rows; meters for reaches.
 // Threads   Pure functions.

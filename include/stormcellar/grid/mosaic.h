@@ -1,10 +1,10 @@
 // stormcellar/grid/mosaic.h -- merges grids of many sites, each on a window of a domain's grid,
 // into one grid.
 //
-// Each site is gridded once, on columns of the domain (site_window(), window_spec()), and kept as
-// bricks: the site's partial. merge() goes brick by brick and reads only bricks in which a site
-// sees something. After a new volume of one site, update() merges only the bricks that the site's
-// window touches.
+// Each site is gridded once, on columns of the domain (site_window(), window_spec()), and the grid
+// is kept as bricks, which are called the site's partial. merge() goes brick by brick and reads
+// only bricks in which a site sees something. After a new volume of one site, update() merges only
+// the bricks that the site's window touches.
 //
 // In each cell only the sites that see it count. Each of these sites has a state, and a weight that
 // depends on the arc r from the cell's column to the site:
@@ -12,12 +12,12 @@
 //   distance_weighted  The weight is exp(-r^2 / L^2) (Zhang, Howard and Gourley 2005; with L = 250
 //                      km Lakshmanan et al. 2006). The weight is never below 1e-30, so that a
 //                      cell that only one far site sees keeps its state.
-//     both             States mix by the rule of docs/geometry.md: the cell is range folded if that
-//                      state has the largest weight, else no echo if that state outweighs values,
-//                      else the weighted mean of the values. For REF, a site that sees no echo
-//                      enters the mean with its detection limit (the curve of
-//                      grid/beam/detection_limit.h at the slant range of the cell); for other
-//                      moments it does not enter.
+//     both             States mix by the rule of docs/geometry.md. The cell is range folded if
+//                      range folded has the largest weight, else no echo if no echo outweighs
+//                      values, else the weighted mean of the values. For REF, a site that sees no
+//                      echo enters the mean with its detection limit (the curve of
+//                      grid/beam/detection_limit.h at the slant range of the cell). For other
+//                      moments, such a site does not enter the mean.
 //   maximum            The largest value if there is any; else no echo if any site sees no echo;
 //                      else range folded.
 //   nearest            The state and the value of the nearest site that sees the cell. If two sites

@@ -72,15 +72,16 @@ class RefractivityProfile {
     // meter (39.2 per km), where R is the Gaussian radius at the latitude, down to 0 (at 8.0 km).
     // Above that height there is a vacuum.
     [[nodiscard]] static RefractivityProfile standard(double latitude_deg);
-    // Returns exponential() with its defaults, which serves if nothing better is known.
+    // Returns exponential() with its defaults. Use it if nothing better is known.
     [[nodiscard]] static RefractivityProfile reference();
     // Returns N0 exp(-h / H). Returns bad_argument unless N0 is 0 to 1000 and H is 1 to 100 km.
     [[nodiscard]] static Result<RefractivityProfile> exponential(
         double n_units = reference_n_units, double scale_m = reference_scale_m);
-    // Returns a profile through levels, between which N is exponential. Above the last level N
-    // falls with the reference's scale height; below the first level N is linear, with the gradient
-    // above that level. Returns bad_argument unless there are 2 to 10,000 levels of strictly rising
-    // height, N is above 0 in each, and heights, N and gradients keep the limits above.
+    // Returns a profile through levels, between which N is exponential. Above the last level, N
+    // falls with the scale height of the reference atmosphere. Below the first level, N is linear,
+    // with the gradient just above the first level. Returns bad_argument unless there are 2 to
+    // 10,000 levels of strictly rising height, N is above 0 in each, and heights, N and gradients
+    // keep the limits above.
     [[nodiscard]] static Result<RefractivityProfile> from_levels(
         std::span<const RefractivityLevel> levels, std::string name);
 
