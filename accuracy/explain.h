@@ -1,5 +1,5 @@
-// accuracy/explain.h -- the text of `--explain`: the size of each effect, whether it is on or off
-// and why, and the budget.
+// accuracy/explain.h -- writes the text of `--explain`: the budget, and for each effect its size,
+// whether it is on or off, and why.
 //
 // Explanations are wrapped at 80 characters; other lines may be longer. The same plan has the same
 // text on every machine. Sizes are rounded up to three digits.

@@ -30,8 +30,8 @@ class GatePlaces {
     [[nodiscard]] std::optional<EarthPoint> at(std::int32_t gate, double offset_deg) const;
 
   private:
-    // The place is middle + halves * (linear + halves * square), where halves is offset_deg in half
-    // beams.
+    // The place is middle + h * (linear + h * square), where h is offset_deg divided by half the
+    // beam width.
     struct Place {
         EarthPoint middle, linear, square;
     };

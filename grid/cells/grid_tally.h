@@ -1,6 +1,6 @@
 // grid/cells/grid_tally.h -- counts what many grids of one shape show, for statistics over months
-// and years: the greatest value and the echo top of each column and, on request, the values of each
-// cell.
+// and years. It counts the greatest value and the echo top of each column and, on request, the
+// values of each cell.
 //
 // Places that were not seen are counted separately from places without echo, so that a blind region
 // does not look dry. The tallies of the parts of a period, added in any order, equal the tally of

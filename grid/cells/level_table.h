@@ -1,6 +1,7 @@
 // grid/cells/level_table.h -- the levels of a grid, and the place of a height among them.
 //
-// A lookup is exact: it starts from a table of equal steps and searches on along the levels.
+// A lookup is exact, because it starts from a table of equal steps and then searches along the
+// levels.
 //
 // Threads   Immutable.
 #pragma once

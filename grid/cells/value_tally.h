@@ -1,8 +1,8 @@
 // grid/cells/value_tally.h -- counts the values of places in many grids.
 //
-// A place is a cell, or a column with its greatest value (grid/cells/grid_tally.h). All sums are
-// integers, so the tallies of the parts of a period, added in any order, equal the tally of the
-// whole period bit for bit.
+// A place is a cell, or a column, whose value is the greatest value in it
+// (grid/cells/grid_tally.h). All sums are integers, so the tallies of the parts of a period, added
+// in any order, equal the tally of the whole period bit for bit.
 //
 // Units     Reflectivity in dBZ.
 // Range     2^32 grids.

@@ -3,8 +3,8 @@
 //
 // A pixel is the mean of the maxima of its seen columns, in decibels above `floor_dbz`; a column
 // below the floor, or without echo, counts as 0. A pixel is seen if at least half of its columns
-// are seen at any level that counts. Levels below `lowest_m` do not count if there are higher
-// levels, because ground clutter does not move.
+// are seen at any level that counts. Levels below `lowest_m` do not count if the grid has higher
+// levels, because echo near the ground may be clutter, which does not move.
 //
 // Threads   Plain values.
 #pragma once

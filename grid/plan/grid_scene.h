@@ -72,8 +72,8 @@ struct SampledErrors {
     // Returns an upper bound of the 99th percentile of the magnitudes of all errors, at 99.9 %
     // confidence (for a census, the percentile itself), or none if the sample is too small.
     [[nodiscard]] std::optional<double> p99_bound() const;
-    // Returns how full the sampled columns are, as a mean from 0 to 1: the weight that a column
-    // holds over the most that any may hold.
+    // Returns how full the sampled columns are: the mean over the clusters of (weight * errors) /
+    // most_weight, from 0 to 1.
     [[nodiscard]] double mean_load() const;
     // Returns the 99th percentile of the sample itself; 0 if no cell has a value in both grids.
     [[nodiscard]] double p99_estimate() const;

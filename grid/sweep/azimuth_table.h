@@ -6,8 +6,8 @@
 // Pairs and neighborhoods do not extend across gaps. If radials have the same azimuth, the later
 // one in the given order counts. Radials may be in any order and number, and may wrap around north.
 //
-// A lookup is exact: it starts from a table of quarter degrees and takes a step or two along
-// sorted boundaries.
+// A lookup is exact, because it starts from a table of quarter degrees and then searches along
+// sorted boundaries, usually for a step or two.
 //
 // Units     Degrees, clockwise from north.
 // Threads   Immutable.

@@ -8,8 +8,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// The height of a beam that never passes over an arc. It is so large that the line from the
-// previous arc is above all heights that matter.
+// The height of a beam that never passes over an arc. This height is so large that the line to it
+// from the previous arc is above all heights that matter.
 constexpr float above_everything_m = 1e30F;
 
 // These return true if an edge is on the wrong side of the beam's center, or is NaN because it

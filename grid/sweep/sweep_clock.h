@@ -1,7 +1,8 @@
 // grid/sweep/sweep_clock.h -- computes when the radar measured each place of a grid.
 //
-// A volume takes minutes: its sweeps follow each other, and the antenna turns once in each. A grid
-// keeps a SweepTime for each sweep, from which the clock computes the time of any cell.
+// A volume takes minutes, because its sweeps follow each other and the antenna turns once in each
+// sweep. A grid keeps a SweepTime for each sweep, from which the clock computes the time of any
+// cell.
 //
 // Model     The antenna turns clockwise at constant speed. The time of a cell is the mean of the
 //           two sweeps whose beams (4/3 earth) pass next below and above it, with weights linear in

@@ -98,10 +98,10 @@ class SweepGates {
         std::int32_t first_gate = 0;  // the first gate at a range of 0 or more
         std::uint16_t first_valid_code = 2;
         std::vector<float> values;  // by code; only for 8-bit codes
-        // By gate, for moments with a detection limit: what the range adds to the limit in dB, or
-        // the factor by which it multiplies the limit in Z.
+        // By gate, for moments with a detection limit: the dB that the range of the gate adds to
+        // the limit, or the factor by which the range multiplies the limit in Z.
         struct Loss {
-            float spreading;    // 20 log10 of the range in km, or that as a power
+            float spreading;    // 20 log10 of the range in km, or the squared range for Z
             float attenuation;  // for radials with the kind's attenuation_db_per_m
         };
         std::vector<Loss> losses;
