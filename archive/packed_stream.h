@@ -21,10 +21,11 @@ struct archive;
 namespace stormcellar::archive {
 
 // Bounds the bytes that libarchive reads while it looks for the next header. libarchive stores the
-// contents of a header before it returns the header (the map of a sparse file takes twelve times
-// its size in memory, the directory of a zip three times), so only the source can bound them. A
-// block counts as a whole, so the source gives its bytes in small blocks. A deadline bounds
-// everything else that libarchive reads, because one call may unpack gigabytes just to skip them.
+// contents of a header before it returns the header, so only the source of the bytes can bound
+// these contents. In memory, the map of a sparse file takes twelve times its size, and the
+// directory of a zip three times. A block counts as a whole, so the source gives its bytes in small
+// blocks. A deadline bounds everything else that libarchive reads, because one call may unpack
+// gigabytes just to skip them.
 class ReadBudget {
   public:
     void set_deadline(SteadyTime deadline) { deadline_ = deadline; }
@@ -33,8 +34,8 @@ class ReadBudget {
         counts_ = true;
     }
     void end() { counts_ = false; }
-    // Counts the bytes of a header that was read, because many long headers together may take too
-    // much time.
+    // Counts the bytes beyond 8 KiB of a header that was read. More than 4 MiB in all headers
+    // together spend the budget, because many long headers may take too much time.
     void add(std::uint64_t bytes);
     // Counts a block. Returns false, and sets the error of the handle, if the header is too long or
     // the deadline has passed.
@@ -72,9 +73,9 @@ class PackedStream {
     // Opens a stream on a source that begins with `start`. Returns null if no allowed codec packed
     // the source, if it may be compressed twice, or if it cannot be read. With `small_codecs`, only
     // gzip, bzip2 and compress are allowed, which take a few megabytes of memory whatever the input
-    // claims; otherwise also xz and zstd (up to 1 GiB). `of_source`, which must outlive the object,
-    // limits how much is read of the source at a time, because a gzip header may contain an endless
-    // name.
+    // claims; otherwise xz and zstd are allowed too, which may take 1 GiB. `of_source`, which must
+    // outlive the object, limits how much the codec reads from the source at a time, because a gzip
+    // header may contain an endless name.
     [[nodiscard]] static std::unique_ptr<PackedStream> open(std::span<const std::byte> start,
                                                             const OpenSource& source,
                                                             ReadBudget& of_source,
@@ -85,7 +86,8 @@ class PackedStream {
     // Returns the bound in bytes if the output exceeded it, else 0.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
     [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
-    // Returns true if the first unpacked byte is zero. No archive begins with zero.
+    // Returns true if the first unpacked byte is zero. Only an empty tar, which is all zeros,
+    // begins so.
     [[nodiscard]] bool begins_with_zero() const { return begins_with_zero_; }
 
   private:

@@ -17,8 +17,8 @@ namespace stormcellar::archive {
 
 class PlainSource {
   public:
-    // Reads bytes from place `at` on, at most as many as fit, and returns their number; negative if
-    // they cannot be read.
+    // Reads bytes from offset `at` on, at most as many as `into` holds. Returns their number, or a
+    // negative number if they cannot be read.
     using ReadAt = std::function<std::int64_t(std::uint64_t at, std::span<std::byte> into)>;
     PlainSource(ReadAt read_at, std::uint64_t size, ReadBudget& header);
 

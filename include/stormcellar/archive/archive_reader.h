@@ -1,16 +1,18 @@
 // stormcellar/archive/archive_reader.h -- reads the members of tar and zip archives in order.
 //
 // NCEI delivers orders as tar files, and people send their files as zip. Members are read into
-// memory and never written to disk under their own names. The reader skips directories, and leaves
-// out links, devices, sparse files, encrypted members and members whose names lead out of the
-// archive. It also reads the members of archives inside the archive, by default one level deep.
+// memory and never written to disk under their own names. The reader skips directories. It leaves
+// out links, devices, sparse files, encrypted members, and members whose name is an absolute path
+// or contains `..`. It also reads the members of archives inside the archive, by default one level
+// deep.
 //
 // The input is hostile, so `Limits` bounds everything that it can claim. At a bound the reader
-// stops and reports it. Data that are unpacked only to be skipped count too. Fixed bounds limit
-// headers: 128 KiB for one header, 4 MiB for all long headers together, and 16 MiB for the
-// directory of a zip. From a damaged archive the reader returns the whole members that libarchive
-// finds, also after blocks of zeros, where tars may have been joined. libarchive recognizes the
-// formats by content: tar (also compressed by gzip, bzip2, xz, zstd or compress) and zip.
+// stops and reports it. Bytes that are unpacked only to skip a member count too. Fixed bounds limit
+// headers: 128 KiB for one header, 4 MiB for the bytes beyond 8 KiB of all headers together, and 16
+// MiB for the directory of a zip. From a damaged archive the reader returns the whole members that
+// libarchive finds, also after blocks of zeros, where tars may have been joined. libarchive
+// recognizes the formats by content: tar (also compressed by gzip, bzip2, xz, zstd or compress) and
+// zip.
 //
 // Units     All sizes are in bytes.
 // Threads   Each reader may be used by one thread at a time.
@@ -45,7 +47,7 @@ struct Limits {
     std::uint64_t expansion = 200;  // unpacked bytes for each byte of the archive
     // unpacked bytes that are allowed in addition, so that small archives may expand more
     std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;
-    // of one call of next(), which may skip many bytes; after it the rest is not read
+    // for one call of next(), which may skip many bytes; after this time the reader stops
     std::chrono::seconds time{std::chrono::hours{24}};
     int nesting = 1;  // levels of archives inside archives that are read
     // Allows only codecs that need a few megabytes of memory whatever the input says: gzip, bzip2
@@ -74,15 +76,16 @@ class ArchiveReader {
     // the file is not an archive. If the start of the file cannot be read, which may be temporary,
     // returns a reader whose is_unreadable() is true.
     [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
-    // Does the same for an archive in memory. The bytes must outlive the reader.
+    // Opens an archive in memory. Returns none if the bytes are not an archive. The bytes must
+    // outlive the reader.
     [[nodiscard]] static std::optional<ArchiveReader> open(std::span<const std::byte> bytes,
                                                            Limits limits = {});
     ArchiveReader(ArchiveReader&&) noexcept;
     ArchiveReader& operator=(ArchiveReader&&) noexcept;
     ~ArchiveReader();
 
-    // Returns the next member that is a file, or none at the end of the archive or of reading
-    // (why_ended()).
+    // Returns the next member that is a file. Returns none at the end of the archive, or if the
+    // reader has stopped (why_ended()).
     [[nodiscard]] std::optional<Member> next();
     // Returns the members and parts left out so far. After 100 members, further ones are not
     // listed.
@@ -90,8 +93,8 @@ class ArchiveReader {
     // Returns true if the archive ends too early, is damaged or cannot be read, so that members may
     // be missing. A file that is still growing ends too early.
     [[nodiscard]] bool is_cut() const;
-    // Returns the reason why reading ended before the end of the archive. Empty: the archive was
-    // read to its end, or reading has not ended.
+    // Returns the reason why reading ended before the end of the archive. Returns an empty text if
+    // the archive was read to its end, or if reading has not ended.
     [[nodiscard]] const std::string& why_ended() const;
     // Returns the reason why next() has not returned a member of this name. Call it when next() has
     // returned none.
