@@ -31,7 +31,7 @@ class BitReader {
     [[nodiscard]] std::uint64_t bits_left() const {
         return std::uint64_t{bytes_.size()} * 8 - bit_;
     }
-    // Returns the number of bytes of which bits were taken.
+    // Returns the number of bytes from which bits were taken.
     [[nodiscard]] std::size_t bytes_taken() const {
         return static_cast<std::size_t>((bit_ + 7) / 8);
     }

@@ -25,8 +25,8 @@ class BlockDecoder {
     // Reads a block from the place after its mark and checksum. The block may have up to
     // `most_bytes` rows. If the result is not good, the reader's position has no meaning.
     [[nodiscard]] Found read(BitReader& reader, std::uint32_t most_bytes, Path path);
-    // Returns the bytes of the last block and one more byte, for RunExpander::begin(). Empty if the
-    // block was not good.
+    // Returns the bytes of the last block and one more byte, for RunExpander::begin(). Returns an
+    // empty span if the block was not good.
     [[nodiscard]] std::span<const std::uint8_t> bytes_and_one_more() const { return bytes_; }
 
   private:

@@ -7,7 +7,7 @@
 //
 // Results   The same bytes as from libbz2, and the same Status for a stream that is not valid.
 //           Checksums of blocks and of the stream are always checked. libbz2 itself reads streams
-//           with randomized blocks, and with Path::libbz2 all streams.
+//           with randomized blocks. With Path::libbz2, it reads all streams.
 // Safety    Nothing is read outside `stream` or written outside `out`, whatever the stream holds. A
 //           Reader may find only later that bytes which it has returned are corrupt. The caller
 //           must bound the output, because one byte of input can make about 2 MB.
@@ -94,10 +94,10 @@ struct Job {
     std::vector<std::byte> output;  // as `buffer` of decompress()
     Outcome outcome = {};
 };
-// Does each job in the same way as decompress(). Each workspace gets a thread, and the caller is
-// one of them; if the system has too few threads, fewer do the work. Without workspaces, the caller
-// does all jobs alone. Throws std::bad_alloc if memory was too little for a job; the outcomes are
-// then invalid.
+// Decompresses the stream of each job as decompress() does. Uses one thread for each workspace,
+// including the calling thread; if the system has too few threads, fewer do the work. Without
+// workspaces, the caller does all jobs alone. Throws std::bad_alloc if memory was too little for a
+// job; the outcomes are then invalid.
 void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace> workspaces,
                     Path path = usual_path());
 

@@ -28,7 +28,8 @@ enum bunzip_status {
 
 typedef struct bunzip_workspace bunzip_workspace;
 
-/* Returns an empty workspace, or NULL without memory. It gets its memory when it is first used. */
+/* Returns an empty workspace, or NULL if memory is too little. The first use of the workspace takes
+ * most of its memory. */
 bunzip_workspace* bunzip_workspace_new(void);
 /* Frees a workspace; does nothing with NULL. */
 void bunzip_workspace_free(bunzip_workspace* workspace);

@@ -3,7 +3,7 @@
 //
 // A symbol n of 2 or more moves the byte at place n - 1 of a list to the front, and begins a run of
 // this byte. Symbols 0 and 1 are the digits 1 and 2 of a number by which the run of the front byte
-// grows. Each digit is worth twice as much as the same digit before it.
+// grows. A digit is worth twice as much as it would be one place before.
 //
 // The kind of the next symbol cannot be predicted, so the fast paths do not branch on it. They make
 // a mask of the moves in 64 symbols; the mask of the digits between two moves gives the length of a
@@ -39,15 +39,15 @@ struct RunMaker {
     std::uint32_t digit_bits = 0;            // bit i: digit i after the last move is symbol 1
     std::uint32_t times = 0;                 // 0 before the first move, then 1
     std::uint64_t bytes = 0;                 // bytes in the runs that have ended
-    std::array<std::uint32_t, 256> count{};  // number of each byte value in these runs
+    std::array<std::uint32_t, 256> count{};  // number of each byte value in ended runs
 
     void begin(std::span<const std::uint8_t> bytes_there);
 };
 
 // Appends to `to` the runs that end within `symbols`, at most as many as there are symbols, and
 // returns their number. `maker` keeps a run that continues for the next call. If a run has too many
-// digits, RunMaker::bytes exceeds every block. Once it exceeds the size of a block, the block is
-// bad and there must be no next call.
+// digits, RunMaker::bytes exceeds every block. Once RunMaker::bytes exceeds the size of a block,
+// the block is bad and there must be no next call.
 using MakeRuns = std::size_t (*)(RunMaker& maker, std::span<const std::uint16_t> symbols,
                                  ByteRun* to);
 [[nodiscard]] MakeRuns make_runs_by(Path path);

@@ -25,7 +25,7 @@
 namespace stormcellar::bunzip {
 
 // Pointers to the forms of a kernel. of() returns the form for a path, which this machine must
-// support; the plain form if the path has none.
+// support, or the plain form if the path has no form of its own.
 template <class Kernel>
 struct Kernels {
     Kernel plain;

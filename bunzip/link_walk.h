@@ -8,9 +8,9 @@
 // order of the segments. docs/bunzip.md has a drawing and a proof.
 //
 // Each walk has room for an eighth of the block and 8 KiB. If that is too little, a single walk
-// reads the block, as in libbz2; only a stream made for this purpose causes it. The marks are at
-// uneven distances, because in data with a period evenly spaced marks would be close together along
-// the links.
+// reads the block, as in libbz2. Only a stream made for this purpose needs more room. The marks are
+// at uneven distances, because in data with a period evenly spaced marks would be close together
+// along the links.
 //
 // Memory    1.9 MB.
 // Threads   One thread at a time.

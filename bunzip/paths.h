@@ -1,8 +1,8 @@
 // bunzip/paths.h -- the ways in which a machine can decompress, and the choice among them.
 //
 // All paths give the same bytes. The usual path is the fastest path that this machine supports,
-// unless the environment variable STORMCELLAR_BUNZIP names another. A path set by set_usual_path()
-// overrides both.
+// unless the environment variable STORMCELLAR_BUNZIP names another path. A path set by
+// set_usual_path() overrides both.
 //
 // Threads   Any thread may call every function.
 #pragma once

@@ -25,9 +25,9 @@ class PrefixCode {
     // the end of the block.
     void build(std::span<const std::uint8_t> lengths);
 
-    // Returns the table, whose index is the next lookup_bits bits. An entry holds symbol and
-    // length; 0 means that decode() must be called, for a longer word, the end of the block, or no
-    // word.
+    // Returns the table, whose index is the next lookup_bits bits. An entry holds a symbol and the
+    // length of its word. For an entry of 0, call decode(): the bits begin a longer word, the end
+    // of the block, or no word.
     [[nodiscard]] const std::uint16_t* lookup() const { return lookup_.data(); }
 
     struct Word {

@@ -27,8 +27,8 @@ class SymbolReader {
     [[nodiscard]] Found found() const { return found_; }
 
   private:
-    // Read a group to `to`, and return the place after its symbols. They stop at the end of the
-    // block, or if they set found_ to cut or bad.
+    // Read a group to `to`, and return the place after its symbols. Both functions stop at the end
+    // of the block, or when they set found_ to cut or bad.
     std::uint16_t* read_group(const PrefixCode& code, std::uint16_t* to);
     std::uint16_t* read_last_group(const PrefixCode& code, std::uint16_t* to);
 
