@@ -40,13 +40,13 @@ class BzipBlocks {
         std::span<const std::byte> data;                // valid until the next call
         std::size_t position = 0;                       // of the first byte of the block in `bytes`
         std::size_t compressed_bytes = 0;
-        // Half of the bytes that failed tries for this block unpacked. They count as output because
-        // they took time, but only by half because damage costs several tries and a good block
-        // costs one.
+        // The sum of waste_of() over the failed tries for this block. Their bytes count as output,
+        // because unpacking them took time. They count by half, because a damaged block costs
+        // several tries and a good block costs one.
         std::uint64_t wasted_bytes = 0;
     };
     static constexpr std::uint64_t least_try_bytes = std::uint64_t{256} << 10;
-    // Returns the bytes by which a failed try counts.
+    // Returns the bytes that count for a failed try that unpacked this many bytes.
     [[nodiscard]] static std::uint64_t waste_of(std::uint64_t unpacked_bytes) {
         return std::max(unpacked_bytes, least_try_bytes) / 2;
     }

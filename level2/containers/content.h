@@ -19,11 +19,12 @@ enum class Content : std::uint8_t {
 };
 
 // Judges the content by its start alone. Also returns `messages` if the first frame is no message
-// but a sure message follows it.
+// but surely a message follows it.
 [[nodiscard]] Content content_at_start(std::span<const std::byte> bytes);
 
-// Does the same, but if the start is unknown, searches all bytes for an LDM record or a message.
-// For the start of another format, such as PNG or a grid file, returns `unknown` without a search.
+// Returns content_at_start(). If that is `unknown`, searches all bytes for an LDM record or a
+// message. For the start of another format, such as PNG or a grid file, returns `unknown` without a
+// search.
 [[nodiscard]] Content content_anywhere(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

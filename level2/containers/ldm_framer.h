@@ -56,8 +56,9 @@ class LdmStreamFramer {
     void end_part(std::size_t bytes);
 
     std::size_t at_ = 0;
-    std::size_t searched_ = 0;         // the next part has no stream in its first `searched_` bytes
-    std::size_t searched_behind_ = 0;  // the same, after the stream of a record without a length
+    std::size_t searched_ = 0;  // the next part has no stream in its first `searched_` bytes
+    // For a record without a length: no second stream begins in these first bytes of the part.
+    std::size_t searched_behind_ = 0;
 };
 
 // Cuts a file that is complete.

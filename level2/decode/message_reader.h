@@ -1,11 +1,11 @@
 // level2/decode/message_reader.h -- walks a stream of messages and keeps whole messages.
 //
-// A message counts only if the next one begins where it ends, or if the data end there. Otherwise
-// the reader searches for the next place at which a message surely begins. If that place is inside
-// the current message, this message has lost bytes and is dropped too, so that no half radial is
-// kept. If the next message begins at the end, even a very odd radial is kept, unless its gates
-// cannot be read (docs/level2.md has the table). Strict rules apply only to the search after
-// damage.
+// A message counts only if the next message begins where this message ends, or if the data end
+// there. Otherwise the reader searches for the next place at which a message surely begins. If that
+// place is inside the current message, the current message has lost bytes and is dropped too, so
+// that no half radial is kept. If the next message begins where a radial ends, even a very odd
+// radial is kept, unless its gates cannot be read (docs/level2.md has the table). Strict rules
+// apply only to the search after damage.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -11,11 +11,12 @@
 //
 // Limits    Skipped records are not read. Metadata in a skipped record would change
 //           vcp_elevation_deg of later sweeps (message 5) or the status in the report (message 2);
-//           but the RDA sends metadata in the first record only. If among skipped records as many
-//           are repeated as lost, nobody notices; sweeps_left_out is the number from the plan.
+//           but the RDA sends metadata in the first record only. If as many skipped records are
+//           repeated as are lost, the plan does not notice. DecodeReport::sweeps_left_out is the
+//           number from the plan.
 // Memory    As many records as the pattern has, some hundreds.
-// Threads   One thread at a time may call next(), and one thread at a time agrees(); they may be
-//           different threads.
+// Threads   One thread at a time may call next(), and one thread at a time may call agrees(). These
+//           may be two different threads.
 #pragma once
 
 #include <cstddef>

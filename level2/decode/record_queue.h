@@ -3,8 +3,9 @@
 //
 // The caller of next() decodes too, so `threads` includes it. At most two fragments for each thread
 // are held, and each is small. A fragment that outgrows its share waits until it is the next to be
-// returned. With more than most_waiting_threads, it is discarded, and the caller decodes the record
-// again at that time, because the C library keeps freed memory for each thread.
+// returned. With more than most_waiting_threads, the queue discards such a fragment, and the caller
+// decodes its record again when its turn comes, because the C library keeps freed memory for each
+// thread.
 //
 // The output does not depend on the number of threads. When less room is left than a share, the
 // caller alone decodes, and discards fragments that were decoded ahead.
@@ -77,7 +78,7 @@ class RecordQueue {
     Source source_ STORMCELLAR_GUARDED_BY(mutex_);
     std::vector<Slot> slots_ STORMCELLAR_GUARDED_BY(mutex_);  // a ring
     std::uint64_t share_bytes_ STORMCELLAR_GUARDED_BY(mutex_);
-    // True if a worker waits with a fragment that outgrows its share.
+    // True if a worker whose fragment outgrows its share waits; false if it discards the fragment.
     bool may_wait_ STORMCELLAR_GUARDED_BY(mutex_);
     bool alone_ STORMCELLAR_GUARDED_BY(mutex_) = false;    // the caller decodes everything
     std::size_t head_ STORMCELLAR_GUARDED_BY(mutex_) = 0;  // the slot that next() returns next

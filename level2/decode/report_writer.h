@@ -30,8 +30,9 @@ class ReportWriter {
     // with a count.
     void oddity(Severity severity, std::string_view code, std::string_view message,
                 std::uint64_t stream_offset);
-    // Does the same as damage() for a message or a part of a message. Calls with the same reason
-    // become one problem with a count.
+    // Reports a dropped message, or a dropped part of a message, as an error. Calls with the same
+    // code and reason become one problem with a count. The first error becomes
+    // DecodeReport::corruption, as in damage().
     void refuse(std::string_view code, std::string_view reason, std::uint64_t stream_offset,
                 std::uint64_t dropped);
     // Appends the report of the next part of the stream: adds its counts, and shifts its offsets

@@ -4,10 +4,10 @@
 // radial has status 0, 3 or 5, or there is a 24-byte header in between.
 //
 // Records may come in another order than the radar sent them, for example in a file to which LDM
-// appends. The builder puts a radial that is older than the previous one into the gap that it left
-// in its sweep, and drops a repeated radial. So the volume is the same as from records in the right
-// order. A further volume begins at a radial marked as a start, after a further header, or where
-// the elevation number falls while time goes forward.
+// appends. The builder puts a radial that is older than the previous radial into the gap in its
+// sweep, and drops a repeated radial. So the volume is the same as from records in the right order.
+// A further volume begins at a radial marked as a start, after a further header, or where the
+// elevation number falls while time goes forward.
 //
 // Limits    Neither the decompressed bytes nor the arrays exceed the given limits. If append()
 //           returns an error (unsupported beyond a limit), the builder must not be used any more.

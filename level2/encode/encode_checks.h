@@ -16,7 +16,7 @@ tl::unexpected<Error> refuse(fmt::format_string<Args...> format, Args&&... args)
 
 // Checks that the arrays have their stated sizes, that the decoder can tell the sweeps apart, and
 // that the volume has the station and the volume block if message 31 needs them. ReadBack checks
-// that messages keep the numbers.
+// that no number changes in a message.
 [[nodiscard]] Status check_encodable(const Volume& volume);
 
 }  // namespace stormcellar::level2

@@ -42,9 +42,9 @@ struct MessageRun {
                                         UtcTime time, MessageRun& run);
 void end_message(ByteWriter& out, std::size_t size_position);
 
-// Appends radial `index` of a sweep as a frame of message 1. The sweep must be consistent. Errors:
-// bad_argument if the frame cannot hold its gates. Numbers that do not fit their fields are cut;
-// ReadBack finds them.
+// Appends radial `index` of a sweep as a frame of message 1. The sweep must be consistent
+// (encode_checks.h). Errors: bad_argument if the frame cannot hold the gates. Numbers that do not
+// fit their fields are cut; ReadBack finds them.
 [[nodiscard]] Status append_radial_1(ByteWriter& out, const Volume& volume, const Sweep& sweep,
                                      std::size_t index, MessageRun& run);
 

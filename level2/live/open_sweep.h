@@ -28,15 +28,15 @@ struct OpenSweep {
     std::vector<PieceId>
         ids;  // first the serial number + 1 of the chunk that gave the pattern, then the pieces
     const Vcp* pattern = nullptr;
-    bool closed = false;  // closed by the status of its last radial, or by what follows
+    bool closed = false;  // by the status of its last radial, or by a later sweep
 };
 
 // Groups the pieces of all chunks, in the order of the chunk numbers, by the same rule as
 // VolumeBuilder.
 [[nodiscard]] std::vector<OpenSweep> sweeps_of(const std::map<int, LiveChunk>& chunks);
 
-// Joins the pieces in the same way as VolumeBuilder. Returns a sweep without radials if it exceeds
-// the limit. `depot` may be null if no sweep is in a depot. Errors: those of the depot.
+// Joins the pieces in the same way as VolumeBuilder. Returns a sweep without radials if the sweep
+// exceeds the limit. `depot` may be null if no sweep is in a depot. Errors: those of the depot.
 [[nodiscard]] Result<Sweep> join(const OpenSweep& sweep, std::uint64_t limit_bytes,
                                  const SweepDepot* depot);
 

@@ -19,7 +19,7 @@
 namespace stormcellar::level2 {
 
 // Returns true for an RDA before the Open RDA. Open RDAs set bit 3 of the header's channel. TDWRs
-// do not, but their volumes are of a later date.
+// do not set it, but their volumes have later dates than legacy volumes.
 [[nodiscard]] bool is_legacy_rda(const MessageHeader& header);
 
 // Reads the status. `body` is the message after the 28 bytes of `header`; it may include the rest

@@ -53,8 +53,8 @@ struct MessageHeader {
 inline constexpr std::size_t sure_message_bytes = 128;  // is_surely_message() reads no more
 [[nodiscard]] bool is_surely_message(std::span<const std::byte> bytes);
 
-// Returns true if the body of a radial (message 1 or 31) has the date of its header, give or take a
-// day, and its numbers are within their ranges.
+// Returns true if the date in the body of a radial (message 1 or 31) is at most a day from the date
+// in the header, and the numbers in the body are within their ranges.
 [[nodiscard]] bool is_credible_radial(const MessageHeader& header, std::span<const std::byte> body);
 // Returns the reasons why a radial is not credible or its header not plausible, each in a few
 // words.
@@ -62,7 +62,8 @@ inline constexpr std::size_t sure_message_bytes = 128;  // is_surely_message() r
                                                         std::span<const std::byte> body);
 
 // Returns true if the message at the start of `bytes` is a radial whose pointers and gate counts
-// fit into it so well that this is no chance. Name, date, time, numbers and angles do not matter.
+// fit into the message so well that it cannot be chance. Name, date, time, numbers and angles do
+// not matter.
 [[nodiscard]] bool places_its_gates(const MessageHeader& header, std::span<const std::byte> bytes);
 // Returns true if `message` is a credible radial whose length is beyond doubt: a message 1 with
 // gate counts, or a message 31 whose body gives the same length as its header, as in all known

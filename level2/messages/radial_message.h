@@ -54,12 +54,12 @@ struct RadialMessage {
     };
     // Both are empty in a radial that follows the ICD.
     std::vector<LostMoment> lost_moments;
-    std::vector<std::string_view> oddities;  // no gate is lost by them; each is a few words
+    std::vector<std::string_view> oddities;  // faults that lose no gate, each in a few words
 
     [[nodiscard]] std::span<const MomentBlock> moments() const {
         return {moment_store.data(), moment_count};
     }
-    // Returns true if the radial has lost moments and no others.
+    // Returns true if the radial has lost all moments of its message, and at least one.
     [[nodiscard]] bool has_lost_all() const { return moment_count == 0 && !lost_moments.empty(); }
     // Adds a moment. Returns false and does nothing if there is no room or the radial already has
     // it.
@@ -72,12 +72,12 @@ struct RadialMessage {
 // The reason, in a few words, why a message holds no usable radial.
 using RadialResult = tl::expected<RadialMessage, std::string_view>;
 
-// Proven: the bytes around a message show where it begins and ends. Unproven: a fault in any of its
-// blocks may mean that it has lost bytes.
+// The framing of a message is proven if the bytes around the message show where it begins and ends.
+// If it is unproven, a fault in any block may mean that the message has lost bytes.
 enum class Framing : std::uint8_t { unproven, proven };
 
-// Read a radial. `body` is the message after its 28 bytes of header. With unproven framing, the
-// first fault in a block refuses the whole radial, so no single moments are lost.
+// Read a radial. `body` is the message after its 28 bytes of header. With unproven framing, they
+// refuse the whole radial at the first fault in a block, and lost_moments stays empty.
 [[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body,
                                           Framing framing = Framing::unproven);
 [[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body,

@@ -7,7 +7,7 @@
 //   the slashes.
 //
 // Threads   Plain values and pure functions.
-// Errors    None; a name of another form gives none.
+// Errors    None; the functions return none for any other name.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // stormcellar/level2/decode.h -- decodes the bytes of a Level II file into a Volume.
 //
 // The decoder recognizes containers by content, never by name. It unpacks gzip, bzip2 or .Z around
-// the whole file, in several layers if need be. Inside are a 24-byte header, which may be missing,
-// and LDM bzip2 records, or plain 2432-byte frames and messages 31. The input is hostile, so every
-// length is bounded before it is used. The decoder keeps what is whole and lists the damage in the
-// report. It never makes up a sweep and never returns half a radial.
+// the whole file, in several layers if need be. The content begins with a 24-byte header, which may
+// be missing. LDM bzip2 records follow, or plain 2432-byte frames and messages 31. The input is
+// hostile, so every length is bounded before it is used. The decoder keeps what is whole and lists
+// the damage in the report. It never makes up a sweep and never returns half a radial.
 //
 // Units     Those of stormcellar/level2/volume.h; limits are in bytes.
 // Threads   Pure functions. decode() may use `threads` threads of its own.
@@ -58,10 +58,10 @@ struct DecodeOptions {
 [[nodiscard]] Result<Decoded> decode_file(const std::filesystem::path& path,
                                           const DecodeOptions& options = {});
 
-// Splits the result for a file that holds several volumes; an ordinary file gives one element. Each
-// volume has its own sweeps and pattern, and a copy of the volume block. A further volume has its
-// own header if the file holds one. Otherwise it gets a copy of the first header with the time of
-// its own first radial, because the start time names a volume.
+// Splits a decoded file into its volumes; an ordinary file has one. Each volume has its own sweeps
+// and pattern, and a copy of the volume block. A further volume has its own header if the file
+// holds one. Otherwise it gets a copy of the first header with the time of its own first radial,
+// because the start time names a volume.
 [[nodiscard]] std::vector<Volume> split_volumes(Decoded decoded);
 
 }  // namespace stormcellar::level2

@@ -46,7 +46,7 @@ struct DecodeReport {
     std::uint64_t message_bytes = 0;  // decompressed, after the 24-byte header
     std::map<int, std::uint64_t> message_counts;
     std::uint64_t bytes_dropped = 0;  // of messages, or of the file if a compressed part is lost
-    std::vector<Problem> problems;    // the first max_problems, and all that have a count
+    std::vector<Problem> problems;    // at most max_problems, and all with a count
     static constexpr std::size_t max_problems = 100;
     std::uint64_t problems_left_out = 0;
     std::uint64_t errors = 0;  // number of problems of that severity, listed or not
@@ -66,12 +66,13 @@ struct DecodeReport {
     // the gzip layer is wrong.
     bool damaged = false;
     std::uint64_t sweeps_left_out = 0;  // sweeps of cuts that are not selected
-    // records of such sweeps that were skipped unread; offsets do not count their bytes
+    // records of such sweeps that the decoder skipped; offsets do not count their bytes
     std::uint64_t records_skipped = 0;
     // The sweep indices at which further volumes begin. A volume begins at a start-of-volume radial
     // and after a second header. While time goes forward, a volume also begins where the elevation
     // number falls, and where it does not rise after an end of volume. Volume 0 begins at sweep 0.
-    // If a selection leaves no sweep of a volume, that volume has the same start as the next one.
+    // If a selection leaves no sweep of a volume, that volume has the same start as the next
+    // volume.
     std::vector<std::size_t> further_volume_starts;
     // The 24-byte headers found inside the stream, each with the sweep that follows it.
     struct FurtherHeader {

@@ -1,9 +1,9 @@
 // stormcellar/level2/describe.h -- describes a decoded file as JSON, for `stormcellar info --json`.
 //
 // The fields have the names used in the reference descriptions of the real volumes (data/golden);
-// tests/level2/golden_test.cpp compares the two. "problems" holds the problems of the report. If
-// moments of one name differ in geometry inside a sweep, they are described together, with their
-// codes in the order of the radials.
+// tests/level2/golden_test.cpp compares describe() with these descriptions. "problems" holds the
+// problems of the report. If a sweep has several SweepMoments of one name, because their geometry
+// differs, one description covers them all, with the codes in the order of the radials.
 //
 // Threads   Pure functions.
 // Errors    None.

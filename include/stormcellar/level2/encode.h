@@ -58,7 +58,7 @@ struct EncodedVolume {
 
 struct EncodeOptions {
     int compression_level = 9;     // bzip2 block size, 100 kB units
-    int radials_per_record = 120;  // at most; message 1 has at most 100
+    int radials_per_record = 120;  // at most; in message 1, at most 100
 };
 
 [[nodiscard]] Result<EncodedVolume> encode(const Volume& volume, const EncodeOptions& options = {});

@@ -30,7 +30,7 @@ struct LiveChunk {
     std::uint64_t output_bytes = 0;  // decompressed
     std::uint64_t held_bytes = 0;    // memory of the fragments while the depot holds no sweep
     // For each piece, counted over all fragments, the place of its sweep in the depot, or none if
-    // `fragments` holds the whole sweep. Of a sweep in the depot, `fragments` keeps only the first
+    // `fragments` holds the whole sweep. For a sweep in the depot, `fragments` keeps only the first
     // and the last radial. An empty list means that no sweep is in the depot.
     std::vector<std::optional<std::uint64_t>> places;
     std::uint64_t away_bytes = 0;  // the part of held_bytes in the depot
@@ -45,20 +45,21 @@ struct LiveRoom {
     std::uint64_t held_bytes = 0;
 };
 
-// Moves the sweeps of three and more radials into the depot, except those that the depot does not
-// take.
+// Moves each sweep of three or more radials into the depot. A sweep stays in the chunk if the depot
+// has no room for it.
 void put_aside(LiveChunk& chunk, SweepDepot& depot);
 // Returns the whole sweep of `piece`, which is piece number `place` counted over all fragments.
 // `depot` may be null if no sweep is in a depot. Errors: those of the depot.
 [[nodiscard]] Result<Sweep> whole_piece(const LiveChunk& chunk, std::size_t place,
                                         const Fragment::Piece& piece, const SweepDepot* depot);
-// Brings all sweeps back from the depot. `depot` may be null as above. Errors: those of the depot.
+// Brings all sweeps back from the depot. `depot` may be null if no sweep is in a depot. Errors:
+// those of the depot.
 [[nodiscard]] Status bring_back(LiveChunk& chunk, const SweepDepot* depot);
 
 // Decodes a chunk; the caller sets kind and serial. Errors: empty; not_level2; corrupt or truncated
-// if it holds neither a whole header nor a whole message; unsupported if it exceeds `room` or has
-// more than 1000 records; exhausted if the system has no more memory. The function may also throw
-// std::bad_alloc.
+// if the chunk holds neither a whole header nor a whole message; unsupported if the chunk exceeds
+// `room` or has more than 1000 records; exhausted if the system has no more memory. The function
+// may also throw std::bad_alloc.
 [[nodiscard]] Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes,
                                                 const DecodeOptions& options, LiveRoom room);
 

@@ -6,14 +6,14 @@
 // returns for the joined chunks. The report lists the chunks that are missing or bad.
 //
 // A chunk that comes twice counts once. If two chunks of one number differ, the chunk that holds
-// more is kept, so the result does not depend on the order either. A start chunk of another volume
-// shows that the radar has begun again. add() refuses that chunk, and the caller can finish the
-// present ones. After a restart of the program, the caller adds the chunks in its directory again.
+// more is kept, whichever comes first. A start chunk of another volume shows that the radar has
+// begun again. add() refuses that chunk, and the caller can finish the present ones. After a
+// restart of the program, the caller adds the chunks in its directory again.
 //
-// Memory    With a depot, little more than the first and the last radial of each stretch. The
-//           decompressed bytes of all chunks stay within the output limit of the decoder, and their
-//           memory within its limit for arrays. A chunk that would exceed a limit is refused; only
-//           then does the order matter.
+// Memory    With a depot, little more than the first and the last radial of each piece of a sweep.
+//           The decompressed bytes of all chunks stay within the output limit of the decoder, and
+//           their memory within its limit for arrays. A chunk that would exceed a limit is refused;
+//           only then does the order matter.
 // Units     Sizes are in bytes.
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -43,8 +43,8 @@ struct LiveOptions {
     DecodeOptions decode;
     // If no chunk comes for this long, is_due() returns true.
     std::chrono::seconds timeout{600};
-    // If chunks are missing, is_due() returns true this long after the newest chunk, once the end
-    // has come.
+    // If the end has come but chunks are missing, is_due() returns true this long after the newest
+    // chunk.
     std::chrono::seconds grace{30};
     // Stores the sweeps of chunks until they are needed; null: they stay in memory. The depot must
     // outlive the volume.
@@ -64,7 +64,7 @@ class LiveVolume {
         repeated,        // the same chunk had come before
         replaced,        // the new chunk holds more and replaces the old one
         worse,           // the new chunk holds less and is dropped
-        another_volume,  // its header differs from the first one of this number; refused
+        another_volume,  // refused: its header differs from the first header of this number
     };
     // Adds a chunk that came at `now`. An error leaves the present chunks as they were:
     // - bad_argument for a number that is not within 1 to 999;
@@ -89,8 +89,8 @@ class LiveVolume {
     [[nodiscard]] std::vector<int> missing_numbers() const;
     // Returns true if no chunk is missing from the first to the end.
     [[nodiscard]] bool is_whole() const { return has_ended() && missing_numbers().empty(); }
-    // Returns true if the volume is whole, or has waited for `grace` after its end, or for
-    // `timeout`. An empty volume is never due.
+    // Returns true if the volume is whole, if no chunk has come for `timeout`, or if the end has
+    // come and no chunk has come for `grace`. An empty volume is never due.
     [[nodiscard]] bool is_due(Clock::time_point now) const;
     [[nodiscard]] bool is_empty() const { return chunks_.empty(); }
     // Returns the memory of the decoded chunks, without the sweeps in the depot.
@@ -111,7 +111,7 @@ class LiveVolume {
     LiveOptions options_;
     std::map<int, LiveChunk> chunks_;
     std::map<int, VolumeHeader> headers_;  // for each number, the first header that came
-    std::map<int, std::string> refused_;   // the reasons, for numbers of which only bad chunks came
+    std::map<int, std::string> refused_;   // the reasons, for numbers with only bad chunks
     std::uint64_t next_serial_ = 0;
     Clock::time_point last_arrival_;
     std::set<std::uint64_t> handed_out_;  // checksums over the pieces of each returned sweep

@@ -18,7 +18,7 @@
 
 namespace stormcellar::level2 {
 
-// Grid files hold these numbers, so none changes and a new moment goes to the end.
+// Grid files hold these numbers, so do not change them; add a new moment at the end.
 enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp };
 
 // The circle on which the values of a moment wrap around.

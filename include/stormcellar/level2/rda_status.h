@@ -54,8 +54,7 @@ inline constexpr std::uint16_t width = 16;
 // decoder translates it.
 enum class RdaMode : std::uint8_t { unknown, operational, maintenance, test };
 
-// An alarm that was raised or, if `cleared`, has ended (table IV-A). A message has up to 14 of
-// them.
+// An alarm that was raised or, if `cleared`, has ended (table IV-A). A message has up to 14 alarms.
 struct RdaAlarm {
     std::uint16_t code = 0;
     bool cleared = false;

@@ -64,7 +64,7 @@ struct Radial {
 
 // One moment of one sweep: rows of `gate_stride` codes, one row for each radial of the sweep. If
 // the radials of a sweep differ in gate geometry, word size, scale or offset, the sweep has one
-// SweepMoment for each of these kinds, and gate_counts is 0 for radials of another kind.
+// SweepMoment for each such kind of radial; its gate_counts is 0 for radials of the other kinds.
 struct SweepMoment {
     Moment moment = Moment::ref;
     std::int32_t first_gate_m = 0;  // to the center of gate 0; negative in some legacy volumes
@@ -212,7 +212,7 @@ struct Volume {
 // Returns true if `time` is in 1970 to 2149, the years that messages can express. A message without
 // a date (day number 0) gives a time before 1970.
 [[nodiscard]] bool is_plausible(UtcTime time);
-// Returns true if `time` is plausible and within 6 hours of `start`, if that is known. A volume
+// Returns true if `time` is plausible and within 6 hours of `start`, if `start` is known. A volume
 // takes minutes, but a damaged radial may have any time.
 [[nodiscard]] bool is_time_of_volume(UtcTime time, std::optional<UtcTime> start);
 
