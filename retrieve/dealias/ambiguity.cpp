@@ -11,17 +11,19 @@ std::size_t at(std::int32_t index) {
     return static_cast<std::size_t>(index);
 }
 
-// The share of the votes about a group that must be lost if the group moves by one.
+// A group is a guess if moving it by one raises the cost by at most this share of the votes about
+// it.
 constexpr float least_margin = 0.2F;
-// An edge is firm if this share of at least this weight agrees with the solution.
+// An edge is firm if the votes for the solution have at least this share of all its votes, and at
+// least this weight.
 constexpr float firm_share = 0.9F, firm_weight = 2;
 
 struct Margin {
-    float up = 0, down = 0;  // by how much the cost rises if the group moves
+    float up = 0, down = 0;  // by how much the cost rises if the group moves by one
     float votes = 0;
 };
 
-// Marks the nodes of each group whose margin is small. Groups that nothing votes about are marked.
+// Marks the nodes of each group whose margin is small, and of groups without votes.
 void mark(const FoldGraph& graph, const std::vector<Votes>& anchors,
           const std::vector<std::int32_t>& folds, const std::vector<std::int32_t>& group,
           std::vector<std::uint8_t>& guessed) {

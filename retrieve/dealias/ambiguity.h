@@ -1,9 +1,10 @@
-// retrieve/dealias/ambiguity.h -- which fold numbers are guesses.
+// retrieve/dealias/ambiguity.h -- finds the fold numbers that are guesses.
 //
-// A fold number is a guess if another one would cost little more. What can be wrong as one is asked
-// about as one: a node alone, nodes that firm edges hold together, and whole components.
+// A fold number is a guess if a change of it by one would raise the cost (fold_graph.h) by little.
+// Nodes can be wrong together. So the function changes single nodes, then groups of nodes that firm
+// edges hold together, and, if there are anchors, whole components.
 //
-// Accuracy  tests/retrieve/dealias_test.cpp counts wrong gates that are not marked.
+// Accuracy  A wrong gate may be unmarked; Score::wrong_unmarked counts these in tests.
 // Threads   Pure functions.
 #pragma once
 

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double height_of_decay_m = 1000;
 
-// Finds the radial that looks at an azimuth.
+// Finds the radial nearest to an azimuth.
 class RadialsByAzimuth {
   public:
     explicit RadialsByAzimuth(const VelocitySheet& sheet) {
         nearest_.fill(-1);
-        // Wide enough to leave no gap between radials of a degree each.
+        // A radial covers 0.8 degrees to each side, so radials one degree apart leave no gap.
         constexpr int reach = 8;
         for (int radial = 0; radial < sheet.radials; ++radial) {
             const int middle = slot(sheet.azimuths_deg[static_cast<std::size_t>(radial)]);
@@ -30,7 +30,7 @@ class RadialsByAzimuth {
             }
         }
     }
-    // -1 if no radial does.
+    // Returns -1 if no radial covers the azimuth.
     [[nodiscard]] int at(float azimuth_deg) const {
         return nearest_[static_cast<std::size_t>(slot(azimuth_deg))];
     }
@@ -47,7 +47,7 @@ class RadialsByAzimuth {
     std::array<int, slots> distance_{};
 };
 
-// The gates of another sheet above or below each gate number, and the weight of their votes.
+// The gate of another sheet above or below a gate, or -1, and the weight of its vote.
 struct GateBeside {
     int gate = -1;
     float weight = 0;

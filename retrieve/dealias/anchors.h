@@ -1,5 +1,5 @@
-// retrieve/dealias/anchors.h -- what says how often a region is folded, beside its neighbors in the
-// sweep: the wind at its height, and the sweeps above and below.
+// retrieve/dealias/anchors.h -- lets the wind at a region's height, and the sweeps above and below
+// the region, vote for its fold number.
 //
 // Threads  Pure functions.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace stormcellar::retrieve {
 
-// One sheet on its way to fold numbers.
+// A sheet, and the results of the steps from its velocities to fold numbers.
 struct SheetState {
     VelocitySheet sheet;
     SheetRegions regions;
@@ -23,7 +23,7 @@ struct SheetState {
     std::vector<Votes> wind_anchors;    // of each node
     std::vector<std::uint8_t> guessed;  // of each node
     std::vector<float> heights_m;       // of each gate number, above the antenna
-    // Of each gate, radials x gates; made of the nodes' folds by fill_gate_folds().
+    // of each gate, radials x gates; fill_gate_folds() makes them from `folds`
     std::vector<std::int8_t> gate_folds;
 
     [[nodiscard]] std::int32_t fold_of(std::int32_t region) const {
@@ -33,7 +33,7 @@ struct SheetState {
     void fill_gate_folds();
 };
 
-// Weights of one gate, beside 1 of a pair of neighbors that agree.
+// Weights of the anchor votes for one gate. A pair of neighbors that agree votes with weight 1.
 inline constexpr float wind_weight = 0.02F;     // where all gates agree with the wind
 inline constexpr float neighbor_weight = 0.1F;  // at the same height
 
@@ -43,7 +43,8 @@ inline constexpr float most_anchor_weight = wind_weight + 2 * neighbor_weight;
 // Adds the votes of the wind for each gate of the sheet.
 void anchor_to_wind(const FoldedWind& wind, const SheetState& state, std::vector<Votes>& anchors);
 
-// Adds the votes of the gates of another sheet, whose folds are known, above or below each gate.
+// Adds the votes of another sheet, whose gate_folds must be known. Each gate gets the vote of the
+// gate of `other` above or below it.
 void anchor_to_sheet(const SheetState& other, const SheetState& state, std::vector<Votes>& anchors);
 
 }  // namespace stormcellar::retrieve

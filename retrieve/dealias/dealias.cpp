@@ -29,7 +29,8 @@ void find_graph(SheetState& state, float anchor_weight) {
     state.folds = likely_folds(state.graph);
 }
 
-// Without an anchor, a component is taken to be folded as little as possible.
+// Shifts each component so that its mean fold number is nearest to 0. Without anchors, nothing else
+// decides how often a component is folded.
 void center_components(SheetState& state) {
     std::vector<double> sums(at(state.graph.components)), gates(sums.size());
     for (std::size_t region = 0; region < state.regions.gate_count.size(); ++region) {
@@ -53,7 +54,8 @@ void solve_alone(SheetState& state) {
     repair_shear(state.sheet, state.gate_folds);
 }
 
-// Sheets by elevation, those of one elevation in the order of time.
+// Returns the indices of the sheets by elevation. Sheets of equal elevation stay in the order of
+// the volume.
 std::vector<std::size_t> by_elevation(const std::vector<SheetState>& states) {
     std::vector<std::size_t> order(states.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -69,7 +71,7 @@ void solve_anchored(std::vector<SheetState>& states, const FoldedWind& wind) {
         minimize_cost(state.graph, state.wind_anchors, state.folds);
         state.fill_gate_folds();
     }
-    // Downward, because the sweeps above have fewer folds; then upward once more.
+    // Go downward first, because the sweeps above have fewer folds, and then upward.
     std::vector<std::size_t> order = by_elevation(states);
     for (const bool is_downward : {true, false}) {
         for (std::size_t i = 0; i < order.size(); ++i) {
@@ -86,10 +88,10 @@ void solve_anchored(std::vector<SheetState>& states, const FoldedWind& wind) {
     }
 }
 
-// A wind that agrees less than this with the velocities at its height unfolds nothing.
+// A layer whose wind agrees less than this with its velocities unfolds no gates.
 constexpr double least_agreement = 0.3;
 
-// Brings each gate nearest to the wind at its height.
+// Chooses the fold number that brings each gate nearest to the wind at its height.
 void unfold_to_wind(const FoldedWind& wind, SheetState& state) {
     const VelocitySheet& sheet = state.sheet;
     state.gate_folds.assign(sheet.turns.size(), 0);

@@ -39,7 +39,8 @@ int Votes::winner() const {
 
 namespace {
 
-// Noise can have so many equal solutions that the best one is found only after minutes.
+// Limits the work, because noise can have so many nearly equal solutions that finding the best
+// takes minutes.
 constexpr std::int64_t looks_per_edge = 1000;
 
 std::size_t at(std::int32_t index) {
@@ -53,7 +54,8 @@ FoldEdge turned(const FoldEdge& edge) {
     return other;
 }
 
-// The edges between the sets' nodes, with votes for the differences of these.
+// Returns the edges between nodes of different sets as edges between the sets' new nodes. Their
+// votes are for the difference between the roots of the sets.
 std::vector<FoldEdge> edges_between(const std::vector<FoldEdge>& edges, OffsetSets& sets,
                                     const std::vector<std::int32_t>& node_of_root) {
     std::vector<FoldEdge> between;
@@ -69,7 +71,8 @@ std::vector<FoldEdge> edges_between(const std::vector<FoldEdge>& edges, OffsetSe
     return between;
 }
 
-// Joins regions over edges that outweigh all else about one of them. Returns the number of joins.
+// Joins the two nodes of an edge if its winner weighs at least as much as all other votes about one
+// of the nodes. Returns the number of joins.
 std::int32_t join_over_heavy_edges(const std::vector<FoldEdge>& edges,
                                    const std::vector<float>& anchor_bound, OffsetSets& sets) {
     std::vector<float> total = anchor_bound;
@@ -101,8 +104,9 @@ void find_components(FoldGraph& graph) {
     }
 }
 
-// The part of the cost that changes if `step` is added to the folds of a set of nodes is a sum over
-// nodes, and over edges that join a raised node to one that is not.
+// Adds `step` to the folds of the set of nodes for which this lowers the cost most. Returns false
+// if it lowers the cost for no set. The change of the cost is a sum over the nodes of the set, and
+// over the edges from the set to other nodes, so a minimum cut finds the set.
 bool move(const FoldGraph& graph, const std::vector<Votes>& anchors, std::int32_t step,
           std::int64_t& looks, std::vector<std::int32_t>& folds) {
     std::vector<float> cost_of_staying(at(graph.nodes), 0);
@@ -113,7 +117,7 @@ bool move(const FoldGraph& graph, const std::vector<Votes>& anchors, std::int32_
             edge.votes.cost(number - step) - edge.votes.cost(number);  // if a alone moves
         cost_of_staying[at(edge.a)] -= lowered;
         cost_of_staying[at(edge.b)] += lowered;
-        // If b alone moves, the cost changes by this much more than by -lowered.
+        // If b alone moves, the cost changes by -lowered plus this capacity.
         cut.connect(edge.b, edge.a, 2 * edge.votes.at(number));
     }
     for (std::int32_t node = 0; node < graph.nodes; ++node) {
@@ -128,7 +132,8 @@ bool move(const FoldGraph& graph, const std::vector<Votes>& anchors, std::int32_
     std::vector<std::int32_t> moved = folds;
     for (std::int32_t node = 0; node < graph.nodes; ++node)
         if (cut.on_source_side(node)) moved[at(node)] += step;
-    // Rounding must not let two solutions of one cost alternate for ever.
+    // Require a clear gain, so that rounding does not make two solutions of equal cost alternate
+    // forever.
     if (cost_of(graph, anchors, moved) >= cost_of(graph, anchors, folds) * (1 - 1e-7) - 1e-4)
         return false;
     folds = std::move(moved);
@@ -137,7 +142,8 @@ bool move(const FoldGraph& graph, const std::vector<Votes>& anchors, std::int32_
 
 }  // namespace
 
-// Sorts by a with counting, then finds equal b by the place that each b was last put to.
+// Sorts the edges by their region a with a counting sort. For each b, `place` is the index of the
+// last combined edge that ends at b, so a later edge with the same a and b finds it.
 void combine_edges(std::vector<FoldEdge>& edges, std::int32_t regions) {
     std::vector<std::size_t> begin(at(regions) + 1, 0);
     for (FoldEdge& edge : edges) {
@@ -246,7 +252,7 @@ double cost_of(const FoldGraph& graph, const std::vector<Votes>& anchors,
 
 void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
                    std::vector<std::int32_t>& folds) {
-    // Whole components first, which saves many cuts.
+    // Move whole components first, which saves many cuts.
     if (!anchors.empty()) {
         std::vector<std::array<float, 2 * Votes::most + 1>> costs(at(graph.components));
         for (std::int32_t node = 0; node < graph.nodes; ++node)

@@ -3,12 +3,12 @@
 //
 // Each pair of neighboring gates votes for the difference of their regions' fold numbers, with a
 // weight. An anchor votes for the fold number of one region. The cost of a solution is the sum over
-// all votes of weight x |difference chosen - difference voted for|. It is convex, so its minimum is
-// found exactly, by minimum cuts that each raise or lower a set of regions by one.
+// all votes of weight x |difference chosen - difference voted for|. The cost is convex, so minimum
+// cuts, which each raise or lower a set of regions by one, lead to its minimum.
 //
 // Source    Bioucas-Dias and Valadao (2007), phase unwrapping via graph cuts (PUMA); Dinic (1970).
-// Accuracy  The minimum of the cost, up to 1e-5 of its weights; tests/retrieve/fold_graph_test.cpp
-//           compares with all solutions of small graphs.
+// Accuracy  tests/retrieve/fold_graph_test.cpp finds the minimum of small graphs to 1e-3. In noisy
+//           data, minimize_cost() may stop before the minimum to bound its time.
 // Threads   Pure functions.
 #pragma once
 
@@ -20,7 +20,8 @@
 
 namespace stormcellar::retrieve {
 
-// Votes for whole numbers from -most to most; votes beyond count for the last number.
+// Votes for whole numbers from -most to most. A vote for a number beyond these counts for the
+// nearest of them.
 class Votes {
   public:
     static constexpr int most = 7;
@@ -35,7 +36,7 @@ class Votes {
     }
     [[nodiscard]] float total() const;
     [[nodiscard]] float cost(int number) const;
-    // The number with the largest weight.
+    // Returns the number with the largest weight.
     [[nodiscard]] int winner() const;
 
   private:
@@ -51,34 +52,40 @@ struct FoldEdge {
     Votes votes;
 };
 
-// The weight of a vote by a jump that is this far from a whole number of turns, which is half a
-// turn at most: 1 for an exact one, 0.1 for one that says nearly nothing.
+// Returns the weight of a vote by a jump. `from_whole` is the distance of the jump from a whole
+// number of turns, at most half a turn. The weight is 1 at distance 0, and 0.1 at half a turn,
+// where the jump says nearly nothing.
 [[nodiscard]] inline float vote_weight(float from_whole) {
     return 1 - 1.8F * (from_whole < 0 ? -from_whole : from_whole);
 }
 
-// Joins the edges of each pair of regions into one with a < b; drops edges from a region to itself.
+// Joins all edges between the same two regions into one edge with a < b, and drops edges from a
+// region to itself.
 void combine_edges(std::vector<FoldEdge>& edges, std::int32_t regions);
 
-// Regions that one solution has at fixed differences are one node.
+// The graph after regions were joined: a node is a set of regions whose fold numbers have fixed
+// differences.
 struct FoldGraph {
     std::int32_t nodes = 0;
     std::vector<FoldEdge> edges;  // combined
     std::vector<std::int32_t> node_of_region;
     std::vector<std::int32_t> fold_in_node;  // fold(region) - fold(its node)
-    std::vector<std::int32_t> component;     // of a node: nodes that edges connect
+    std::vector<std::int32_t> component;     // of each node: a set of nodes that edges connect
     std::int32_t components = 0;
 };
 
-// Joins a region to its neighbor wherever one vote outweighs all other votes about the region
-// together with any anchor of up to anchor_bound[region]. So the minimum stays the same.
+// Makes a graph from edges between regions. Joins a region to a neighbor if the votes for one
+// difference weigh at least as much as all other votes about the region together with its anchors,
+// which weigh at most anchor_bound[region]. Such joins do not change the minimum of the cost.
 [[nodiscard]] FoldGraph fold_graph(std::vector<FoldEdge> edges, std::int32_t regions,
                                    const std::vector<float>& anchor_bound);
 
-// Returns a first solution: the heaviest votes that do not contradict heavier ones.
+// Returns a first solution. It follows the winner of each edge, the clearest winner first, unless
+// the edges already followed decide otherwise.
 [[nodiscard]] std::vector<std::int32_t> likely_folds(const FoldGraph& graph);
 
-// Brings `folds` to the minimum. Without anchors, the fold number of each component is free.
+// Changes `folds` until no set of nodes that moves by one lowers the cost, or a limit on the work
+// is reached. Without anchors, a whole component can move at no cost.
 void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
                    std::vector<std::int32_t>& folds);
 

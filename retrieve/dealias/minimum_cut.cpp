@@ -6,7 +6,7 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr float least_capacity = 1e-5F;  // smaller ones are rounding errors
+constexpr float least_capacity = 1e-5F;  // smaller capacities are rounding errors
 
 }  // namespace
 
@@ -31,7 +31,8 @@ void MinimumCut::connect(std::int32_t from, std::int32_t to, float cost) {
     if (cost > 0) add(from, to, cost);
 }
 
-// Numbers the nodes by their distance from the source along arcs with capacity left.
+// Numbers the nodes by their distance from the source along arcs with capacity left. Returns true
+// if the sink has a number.
 bool MinimumCut::reaches_sink() {
     level_.assign(first_.size(), -1);
     level_[static_cast<std::size_t>(source_)] = 0;
@@ -50,7 +51,8 @@ bool MinimumCut::reaches_sink() {
     return level_[static_cast<std::size_t>(sink_)] >= 0;
 }
 
-// Returns the first arc from here that leads one level on and has capacity left; -1 if none does.
+// Returns the first arc from the node that leads one level on and has capacity left, or -1 if there
+// is none.
 std::int32_t MinimumCut::next_arc(std::int32_t node) {
     std::int32_t& a = current_[static_cast<std::size_t>(node)];
     const std::int32_t level = level_[static_cast<std::size_t>(node)];
@@ -63,8 +65,8 @@ std::int32_t MinimumCut::next_arc(std::int32_t node) {
     return a;
 }
 
-// Fills a path from the source to the sink. Returns the number of its arcs before the first full
-// one.
+// Sends as much flow along the path from the source to the sink as it can hold. Returns the number
+// of arcs before the first full arc.
 std::size_t MinimumCut::fill_path() {
     float flow = std::numeric_limits<float>::max();
     for (const std::int32_t a : path_)
@@ -79,8 +81,8 @@ std::size_t MinimumCut::fill_path() {
     return left;
 }
 
-// Fills shortest paths until none is left. A node from which the sink cannot be reached loses its
-// level.
+// Fills shortest paths until none is left or the limit on looks is reached. A node from which the
+// sink cannot be reached loses its level.
 void MinimumCut::fill_shortest_paths() {
     path_.clear();
     std::int32_t node = source_;

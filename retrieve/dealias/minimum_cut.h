@@ -1,4 +1,4 @@
-// retrieve/dealias/minimum_cut.h -- the minimum cut of a graph with a source and a sink.
+// retrieve/dealias/minimum_cut.h -- finds the minimum cut of a graph with a source and a sink.
 //
 // Source   Dinic (1970). Time is at most of order nodes^2 x edges, and near linear for the sparse
 //          graphs of dealiasing.
@@ -14,13 +14,14 @@ namespace stormcellar::retrieve {
 class MinimumCut {
   public:
     explicit MinimumCut(std::int32_t nodes);
-    // A node that goes to the sink's side costs this much (negative: one that goes to the
-    // source's).
+    // Makes the cut cost `cost` if the node is on the sink's side. A negative `cost` makes it cost
+    // -cost if the node is on the source's side.
     void prefer_source(std::int32_t node, float cost);
-    // It costs this much if `from` is on the source's side and `to` on the sink's.
+    // Makes the cut cost `cost` if `from` is on the source's side and `to` on the sink's side.
     void connect(std::int32_t from, std::int32_t to, float cost);
-    // Computes the cut, after which on_source_side() is valid. Stops after about this many looks at
-    // arcs; then the cut is one, but not the smallest. Returns the number of looks.
+    // Computes the cut, after which on_source_side() is valid. Stops after looking at about
+    // `most_looks` arcs; the cut may then not be the smallest. Returns the number of arcs looked
+    // at, counting repetitions.
     std::int64_t run(std::int64_t most_looks);
     [[nodiscard]] bool on_source_side(std::int32_t node) const {
         return level_[static_cast<std::size_t>(node)] >= 0;

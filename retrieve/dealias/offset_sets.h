@@ -1,4 +1,4 @@
-// retrieve/dealias/offset_sets.h -- disjoint sets whose members have known differences.
+// retrieve/dealias/offset_sets.h -- keeps disjoint sets whose members have known differences.
 //
 // Threads  One thread; find() shortens paths.
 #pragma once
@@ -38,8 +38,8 @@ class OffsetSets {
         }
         return {root, sum};
     }
-    // Makes value(b) - value(a) this difference. Returns false, and changes nothing, if it is
-    // known.
+    // Sets value(b) - value(a) to `difference`. Returns false, and changes nothing, if a and b are
+    // already in one set.
     bool join(std::int32_t a, std::int32_t b, std::int32_t difference) {
         const Found of_a = find(a), of_b = find(b);
         if (of_a.root == of_b.root) return false;

@@ -30,7 +30,7 @@ class RegionFinder {
             meet_along(radial);
             meet_before(radial, radial);
         }
-        // Gates at the beginning of a circle meet those at its end.
+        // Let gates at the beginning of a circle meet the gates at its end.
         if (sheet_.is_circle) {
             for (std::int32_t radial = 0; radial < std::min(widest_gap, sheet_.radials); ++radial)
                 meet_before(radial, radial + sheet_.radials);
@@ -42,7 +42,7 @@ class RegionFinder {
   private:
     struct Last {
         std::int32_t run = -1;
-        std::int32_t turn = 0;  // radial, counted on beyond the end of the circle
+        std::int32_t turn = 0;  // radial number, which keeps rising on the second way round
         float value = 0;
     };
 
@@ -72,12 +72,12 @@ class RegionFinder {
     }
 
     static void vote(FoldEdge& edge, float a, float b, float weight) {
-        const float turns = a - b;  // that b is too low
+        const float turns = a - b;  // by how much b is too low
         const float whole = std::nearbyint(turns);
         edge.votes.add(static_cast<int>(whole), weight * vote_weight(turns - whole));
     }
 
-    // A run meets the one before it on its radial.
+    // Adds the votes between each run of a radial and the run before it.
     void meet_along(std::int32_t radial) {
         const auto r = static_cast<std::size_t>(radial);
         for (std::size_t q = found_.first_run[r] + 1; q < found_.first_run[r + 1]; ++q) {
@@ -95,7 +95,8 @@ class RegionFinder {
         }
     }
 
-    // The gates of a radial meet the last gates of their range before it.
+    // Adds the votes between each gate of a radial and the last gate with a value at the same range
+    // in earlier radials.
     void meet_before(std::int32_t radial, std::int32_t turn) {
         const auto r = static_cast<std::size_t>(radial);
         for (std::size_t q = found_.first_run[r]; q < found_.first_run[r + 1]; ++q)
@@ -111,7 +112,7 @@ class RegionFinder {
             Last& last = last_[static_cast<std::size_t>(gate)];
             const Last before = std::exchange(last, {q, turn, row[gate]});
             const std::int32_t steps = turn - before.turn;
-            // On the second way round, what was met on the first is not met again.
+            // On the second way round, skip pairs that have already met on the first.
             if (before.run < 0 || steps > widest_gap || before.run == q ||
                 (turn != run.radial && before.turn != before_end(before)))
                 continue;
@@ -133,7 +134,7 @@ class RegionFinder {
         if (edge.a >= 0) found_.edges.push_back(edge);
     }
 
-    // The turn of a gate that was passed on the first way round.
+    // Returns the turn that the gate had on the first way round.
     [[nodiscard]] std::int32_t before_end(const Last& last) const {
         return found_.runs[static_cast<std::size_t>(last.run)].radial;
     }

@@ -1,12 +1,14 @@
-// retrieve/dealias/regions.h -- the regions of a sheet, inside which no velocity is folded against
-// another, and what neighboring gates say about two regions.
+// retrieve/dealias/regions.h -- finds the regions of a sheet, within which velocities are not
+// folded against each other, and the votes of neighboring gates about the fold numbers of two
+// regions.
 //
-// The Nyquist interval is cut into three thirds. Gates side by side whose velocities are in the
-// same third are one region: they differ by less than 2/3 of a Nyquist velocity. Where gates of
-// different regions meet, the smallest jump between them says which fold numbers would agree.
+// The Nyquist interval is cut into three thirds. Adjacent gates whose velocities are in the same
+// third belong to one region, because they differ by less than 2/3 of the Nyquist velocity. Where
+// gates of different regions meet, they vote for the difference of fold numbers that makes the jump
+// between them smallest.
 //
 // Source   The thirds and the search across gaps follow the region method of Py-ART (Helmus and
-//          Collis 2016). Votes by the size of the jump, and runs of gates, are our own.
+//          Collis 2016). The weights of jumps and the runs of gates are our own.
 // Threads  Pure functions.
 #pragma once
 
@@ -30,7 +32,8 @@ struct SheetRegions {
     std::vector<std::size_t> first_run;    // of each radial, and one more
     std::vector<std::int32_t> gate_count;  // of each region
     std::vector<FoldEdge> edges;           // not combined
-    // Pairs of adjacent gates, and those whose velocities differ by more than the Nyquist velocity.
+    // Number of pairs of adjacent gates of different runs, and of pairs whose velocities differ by
+    // more than the Nyquist velocity.
     std::int64_t pairs = 0, jumps = 0;
 };
 

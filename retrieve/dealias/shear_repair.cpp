@@ -10,11 +10,11 @@
 namespace stormcellar::retrieve {
 namespace {
 
-// Gates this near to a jump are asked again: a tornado's core is some radials and gates wide.
+// Gates within this many radials and gates of a jump are unfolded again, because a tornado's core
+// is some radials and gates wide.
 constexpr int reach = 4;
 
-// Where more of the pairs jump, in blocks of so many radials and gates, there is noise and no
-// shear.
+// A block of radials and gates in which a larger share of the pairs jumps holds noise, not shear.
 constexpr double most_jumps = 0.15;
 constexpr int block_radials = 8, block_gates = 16;
 
@@ -56,7 +56,7 @@ class ShearRepair {
     [[nodiscard]] float unfolded(std::size_t gate) const {
         return sheet_.turns[gate] + static_cast<float>(folds_[gate]);
     }
-    // The radial after this one; -1 if there is none.
+    // Returns the radial after this radial, or -1 if there is none.
     [[nodiscard]] int after(int radial) const {
         if (radial + 1 < sheet_.radials) return radial + 1;
         return sheet_.is_circle ? 0 : -1;
@@ -117,7 +117,8 @@ class ShearRepair {
         }
     }
 
-    // Votes between two asked gates are an edge; a gate that is not asked is an anchor.
+    // Makes an edge from each pair of marked gates, and an anchor from each pair of which one gate
+    // is marked.
     void gather_votes() {
         anchors_.resize(marked_.size());
         for_each_pair([&](std::size_t a, std::size_t b) {
@@ -143,8 +144,8 @@ class ShearRepair {
 
     const VelocitySheet& sheet_;
     std::vector<std::int8_t>& folds_;
-    std::vector<std::int32_t> node_;   // of each gate that is asked; else -1
-    std::vector<std::size_t> marked_;  // gates that are asked
+    std::vector<std::int32_t> node_;   // index in marked_ of each gate, or -1
+    std::vector<std::size_t> marked_;  // gates to unfold again
     std::vector<FoldEdge> edges_;
     std::vector<Votes> anchors_;
     std::vector<float> bound_;

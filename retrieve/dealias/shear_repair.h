@@ -1,8 +1,8 @@
 // retrieve/dealias/shear_repair.h -- unfolds gate by gate where neighbors still jump.
 //
 // A region can hold gates of two folds: in a tornado, inbound gates beyond the Nyquist velocity
-// look like the outbound ones beside them. Then jumps are left along the region's edge. About each
-// of them, every gate is a region of its own, and the gates around hold their fold numbers.
+// look like the outbound ones beside them. Then jumps are left along the region's edge. The repair
+// makes each gate near such a jump a region of its own; all other gates keep their fold numbers.
 //
 // Threads  Pure functions.
 #pragma once
@@ -14,7 +14,8 @@
 
 namespace stormcellar::retrieve {
 
-// Changes the fold numbers of gates (radials x gates) near jumps of more than half a turn.
+// Changes the fold numbers `folds` (radials x gates) of gates near jumps of more than half a turn,
+// except where so many pairs jump that the velocities are noise.
 void repair_shear(const VelocitySheet& sheet, std::vector<std::int8_t>& folds);
 
 }  // namespace stormcellar::retrieve

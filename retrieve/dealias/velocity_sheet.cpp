@@ -7,12 +7,12 @@
 namespace stormcellar::retrieve {
 namespace {
 
-// A radar's Nyquist velocity, in m/s; what is far beyond any radar's is damage.
+// Range of Nyquist velocities. Values outside it are damage, because no radar has them.
 constexpr float least_nyquist_mps = 1, most_nyquist_mps = 200;
 constexpr double most_turns = 100;
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
-// Values by code, in turns.
+// Converts codes to turns.
 class TurnsOfCodes {
   public:
     TurnsOfCodes(const level2::SweepMoment& moment, double turn_mps)
@@ -43,7 +43,8 @@ class TurnsOfCodes {
     std::vector<float> table_;
 };
 
-// The turn from the last radial to the first is no longer than three usual steps.
+// Returns true if there are at least 90 radials, and the step from the last to the first is at most
+// three usual steps.
 bool closes(const std::vector<float>& azimuths_deg) {
     if (azimuths_deg.size() < 90) return false;
     const double step = std::remainder(azimuths_deg.front() - azimuths_deg.back(), 360.0);

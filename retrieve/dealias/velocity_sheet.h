@@ -1,5 +1,6 @@
-// retrieve/dealias/velocity_sheet.h -- the velocities that can be unfolded as one: consecutive
-// radials of a sweep with one Nyquist velocity and one gate geometry.
+// retrieve/dealias/velocity_sheet.h -- cuts velocities into sheets, each of which can be unfolded
+// as a whole. A sheet has consecutive radials of a sweep with one Nyquist velocity and one gate
+// geometry.
 //
 // Units     A turn is twice the Nyquist velocity. A velocity of x turns may really be x + n turns
 //           for any whole n, the fold number. Ranges in meters, angles in degrees.
@@ -36,8 +37,9 @@ struct VelocitySheet {
     }
 };
 
-// Returns the sheets of all velocity moments, in the order of the volume. Sheets without a value
-// are left out, and so are radials whose Nyquist velocity is not from 1 to 200 m/s.
+// Returns the sheets of all velocity moments, in the order of the volume. Leaves out sheets without
+// a value, and radials whose Nyquist velocity is not from 1 to 200 m/s or whose angles are not
+// finite.
 [[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume);
 
 }  // namespace stormcellar::retrieve

@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t sectors = 72;
 constexpr int least_gates = 8;    // in a sector, of one sheet and layer
-constexpr float most_gates = 30;  // that count: neighbors say the same
+constexpr float most_gates = 30;  // largest weight of a sector; neighbors say the same
 
-// The mean direction of the velocities of a sector, and what a wind contributes to it.
+// Sums over the gates of one sheet in a sector and a layer, from which score() tests a wind.
 struct SectorSum {
     float east = 0, north = 0;   // of the beam
     float cosine = 0, sine = 0;  // sums of the phase pi velocity / Nyquist
@@ -24,7 +24,7 @@ struct SectorSum {
 };
 using LayerSums = std::array<std::vector<SectorSum>, FoldedWind::layers>;
 
-// cos(2 pi x) to 0.025, which is nothing beside the scatter of velocities.
+// Looks up cos(2 pi x). The error of up to 0.025 is far below the scatter of velocities.
 class CosineTable {
   public:
     CosineTable() {
@@ -96,7 +96,7 @@ float score(const std::vector<SectorSum>& sums, float u, float v) {
     return sum;
 }
 
-// Candidate winds: a square of points.
+// The candidate winds form a square of points.
 constexpr int half = 15, side = 2 * half + 1;
 constexpr float step_mps = 4;
 constexpr int most_change = 2;       // of either component between layers, in steps
@@ -107,7 +107,7 @@ struct Path {
     std::array<std::vector<int>, FoldedWind::layers> from;
 };
 
-// Adds to each candidate the best way to it from the layer below.
+// Adds to the score of each candidate the score of the best path to it from the layer below.
 void extend(const std::vector<float>& below, std::vector<float>& best, std::vector<int>& from) {
     from.resize(best.size());
     for (int a = 0; a < side; ++a) {

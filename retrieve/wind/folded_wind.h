@@ -1,5 +1,5 @@
-// retrieve/wind/folded_wind.h -- the wind above the radar, by height, from velocities that may be
-// folded.
+// retrieve/wind/folded_wind.h -- estimates the wind above the radar by height from velocities that
+// may be folded.
 //
 // A gate of azimuth a and elevation e sees (u sin a + v cos a) cos e of a wind (u, v). Folded or
 // not, exp(i pi velocity / Nyquist) is the same, so for each layer and candidate wind the fit sums
@@ -7,7 +7,7 @@
 // similar winds.
 //
 // Units     m/s, meters above the antenna. u is toward the east, v toward the north.
-// Accuracy  Only a guide to fold numbers; wind_profile.h measures the wind.
+// Accuracy  Good enough to choose fold numbers, but no measurement of the wind.
 // Threads   Pure functions.
 #pragma once
 
@@ -24,19 +24,20 @@ struct FoldedWind {
     static constexpr std::size_t layers = 40;
     struct Layer {
         double u_mps = 0, v_mps = 0;
-        // 1 if all velocities agree with the wind, 0 if they are as good as random, or none is
-        // there.
+        // 1 if all velocities agree with the wind; 0 if they are random or there are none
         double agreement = 0;
     };
     std::array<Layer, layers> by_height;
 
-    // The layer of a height; heights beyond the top or below the antenna belong to the nearest one.
+    // Returns the layer at a height. A height above the top layer or below the antenna gets the
+    // nearest layer.
     [[nodiscard]] const Layer& at(double height_m) const;
 };
 
 [[nodiscard]] FoldedWind fit_folded_wind(std::span<const VelocitySheet> sheets);
 
-// The height above the antenna of each gate of a sheet, on a sphere of 4/3 of the earth's radius.
+// Returns the height above the antenna of each gate of a sheet, on a sphere of 4/3 of the earth's
+// radius.
 [[nodiscard]] std::vector<float> gate_heights_m(const VelocitySheet& sheet);
 
 }  // namespace stormcellar::retrieve

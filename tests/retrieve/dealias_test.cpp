@@ -1,4 +1,5 @@
-// Winds whose radial velocity is known at every gate, folded, and odd volumes.
+// Tests dealias() with folded winds whose true radial velocity is known at every gate, and with odd
+// volumes.
 #include "stormcellar/retrieve/dealias.h"
 
 #include <cmath>
@@ -23,7 +24,7 @@ double uniform(double azimuth, double /*range*/, double elevation, double /*heig
     return seen(18, 22, azimuth, elevation);
 }
 
-// From 8 m/s of the south to 45 m/s of the west at 8 km.
+// A wind that changes from 8 m/s from the south at the antenna to 45 m/s from the west at 8 km.
 double sheared(double azimuth, double /*range*/, double elevation, double height) {
     const double part = std::min(height / 8000, 1.0);
     return seen(45 * part, 8 * (1 - part), azimuth, elevation);
@@ -46,7 +47,8 @@ struct Wind {
 
 class SyntheticWind : public ::testing::TestWithParam<double> {};
 
-// 99.9 % of gates right at every Nyquist velocity, and no sweep off as a whole.
+// At every Nyquist velocity, 99.9 % of the gates must be right, and no sweep may be wrong as a
+// whole.
 TEST_P(SyntheticWind, IsUnfolded) {
     for (const Wind& wind : {Wind{"uniform", uniform}, {"sheared", sheared}, {"vortex", vortex}}) {
         FoldedSpec spec;
@@ -75,7 +77,7 @@ TEST(Dealias, AnIsolatedStormIsAnchoredToTheWind) {
     const Score anchored = score(folded, dealias(folded.volume, Dealiasing::anchored));
     const Score alone = score(folded, dealias(folded.volume, Dealiasing::region));
     EXPECT_LE(anchored.wrong_share(), 0.001);
-    EXPECT_GT(alone.wrong_share(), 0.05) << "neighbors alone cannot know";
+    EXPECT_GT(alone.wrong_share(), 0.05) << "neighbors alone cannot show the fold number";
 }
 
 TEST(Dealias, OffLeavesEveryGateAsItIs) {
@@ -112,7 +114,8 @@ TEST(Dealias, OddVolumesAreNoTrouble) {
     legacy.elevations_deg = {0.5};
     for (const Dealiasing rung : {Dealiasing::profile, Dealiasing::region, Dealiasing::anchored}) {
         EXPECT_EQ(dealias({}, rung).sweeps.size(), 0U);
-        EXPECT_EQ(dealias(fold(one_gate, uniform).volume, rung).gates, 5) << "one in each sweep";
+        EXPECT_EQ(dealias(fold(one_gate, uniform).volume, rung).gates, 5)
+            << "each sweep has one gate";
         EXPECT_GT(dealias(fold(legacy, noise_alone).volume, rung).gates, 0);
         FoldedVolume folded = fold({}, uniform);
         for (level2::Radial& radial : folded.volume.sweeps[0].radials)
@@ -124,7 +127,7 @@ TEST(Dealias, OddVolumesAreNoTrouble) {
             folded.volume.sweeps[4].radials[radial].nyquist_mps = 17;
         const Dealiased found = dealias(folded.volume, rung);
         for (const std::int8_t fold : found.sweeps[0].folds)
-            ASSERT_EQ(fold, 0) << "no Nyquist velocity, no folds";
+            ASSERT_EQ(fold, 0) << "radials without a Nyquist velocity are not unfolded";
     }
 }
 

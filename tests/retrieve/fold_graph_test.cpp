@@ -62,7 +62,8 @@ double least_cost(const Problem& problem) {
     }
 }
 
-// The anchors of a node are those of its regions, moved by their places in it.
+// Returns the anchors of each node: the anchors of its regions, shifted by the regions' fold
+// numbers within the node.
 std::vector<Votes> anchors_of_nodes(const Problem& problem, const FoldGraph& graph) {
     std::vector<Votes> anchors(problem.anchors.empty() ? 0 : static_cast<std::size_t>(graph.nodes));
     for (std::size_t i = 0; i < problem.anchors.size(); ++i)

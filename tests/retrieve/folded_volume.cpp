@@ -17,7 +17,7 @@ struct Coded {
     std::int8_t fold = 0;
 };
 
-// The code of the folded velocity, and the fold number that leads back.
+// Returns the code of the folded velocity, and the fold number that restores the true velocity.
 Coded code_of(double velocity_mps, double nyquist_mps) {
     const double turn = 2 * nyquist_mps;
     const double folds = std::round(velocity_mps / turn);

@@ -1,4 +1,4 @@
-// tests/retrieve/folded_volume.h -- volumes whose true velocities are known.
+// tests/retrieve/folded_volume.h -- makes volumes whose true velocities are known.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,7 @@ using RadialVelocity = std::function<double(double azimuth_deg, double range_m,
 
 struct FoldedVolume {
     level2::Volume volume;
-    // As the rows of each sweep's velocities: what was added to the true velocity, as fold numbers
-    // that lead back to it.
+    // The right fold numbers of each sweep, in rows like the velocities of the sweep.
     std::vector<std::vector<std::int8_t>> folds;
 };
 

@@ -1,5 +1,5 @@
-// Fold numbers that Py-ART and UNRAVEL agree on, and the tornado of 3 May 1999 gate by gate
-// (../shared/data/velocity-golden).
+// Compares fold numbers with those on which Py-ART and UNRAVEL agree, and with the tornado of 3 May
+// 1999, unfolded by hand gate by gate (../shared/data/velocity-golden).
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -93,7 +93,8 @@ TEST(GoldenFolds, AgreeWhereOtherProgramsAgree) {
     }
 }
 
-// Ten gates of the tornado between Bridge Creek and Moore are folded; nine of them are found.
+// Ten gates of the tornado between Bridge Creek and Moore are folded. dealias() must find at least
+// nine of them.
 TEST(GoldenFolds, UnfoldTheTornadoOfMoore) {
     STORMCELLAR_NEED_DATA();
     const fs::path data = *testing::data_directory();

@@ -28,7 +28,7 @@ TEST(Regions, AreGatesOfOneThirdSideBySide) {
     EXPECT_EQ(found.gate_count, (std::vector<std::int32_t>{3, 3, 1}));
 }
 
-// The jump from 0.45 to -0.45 turns is 0.1 turns upward if the second gate is folded once more.
+// The jump from 0.45 to -0.45 turns becomes 0.1 turns upward if the second gate has one fold more.
 TEST(Regions, AJumpVotesForAFold) {
     const SheetRegions found = find_regions(sheet_of(1, 2, {0.45F, -0.45F}));
     ASSERT_EQ(found.edges.size(), 1U);

@@ -1,21 +1,24 @@
-// stormcellar/retrieve/dealias.h -- which velocities are folded, and how often.
+// stormcellar/retrieve/dealias.h -- finds which velocities are folded, and how often.
 //
 // A Doppler radar measures velocity modulo twice the Nyquist velocity. The true velocity of a gate
-// is raw + 2 n Nyquist, with a whole fold number n, which this finds. Values are never smoothed,
-// replaced or invented.
+// is raw + 2 n Nyquist, where the fold number n is whole. dealias() finds n. Values are never
+// smoothed, replaced or invented.
 //
-// Rungs     profile   the fold number that brings a gate nearest to the wind at its height
-//           region    regions without folds, joined so that neighbors agree as well as they can
-//           anchored  the same, and with the wind at that height and the sweeps above and below
+// Rungs     The methods, from fast to accurate:
+//           profile   takes the fold number that brings a gate nearest to the wind at its height
+//           region    finds regions without folds, and unfolds them so that neighboring gates agree
+//                     as well as they can
+//           anchored  unfolds the regions so that they also agree with the wind at their height and
+//                     with the sweeps above and below
 // Units     m/s; fold numbers.
 // Source    Regions: Helmus and Collis (2016). The exact minimum over all regions: Bioucas-Dias and
-//           Valadao (2007). Votes by the size of a jump, anchors and repair are our own.
-// Accuracy  99.9 % of the gates of uniform, sheared and rotating winds with 1 m/s of noise, for
-//           Nyquist velocities from 8 to 33 m/s (tests/retrieve/dealias_test.cpp). In noise the
-//           minimum is not always reached, and `ambiguous` marks only some of the wrong gates.
-// Errors    None. Gates without a value, and gates of radials without a Nyquist velocity (TDWR),
-// have
-//           the fold number 0.
+//           Valadao (2007). The weights of jumps, the anchors and the repair are our own.
+// Accuracy  The rung `anchored` is right at 99.9 % of the gates of uniform, sheared and rotating
+//           winds with 1 m/s of noise, for Nyquist velocities from 8 to 33 m/s
+//           (tests/retrieve/dealias_test.cpp). In noisy data it does not always reach the minimum.
+//           `ambiguous` marks only some of the wrong gates.
+// Errors    None. The fold number is 0 for gates without a value, for radials whose Nyquist
+//           velocity is missing (TDWR) or not from 1 to 200 m/s, and where `profile` has no wind.
 // Threads   Pure functions.
 #pragma once
 
@@ -37,17 +40,20 @@ struct SweepFolds {
     std::size_t moment = 0;  // index in the sweep
     // Rows as in the moment: radials x gate_stride.
     std::vector<std::int8_t> folds;
-    // 1 where the fold number is a guess: little would change if it were another.
+    // 1 where the fold number is uncertain, because another number would fit nearly as well; always
+    // 0 from `profile`.
     std::vector<std::uint8_t> ambiguous;
 };
 
 struct Dealiased {
     std::vector<SweepFolds> sweeps;  // of all velocity moments, in the order of the volume
-    // Pairs of adjacent gates, and those that jump by more than the Nyquist velocity as received.
+    // Number of pairs of adjacent gates, and of pairs whose received velocities differ by more than
+    // the Nyquist velocity. Pairs inside a run (regions.h) do not count; both are 0 from `profile`.
     std::int64_t pairs = 0, jumps = 0;
     std::int64_t gates = 0, folded_gates = 0, ambiguous_gates = 0;
 };
 
+// Finds the fold numbers of all velocity moments. With Dealiasing::off, all are 0.
 [[nodiscard]] Dealiased dealias(const level2::Volume& volume, Dealiasing rung);
 
 }  // namespace stormcellar::retrieve
