@@ -25,9 +25,9 @@ namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_left_out = 100;  // at most this many members are listed
-// Most bytes that libarchive may read for one header; it may exceed them by a block. A header with
-// a long name takes a few kilobytes. The limit mainly bounds time, because libarchive compares each
-// entry of an access list with all previous entries.
+// Most bytes that libarchive may read for one header, give or take a block. A header with a long
+// name takes a few kilobytes. The limit mainly bounds time, because libarchive compares each entry
+// of an access list with all previous entries.
 constexpr std::uint64_t most_header_bytes = std::uint64_t{128} << 10;
 // Most bytes of the directory of a zip, which libarchive reads with the first header. Each member
 // takes about 100 bytes.
@@ -37,7 +37,7 @@ constexpr std::uint64_t most_directory_bytes = std::uint64_t{16} << 20;
 
 struct ArchiveReader::Impl {
     Limits limits;
-    ReadBudget header, of_source;          // for headers of the tar or zip; for its packing
+    ReadBudget header, of_source;          // for headers; for the codec of a packed archive
     std::unique_ptr<PlainSource> plain;    // the bytes of the archive
     std::unique_ptr<PackedStream> packed;  // null: the archive is not packed
     Handle handle;                         // must end before `plain` and `packed`
@@ -95,8 +95,8 @@ struct ArchiveReader::Impl {
         return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
     }
 
-    // Reads a header of at most `most` bytes. The caller must skip the data of the previous member
-    // first, so that they do not count.
+    // Reads a header of at most `most` bytes. The caller must first skip the data of the previous
+    // member, so that these data do not count.
     int read_header(::archive_entry*& entry, std::uint64_t most) {
         const std::uint64_t start = place_of(handle.get());
         header.begin(most);
@@ -140,8 +140,8 @@ struct ArchiveReader::Impl {
         ::archive_entry* entry = nullptr;
         const bool passed = archive_read_data_skip(handle.get()) >= ARCHIVE_WARN;
         const int code = passed ? read_header(entry, most_header_bytes) : ARCHIVE_FATAL;
-        // libarchive returns other codes after a damaged header, where a search for the next header
-        // could help. Reading ends here instead.
+        // libarchive returns another code after a damaged header. A search for the next header
+        // could help there, but the reader stops instead.
         if (code == ARCHIVE_OK || code == ARCHIVE_WARN) return entry;
         at_end = true;
         const bool is_behind_all = code == ARCHIVE_EOF || (passed && has_no_room_left());

@@ -57,8 +57,8 @@ bool may_be_compressed_twice(std::span<const std::byte> start) {
 
 // Opens a reader with exactly one filter. libarchive's own choice would look for further filters
 // after the first, and nothing would count the bytes that it unpacks for this search. The filter of
-// compress reads at once, so it cannot be added before its source; it is offered to libarchive as
-// the only choice. libarchive could then choose compress up to 25 times, which would take
+// compress reads at once, so it cannot be added before its source. Instead, libarchive gets this
+// filter as its only choice. libarchive could then choose compress up to 25 times, which would take
 // milliseconds for each byte of the outermost layer. So PackedStream::open() refuses files that may
 // be compressed twice.
 bool begin_reading(::archive* handle, int filter, const PackedStream::OpenSource& source) {

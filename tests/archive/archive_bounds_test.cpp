@@ -157,7 +157,7 @@ TEST(ArchiveReader, AHeaderThatIsTooLongEndsIt) {
         EXPECT_THAT(names_of(*reader), IsEmpty());
         ASSERT_EQ(reader->left_out().size(), 1U);
         EXPECT_THAT(reader->left_out().at(0).reason, HasSubstr("header that is too long"));
-        EXPECT_FALSE(reader->is_cut()) << "nobody waits for its end";
+        EXPECT_FALSE(reader->is_cut()) << "the daemon must not wait for the end";
         EXPECT_TRUE(reader->may_have_its_end());
         EXPECT_LT(peak_bytes() - before, std::size_t{48} << 20);
     }
@@ -165,7 +165,7 @@ TEST(ArchiveReader, AHeaderThatIsTooLongEndsIt) {
 
 // 2026-11-28: in a file of 202 kB, one header with an access list of 889 kB took 47 s, and with
 // four such headers the watchdog ended the daemon. libarchive compares each entry with all previous
-// ones.
+// entries.
 TEST(ArchiveReader, AnAccessListWithoutAnEndIsNotRead) {
     std::string entries;
     for (int i = 0; i < 30'000; ++i)
@@ -196,8 +196,8 @@ TEST(ArchiveReader, ManyLongHeadersEndItToo) {
     EXPECT_LT(names(100'000, 60), 50U);
 }
 
-// 2026-11-28: each archive inside an archive could unpack as much as the bound allows, only to skip
-// it.
+// 2026-11-28: each archive inside an archive could unpack as many bytes as the bound allows, only
+// to skip them.
 TEST(ArchiveReader, WhatInnerArchivesPassOverCountsToo) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);
     const auto bomb = make_archive(Kind::tar_gz, {{"../a", zeros}, {"b", bytes_of("b")}});
@@ -404,7 +404,7 @@ TEST(ArchiveReader, WhatIsCompressedTwiceAndUnpacksToNothingTakesNoTime) {
         },
         budget, true, [](std::uint64_t bytes) { return bytes; });
     EXPECT_FALSE(stream);
-    EXPECT_FALSE(is_read) << "its first bytes tell";
+    EXPECT_FALSE(is_read) << "the first bytes suffice to refuse it";
     EXPECT_FALSE(ArchiveReader::open(bytes_of(file)));
 }
 

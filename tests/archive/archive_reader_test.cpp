@@ -189,7 +189,7 @@ TEST(ArchiveReader, ReadsOnBehindZeros) {
     std::fill_n(lost_page.begin() + member, header, std::byte{0});
     auto reader = ArchiveReader::open(lost_page);
     EXPECT_THAT(names_of(*reader), ElementsAre("a"));
-    EXPECT_TRUE(reader->is_cut()) << "what follows is no header";
+    EXPECT_TRUE(reader->is_cut()) << "the bytes after the zeros are no header";
     EXPECT_THAT(reader->why_ended(), HasSubstr("Damaged tar archive"));
     EXPECT_EQ(reader->left_out().size(), 1U);
 

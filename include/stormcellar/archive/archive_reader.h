@@ -87,7 +87,7 @@ class ArchiveReader {
     // Returns the next member that is a file. Returns none at the end of the archive, or if the
     // reader has stopped (why_ended()).
     [[nodiscard]] std::optional<Member> next();
-    // Returns the members and parts left out so far. After 100 members, further ones are not
+    // Returns the members and parts left out so far. After 100 entries, further members are not
     // listed.
     [[nodiscard]] const std::vector<LeftOut>& left_out() const;
     // Returns true if the archive ends too early, is damaged or cannot be read, so that members may
