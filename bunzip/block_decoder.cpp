@@ -26,7 +26,7 @@ Found BlockDecoder::read_runs(BitReader& reader, std::uint32_t most_bytes, Path 
     while (!symbols.ended()) {
         const auto batch = symbols.next_batch();
         run_count_ += make_runs(maker_, batch, runs_.get() + run_count_);
-        // `bytes` leaves out the run that continues, of which `times` counts the first byte.
+        // `bytes` does not count the run that continues; `times` counts the first byte of this run.
         if (maker_.bytes + maker_.times > most_bytes) return Found::bad;
         if (symbols.found() != Found::good) return symbols.found();
     }

@@ -32,7 +32,7 @@ void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace>
     } catch (const std::system_error&) {
         // The system has no more threads, so the present threads do the work.
     } catch (const std::bad_alloc&) {
-        // The same as above.
+        // There is no memory for more threads, so the present threads do the work.
     }
     work(workspaces.front());
     for (std::thread& thread : threads)

@@ -16,8 +16,8 @@ static_assert(LinkWalk::most_segments < marked && (most_rows + 1) << link_shift 
 
 }  // namespace
 
-// The next link of each lane, and the segment that it reads. A lane without a segment stays on the
-// row after the last row, which links to itself.
+// The next link of each lane, and the segment that the lane reads. A lane without a segment stays
+// on the row after the last row, which links to itself.
 struct LinkWalk::Lanes {
     Link idle;
     std::array<Link, lanes> link;  // link of the row that is read next

@@ -51,8 +51,8 @@ HWY_INLINE void fill(std::uint8_t* to, std::uint8_t byte) {
 }
 #endif
 
-// Copies windows of bytes that hold no four equal bytes in a row. At four equal bytes, it writes
-// the run with its repetitions and continues after the count.
+// Copies windows of bytes that hold no four equal bytes in a row. At four equal bytes, the function
+// writes the run with its repetitions and continues after the count.
 RunExpander::Place expand(RunExpander::Place place, const std::uint8_t* end,
                           const std::uint8_t* to_end) {
     // The last two bytes of a window may begin a run that goes on after it, so read them again.

@@ -33,8 +33,8 @@ TEST(BlockTables, AreReadAsTheyWereWritten) {
     EXPECT_EQ(tables.bytes[3], 255);
     EXPECT_EQ(tables.end_symbol(), 5);
     EXPECT_EQ(tables.code_count, 3U);
-    // The move-to-front list turns the selectors into code 2, 2 again, the next in the list, and
-    // the last.
+    // Through the move-to-front list, the selectors choose code 2 twice, then code 0, and then code
+    // 1.
     EXPECT_EQ(tables.selectors, (std::vector<std::uint8_t>{2, 2, 0, 1}));
     EXPECT_EQ(tables.codes[1].decode(std::uint64_t{0b10} << 62).symbol, 1);
     EXPECT_EQ(tables.codes[2].decode(0).symbol, 1);
@@ -80,7 +80,7 @@ TEST(BlockTables, WhatContradictsIsBad) {
     }
 }
 
-// libbz2 drops them too, since 1.0.7.
+// libbz2 drops such selectors too, since 1.0.7.
 TEST(BlockTables, SelectorsThatNoBlockNeedsAreDropped) {
     BlockPlan many = small_plan();
     many.selectors.assign(20'000, 0);

@@ -1,5 +1,5 @@
 // tests/bunzip/each_path.h -- lists the paths that this machine supports, and names the tests of
-// each.
+// each path.
 #pragma once
 
 #include <string>

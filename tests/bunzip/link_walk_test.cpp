@@ -51,7 +51,7 @@ void expect_as_alone(std::vector<Link> links, std::uint32_t rows, std::uint32_t 
     EXPECT_TRUE(bytes == wanted) << rows << " rows from " << origin;
     EXPECT_EQ(walk.walked_alone(), by_one_walk) << rows << " rows from " << origin;
     links.resize(rows);
-    EXPECT_TRUE(links == before) << "the links are not as they were";
+    EXPECT_TRUE(links == before) << "read() must restore the links";
 }
 
 TEST(LinkWalk, OneRingOfAnySize) {
@@ -66,7 +66,7 @@ TEST(LinkWalk, OneRingOfAnySize) {
 }
 
 // If the block is a repetition of a text, the links form several rings, and the walk goes around
-// one of them.
+// only one ring.
 TEST(LinkWalk, ManyRings) {
     std::mt19937 random(9);
     expect_as_alone(links_of({50'000, 1, 1, 7, 30'000, 300'000}, random), 380'009, 17);
@@ -75,8 +75,8 @@ TEST(LinkWalk, ManyRings) {
     expect_as_alone(links_of({3, 100'000}, random), 100'003, 50'000);
 }
 
-// All marks are close together on the ring, so one walk would have to read nearly all of the block,
-// for which it has no room.
+// All marks are close together on the ring, so one of the walks would have to read nearly all of
+// the block, and has no room for it.
 TEST(LinkWalk, OneWalkThatHasItAll) {
     constexpr std::uint32_t rows = 600'000;
     std::vector<std::uint32_t> order;

@@ -62,8 +62,8 @@ TEST_P(RunExpanderOf, AnyBytesInAnyPieces) {
     std::mt19937 random(5);
     for (int round = 0; round < 400; ++round) {
         Octets packed(1 + random() % 3000);
-        // Few kinds of bytes give many runs, some of them adjacent, and some of the same byte as
-        // their count.
+        // Few kinds of bytes give many runs. Some runs are adjacent, and in some the byte equals
+        // the count.
         const auto kinds = static_cast<unsigned>(1 + random() % 6);
         for (std::uint8_t& byte : packed)
             byte = static_cast<std::uint8_t>(random() % kinds + random() % 50 / 49 * 200);
