@@ -23,7 +23,7 @@ bool messages_at_start(std::span<const std::byte> bytes, bool after_header) {
     if (is_surely_message(bytes)) return true;
     const bool first = plausible_at(bytes, 0);
     if (after_header && first) return true;
-    // Two headers one frame apart cannot be chance, and neither can one sure message.
+    // Neither two plausible headers one frame apart nor one sure message can be chance.
     if (bytes.size() < frame_bytes) return false;
     return is_surely_message(bytes.subspan(frame_bytes)) ||
            (first && plausible_at(bytes, frame_bytes));

@@ -34,7 +34,8 @@ void LdmStreamFramer::end_part(std::size_t bytes) {
     searched_behind_ = 0;
 }
 
-// Does the same as find_bzip2(), but a repeated search continues where the previous one stopped.
+// Finds the next bzip2 stream, as find_bzip2() does. A repeated search continues where the previous
+// search stopped.
 std::optional<std::size_t> LdmStreamFramer::find_stream(std::span<const std::byte> rest,
                                                         std::size_t from) {
     const auto found = find_bzip2(rest, std::max(from, searched_));

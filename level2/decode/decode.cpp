@@ -63,7 +63,7 @@ class Decoder {
     Status read_messages(std::span<const std::byte> bytes);
     Status take_output(LayerOutput& output, std::span<const std::byte> piece);
     Status end_output(LayerOutput& output, int depth);
-    // Passes on the messages that have been read.
+    // Appends the messages read so far to the volume.
     Status flush(LayerOutput& output);
     void report_container(const LayerOutput& output, Severity severity, std::string_view code,
                           std::string message, std::uint64_t position);
@@ -287,7 +287,7 @@ Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
     return true;
 }
 
-// Reads a file of LDM records. If only some cuts are selected, it first tries a plan that skips the
+// Reads a file of LDM records. If only some cuts are selected, first tries a plan that skips the
 // records of other cuts. If the file does not follow the plan, the state of the builder from before
 // the plan is restored.
 Status Decoder::read_ldm(std::span<const std::byte> bytes) {

@@ -142,7 +142,8 @@ Result<std::size_t> VolumeBuilder::take_late(Sweep& from, std::size_t first) {
     return at;
 }
 
-// `before` is the previous late radial if it is not in the sweep yet; else null.
+// Returns how a radial fits at late_place_. `before` is the previous late radial if it is not in
+// the sweep yet; else null.
 LateFit VolumeBuilder::fit_of_late(const Radial& radial, const Radial* before) const {
     const auto [index, at] = *late_place_;
     const Sweep& sweep = volume_.sweeps[index];

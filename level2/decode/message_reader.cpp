@@ -78,8 +78,8 @@ std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
 }
 
 // Takes one step at the start of `rest`: a volume header, a fill frame, or a message. If none of
-// these can begin here, the reader searches for the next message. If there are too few bytes to
-// decide and more may come, it returns 0.
+// these can begin here, the reader searches for the next message. Returns 0 if there are too few
+// bytes to decide and more may come.
 std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
     if (!last && rest.size() < frame_bytes + sure_message_bytes) return 0;
     if (!in_sync_) return resynchronise(rest, 0, last, "bytes of the message stream are missing");
@@ -138,7 +138,7 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
     const bool firm = is_firm_radial(header, message) &&
                       surely_follows(rest.subspan(length), last, is_radial(header));
     if (!firm) {
-        // If another message begins inside this one, then this message has lost bytes, or its
+        // If another message begins inside this message, then this message has lost bytes, or its
         // header is not a header.
         const auto search = rest.first(std::min(rest.size(), length + sure_message_bytes));
         const auto next = find_message(search, message_header_bytes);
@@ -151,9 +151,9 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
             return resynchronise(rest, *next, last, {});
         }
     }
-    // No other message begins inside this one, so it has lost nothing. The message is framed if the
-    // next bytes are at least plausible. An unframed message must have a plausible header, and its
-    // content is read more strictly.
+    // No other message begins inside this message, so it has lost nothing. The message is framed if
+    // the next bytes are at least plausible. An unframed message must have a plausible header, and
+    // its content is read more strictly.
     const bool framed = firm || ((!is_radial(header) || places_its_gates(header, message)) &&
                                  plausibly_follows(rest.subspan(length), last));
     if (!framed && !is_plausible(header)) {

@@ -71,7 +71,7 @@ std::optional<RecordPlan> RecordPlan::make(std::span<const std::byte> bytes,
     plan.records_.resize(count);
     plan.want_witnesses();
     plan.records_[1].wanted = true;      // the first radial has the volume block
-    plan.records_.back().wanted = true;  // shows whether the volume has ended
+    plan.records_.back().wanted = true;  // shows if the volume has ended
     return plan;
 }
 

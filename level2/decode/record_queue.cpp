@@ -28,7 +28,7 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
     } catch (const std::system_error&) {
         // The system has no more threads, so the present threads do the work.
     } catch (const std::bad_alloc&) {
-        // The same as above.
+        // There is no memory for more threads, so the present threads do the work.
     }
 }
 
@@ -63,7 +63,8 @@ bool RecordQueue::has_turn(const Slot& slot) const {
 }
 
 // Returns the first slot that waits for work. Only the caller takes a slot that outgrew its share,
-// and only when the slot is the head. If alone_ is set, this holds for every slot.
+// and only when the slot is the head. If alone_ is set, the caller takes every slot, and only as
+// the head.
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
@@ -82,7 +83,7 @@ std::uint64_t RecordQueue::wait_for_turn(const Slot& slot) {
     return stopping_ ? 0 : std::max<std::uint64_t>(*turn_bytes_, 1);
 }
 
-// Returns the room for decoding a slot. Each function in it holds at most two pointers, so
+// Returns the room for decoding a slot. Each function in the room holds at most two pointers, so
 // std::function allocates no memory.
 ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
     if (has_turn(slot)) return ArrayRoom{*turn_bytes_};
@@ -134,9 +135,9 @@ void RecordQueue::decode_alone(Slot& head) {
     work(head, own_decoder_, Who::caller);
 }
 
-// Returns the fragment of the head slot. While it is not ready, the caller decodes too, the head or
-// another waiting slot. When less room is left than a share, parts that were decoded ahead might
-// not fit, so from then on the caller decodes everything alone.
+// Returns the fragment of the head slot. While that fragment is not ready, the caller decodes the
+// head or another waiting slot. When less room is left than a share, parts that were decoded ahead
+// might not fit, so from then on the caller decodes everything alone.
 std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
     const MutexLock lock(mutex_);
     if (used_ == 0) return std::nullopt;

@@ -23,7 +23,7 @@ class ReportWriter {
              std::optional<std::uint64_t> offset = std::nullopt);
     // Reports bytes that hold nothing usable, as an error. The first such error becomes
     // DecodeReport::corruption. `stream_offset` counts in the message stream; `found_at` is the
-    // offset at which the damage was noticed, if that is a different one.
+    // offset at which the damage was noticed, if that differs.
     void damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
                 std::uint64_t dropped, std::optional<std::uint64_t> found_at = std::nullopt);
     // Reports something odd about a message that loses no data. Equal oddities become one problem

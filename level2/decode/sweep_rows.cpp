@@ -61,7 +61,7 @@ std::uint16_t native_from_big_endian(std::uint16_t number) {
     return static_cast<std::uint16_t>((number >> 8) | (number << 8));
 }
 
-// A template, because MomentBlock and SweepMoment use the same names for these members.
+// Compares the members that MomentBlock and SweepMoment both have, under equal names.
 template <class Described>
 bool is_same_kind(const SweepMoment& a, const Described& b) {
     return a.moment == b.moment && a.first_gate_m == b.first_gate_m &&

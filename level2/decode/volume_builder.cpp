@@ -155,7 +155,7 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
     const Radial& first = piece.sweep.radials.front();
     if (pending_header_) return true;
     // If records come in the wrong order, elevation numbers fall too, but time goes back. In that
-    // case only a second start of a volume begins another one.
+    // case only a second start of a volume begins another volume.
     const bool marked = status_of(first) == RadialStatus::start_of_volume;
     if (goes_back(first, previous_->time)) return marked && start_has_come_;
     if (marked) return true;
@@ -223,8 +223,8 @@ bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
 }
 
 // Appends the rows of a piece to the open sweep. The rows of each moment go to the moment of the
-// same kind, or begin a new one. Rows are widened if the piece has more gates, and padded for
-// radials that lack the kind.
+// same kind in the open sweep, or begin a new moment. Rows are widened if the piece has more gates,
+// and padded for radials that lack the kind.
 void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     const std::size_t before = sweep.radials.size();
     sweep.radials.insert(sweep.radials.end(), from.radials.begin(), from.radials.end());

@@ -40,8 +40,8 @@ void check_time(const Volume& volume, ReportWriter& report) {
 constexpr int most_named_sweeps = 8;
 
 // Reports sweeps that lost their last radials, and returns true if there are any. The last sweep
-// does not count, because its missing end is another problem. A sweep before a new pass of its cut
-// does not count, because the radar gave it up.
+// does not count, because its missing end is reported as another problem. A sweep before a new pass
+// of its cut does not count, because the radar gave it up.
 bool check_ends(Sweeps all, bool last_is_newest, ReportWriter& report) {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t communications_header_bytes = 12;
 constexpr std::size_t frame_body_bytes = 2400;  // 1,208 halfwords with the header
 constexpr std::uint8_t orda_channel = 8;        // single channel, Open RDA
-// Stands in a block for a number that the radial lacks.
+// Value in a block for a number that the radial lacks.
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 std::int16_t to_i16(double number) {

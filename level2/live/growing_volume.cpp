@@ -65,7 +65,7 @@ class GrowingVolume::Reader {
 
     DecodeOptions options_;
     Kind kind_ = Kind::undecided;
-    bool is_unknown_ = false;  // the start of the held bytes is of no known content
+    bool is_unknown_ = false;  // the held bytes begin with unknown content
     Status failed_;
     std::vector<std::byte> held_;  // bytes that are not consumed yet
     VolumeBuilder volume_{options_.output_limit_bytes, options_.most_array_bytes()};
@@ -75,7 +75,7 @@ class GrowingVolume::Reader {
     FragmentBuilder fragment_{room_, rows_of_a_stretch, options_.selection};
     MessageReader reader_{fragment_};
     MessageFeed feed_{reader_};
-    std::size_t next_sweep_ = 0;      // sweeps below this one are closed and were returned
+    std::size_t next_sweep_ = 0;      // sweeps below this index are closed and returned
     std::size_t radials_handed_ = 0;  // radials of sweep next_sweep_ when it was last returned
     std::set<std::size_t> changed_;   // sweeps that got late radials since the last take_sweeps()
 };
@@ -116,7 +116,7 @@ Status GrowingVolume::Reader::read_records(bool last) {
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
     // Free unused memory, because many volumes grow at once. But keep the room of an unfinished
-    // record, because moving it with each stretch would take quadratic time.
+    // record, because moving the record with each stretch would take quadratic time.
     if (held_.capacity() > kept_bytes + 2 * held_.size()) held_.shrink_to_fit();
     return {};
 }

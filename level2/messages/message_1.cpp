@@ -7,7 +7,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The gates of the surveillance or of the Doppler waveform, which its moments share.
+// The gate geometry that all moments of one waveform, surveillance or Doppler, share.
 struct Gates {
     std::int32_t first_m = 0;
     std::int32_t spacing_m = 0;

@@ -12,7 +12,7 @@ constexpr std::size_t header_halfwords = 8;  // included in the size of the head
 constexpr std::size_t least_halfwords = 40;
 constexpr std::size_t most_halfwords = 60;
 constexpr std::uint8_t open_rda_channel = 8;
-constexpr std::uint16_t after_legacy_day = 13'515;  // 2007-01-01; the last was replaced in 2006
+constexpr std::uint16_t after_legacy_day = 13'515;  // 2007-01-01; legacy RDAs ran until 2006
 
 // The halfwords of the message. Their numbers begin at 1, as in the ICD; missing halfwords are 0.
 class Halfwords {

@@ -144,7 +144,8 @@ bool agrees_with_message_1(const MessageHeader& header, std::span<const std::byt
     return start && all_hold(checks_of_1(header, *start));
 }
 
-// Does the same, but also refuses gate counts of zero, because zeros occur in many places.
+// Returns true if agrees_with_message_1() does and a gate count is not zero. Zeros prove nothing,
+// because they occur in many places.
 bool is_surely_message_1(const MessageHeader& header, std::span<const std::byte> body) {
     return agrees_with_message_1(header, body) && !all_zero(body.subspan(gate_counts_at, 4));
 }
@@ -203,8 +204,8 @@ bool is_surely_other_message(const MessageHeader& header, std::span<const std::b
 }
 
 // Recognizes a frame of a clutter map or adaptation data without a date, as some radars sent them
-// in 2006. Its header is zero except for size, type, sequence and segments, which no header of a
-// radial is.
+// in 2006. Its header is zero except for size, type, sequence and segments; the header of a radial
+// never is.
 bool is_undated_frame(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool mapped = header.type == 13 || header.type == 15 || header.type == 18;
     return mapped && header.date == 0 && header.ms == 0 && header.segments >= 2 &&

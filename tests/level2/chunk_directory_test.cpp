@@ -64,7 +64,7 @@ TEST_F(ChunkDirectoryTest, OfTwoFilesOfANumberTheBetterIsTaken) {
     const auto decoded = decode_chunk_directory(directory_.path());
     ASSERT_TRUE(decoded);
     EXPECT_EQ(decoded->volume.radial_count(), 20U);
-    EXPECT_TRUE(codes().empty()) << "nothing of either file";
+    EXPECT_TRUE(codes().empty()) << "the report names neither file";
 }
 
 TEST_F(ChunkDirectoryTest, FilesThatAreNotFinishedAreNotLookedAt) {

@@ -25,7 +25,7 @@ TEST(ChunkOnce, TakesWhatWasAppendedAgainOnce) {
         EXPECT_EQ(once(wire::join({chunk, chunk})), chunk);
         EXPECT_EQ(once(wire::join({chunk, chunk, chunk})), chunk);
         EXPECT_EQ(once(wire::join({part, chunk})), chunk) << "pqact was killed while it wrote";
-        EXPECT_EQ(once(wire::join({chunk, part})), chunk) << "and again";
+        EXPECT_EQ(once(wire::join({chunk, part})), chunk) << "pqact was killed at the second copy";
         EXPECT_EQ(once(wire::join({part, chunk, part})), chunk);
     }
 }

@@ -1,4 +1,4 @@
-// Tests of the whole decoder: containers, damage and limits.
+// Tests the whole decoder with containers, damage and limits.
 #include "stormcellar/level2/decode.h"
 
 #include <fstream>
@@ -51,7 +51,7 @@ TEST(DecodeLimits, WhatIsUnpackedInVainCounts) {
     ASSERT_FALSE(decoded);
     EXPECT_EQ(decoded.error().code, ErrorCode::unsupported);
     options.output_limit_bytes = std::uint64_t{2} << 30;
-    EXPECT_TRUE(decode(bytes, options)) << "as much as all of it takes";
+    EXPECT_TRUE(decode(bytes, options)) << "the limit is above what the whole file takes";
 }
 
 using wire::Bytes;
@@ -135,7 +135,7 @@ TEST(Decode, WhatBeginsAsAnotherFormatIsNotSearchedForMessages) {
     Bytes bytes = wire::join({wire::Writer{}.text("\x89SCG\r\n\x1A\n").bytes, volume});
     EXPECT_EQ(code_of(bytes), ErrorCode::not_level2);
     bytes[0] = std::byte{'x'};
-    EXPECT_TRUE(decode(bytes)) << "a damaged start is passed over";
+    EXPECT_TRUE(decode(bytes)) << "the decoder skips a damaged start";
 }
 
 TEST(Decode, MetadataAloneIsAVolume) {
@@ -157,7 +157,7 @@ TEST(Decode, BombsStopAtTheLimit) {
               ErrorCode::unsupported);
     EXPECT_EQ(code_of(wire::gzip(wire::gzip(wire::gzip(wire::gzip(wire::gzip(plain)))))),
               ErrorCode::unsupported)
-        << "layers without end";
+        << "too many layers";
 }
 
 TEST(Decode, ARecordOfAWholeVolumeIsReadBlockByBlock) {
@@ -209,7 +209,7 @@ TEST(Decode, ABadGzipChecksumIsReportedAndLosesNothing) {
     ASSERT_TRUE(decoded);
     EXPECT_EQ(decoded->volume.radial_count(), 9);
     EXPECT_EQ(decoded->report.problems.at(0).code, "gzip_checksum");
-    EXPECT_FALSE(decoded->report.complete) << "no volume with an error is";
+    EXPECT_FALSE(decoded->report.complete) << "a volume with an error is not complete";
 }
 
 TEST(DecodeFile, ErrorsNameTheFile) {

@@ -51,7 +51,7 @@ TEST(MomentStatistics, CountsValuesAndNothingElse) {
     const auto statistics = moment_statistics(sweep, Moment::ref);
     ASSERT_TRUE(statistics);
     EXPECT_EQ(statistics->radials, 2);
-    EXPECT_EQ(statistics->codes, 7) << "not the code beyond the second radial's end";
+    EXPECT_EQ(statistics->codes, 7) << "the code beyond the second radial's end does not count";
     EXPECT_EQ(statistics->code_0, 2);
     EXPECT_EQ(statistics->code_1, 1);
     EXPECT_EQ(statistics->code_2_to_7, 2);

@@ -156,9 +156,9 @@ TEST_P(EncodeReal, ComesBackToTheBit) {
     EXPECT_EQ(difference(live.finish().value(), *again), "");
 }
 
-// Volumes of message 31: super-resolution with every moment, TDWR, trimmed rows, few radials,
-// recombined. Volumes of message 1: from 1991, from 1999, damaged, four volumes in a file, velocity
-// steps of 1 m/s, gates that vary within a sweep.
+// The volumes of message 31 have super-resolution with every moment, come from a TDWR, have trimmed
+// rows or few radials, or are recombined. The volumes of message 1 are from 1991 and 1999, are
+// damaged, are four in a file, or have velocity steps of 1 m/s or gates that vary within a sweep.
 INSTANTIATE_TEST_SUITE_P(
     Volumes, EncodeReal,
     ::testing::Values(

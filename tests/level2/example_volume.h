@@ -1,4 +1,4 @@
-// tests/level2/example_volume.h -- a volume made by hand, for tests of the writer.
+// tests/level2/example_volume.h -- makes a volume by hand, for tests of the writer.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace stormcellar::level2 {
 
-// Returns a moment with `radials` rows of `gates` codes of `bits` bits (8 or 16). Large ones
-// contain every code.
+// Returns a moment with `radials` rows of `gates` codes of `bits` bits (8 or 16). A large moment
+// contains every code.
 [[nodiscard]] SweepMoment moment_of(Moment name, std::size_t radials, std::int32_t gates, int bits);
 
 // Returns a volume of two sweeps. It uses every field that message 31 fills.

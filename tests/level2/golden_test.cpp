@@ -92,7 +92,8 @@ void expect_same(const Json& expected, const Json& found, const std::string& key
     }
 }
 
-// Fields that describe the whole file, but in the reference only its part before the damage.
+// Returns the fields that describe the whole file here, but in the reference only the part before
+// the damage.
 const std::set<std::string>& prefix_only_fields() {
     static const std::set<std::string> fields = {"message_counts",
                                                  "vcp",
@@ -179,7 +180,8 @@ TEST_P(GoldenTest, EveryFieldIsTheSame) {
 
 // In KLVX20050106_163401, only 744 bytes of radial 102 of sweep 4 are at offset 3964160 of the
 // message stream; radial 201 follows. The reference took 2432 bytes from there as radial 102. The
-// decoder drops the half radial. If it is added, the checksums equal those in the reference.
+// decoder drops the half radial. If the half radial is added, the checksums equal the checksums in
+// the reference.
 TEST(GoldenHalfRadial, IsDroppedAndWouldGiveTheReferencesChecksum) {
     STORMCELLAR_NEED_DATA();
     const auto data = *testing::data_directory();

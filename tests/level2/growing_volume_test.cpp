@@ -102,7 +102,7 @@ TEST(GrowingVolume, ASweepComesOutWhenItsLastRecordIsThere) {
             EXPECT_EQ(sweep.sweep.radials.size(), 20U);
         }
     }
-    EXPECT_EQ(sweeps, 3U) << "the last one without waiting for the end of the file";
+    EXPECT_EQ(sweeps, 3U) << "the last sweep does not wait for the end of the file";
     EXPECT_TRUE(volume.has_ended());
     EXPECT_EQ(volume.facts().station, "KTLX");
 }
@@ -139,7 +139,7 @@ TEST(GrowingVolume, WhatHoldsNothingKnownIsHeldNoFurtherThan16MiB) {
     ASSERT_FALSE(taken);
     EXPECT_EQ(taken.error().code, ErrorCode::not_level2);
     EXPECT_LE(volume.held_bytes(), std::uint64_t{33} << 20)
-        << "the array has room for as much more";
+        << "the array may have room for twice its bytes";
 }
 
 // After a damaged start, twenty megabytes of records give the same result as decode().

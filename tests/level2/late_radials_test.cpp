@@ -160,8 +160,8 @@ TEST_F(LateMadeRecords, ALowerNumberBeginsAnotherVolumeIfTimeGoesOn) {
     EXPECT_EQ(further_volumes(joined(chunks, {0, 1, 3, 2})), 0U);
 }
 
-// The fuzzer found this: if an older radial followed the last one in the same record, the volume
-// was reported as without an end.
+// The fuzzer found this: if an older radial followed the last radial in the same record, the report
+// said that the volume had no end.
 TEST(LateRadials, TheEndOfAVolumeStandsInOneRecordAsInMany) {
     wire::Ray last, older;
     last.azimuth_number = 2;

@@ -22,7 +22,7 @@ using wire::Bytes;
 using Added = LiveVolume::Added;
 using std::chrono::seconds;
 
-// Stores sweeps in memory, but refuses every `refuses`-th one. If `lost` is set, get() fails.
+// Stores sweeps in memory, but refuses every `refuses`-th sweep. If `lost` is set, get() fails.
 class MemoryDepot final : public SweepDepot {
   public:
     explicit MemoryDepot(std::size_t refuses = 0) : refuses_(refuses) {}
@@ -167,7 +167,8 @@ TEST_P(AnyOrder, GivesTheSame) {
     expect_any_order_gives_the_same(real_chunks(GetParam().set), GetParam().rounds);
 }
 
-// Sets of a TDWR, of a volume that stops early, of a volume from 2026, and of a large volume.
+// The chunk sets are from a TDWR, a volume that stops early, a volume from 2026, and a large
+// volume.
 INSTANTIATE_TEST_SUITE_P(LiveVolumeReal, AnyOrder,
                          ::testing::Values(RealChunks{"L2D_185", 6}, RealChunks{"KLOT_34", 4},
                                            RealChunks{"OPENRADAR_KLOT", 2},
@@ -205,9 +206,9 @@ void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled,
         b.sweeps = {live->second};
         EXPECT_EQ(difference(a, b), "") << sweep.elevation_number;
     }
-    EXPECT_GE(found + 1, whole.sweeps.size()) << "only a last one that has not ended may be open";
+    EXPECT_GE(found + 1, whole.sweeps.size()) << "only a last sweep without its end may be open";
     if (!shuffled) {
-        EXPECT_EQ(handed_out, found) << "in order each comes once";
+        EXPECT_EQ(handed_out, found) << "chunks in order return each sweep once";
     }
 }
 
@@ -362,7 +363,7 @@ TEST(LiveVolume, LostChunksAreNamed) {
     }
     EXPECT_FALSE(volume.add(5, ChunkKind::intermediate, Bytes(1000, std::byte{0x41}), {}));
     EXPECT_FALSE(volume.add(6, ChunkKind::intermediate, Bytes(1000, std::byte{0x41}), {}))
-        << "a whole one is there";
+        << "a whole chunk of this number has come";
     const Decoded decoded = volume.finish().value();
     EXPECT_EQ(texts_of(decoded, "missing_chunks"), std::vector<std::string>{"missing chunks: 3"});
     EXPECT_EQ(texts_of(decoded, "bad_chunk"),
@@ -375,7 +376,7 @@ TEST(LiveVolume, TheFirstHeaderOfANumberIsRemembered) {
     const ChunkFile without_header{{"20220317-000842", 1, ChunkKind::start}, a[1].bytes};
     LiveVolume volume;
     EXPECT_EQ(add(volume, without_header), Added::added);
-    EXPECT_EQ(add(volume, a[0]), Added::worse) << "metadata, where there are radials";
+    EXPECT_EQ(add(volume, a[0]), Added::worse) << "it has metadata; the present chunk has radials";
     EXPECT_EQ(add(volume, b[0]), Added::another_volume);
 }
 
@@ -404,7 +405,7 @@ TEST(LiveVolume, BeyondTheLimitAChunkIsRefused) {
     }
     EXPECT_GT(taken, 1);
     EXPECT_LT(taken, static_cast<int>(chunks.size()));
-    EXPECT_TRUE(volume.finish()) << "what was taken can be had";
+    EXPECT_TRUE(volume.finish()) << "finish() must return the chunks that add() accepted";
 }
 
 TEST(LiveVolume, NumbersHaveThreeDigits) {

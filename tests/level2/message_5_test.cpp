@@ -35,8 +35,8 @@ TEST(Message5, IsReadFieldByField) {
     EXPECT_EQ(cut.thresholds_eighth_db[5], 21);
     EXPECT_EQ(cut.supplemental, 0x0213);
     EXPECT_TRUE(cut.is_mpda());
-    EXPECT_EQ(cut.rest[5], 3) << "the last before the supplemental flags";
-    EXPECT_EQ(cut.rest[7], 4) << "the first behind them";
+    EXPECT_EQ(cut.rest[5], 3) << "the last byte before the supplemental flags";
+    EXPECT_EQ(cut.rest[7], 4) << "a byte after the supplemental flags";
     EXPECT_EQ(cut.rest[21], 11);
 }
 

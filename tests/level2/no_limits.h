@@ -1,4 +1,4 @@
-// tests/level2/no_limits.h -- an ample limit and a selection of everything, for tests.
+// tests/level2/no_limits.h -- gives tests an ample limit and a selection of everything.
 #pragma once
 
 #include <cstdint>

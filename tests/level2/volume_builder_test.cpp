@@ -190,7 +190,7 @@ TEST_F(VolumeBuilderTest, ACutThatIsNotAskedForGivesNoSweep) {
     const Volume volume = finish();
     EXPECT_EQ(radials_of(volume), (std::vector<std::size_t>{2}));
     EXPECT_EQ(report_.sweeps_left_out, 2U);
-    EXPECT_TRUE(report_.complete) << "the end was seen, though not kept";
+    EXPECT_TRUE(report_.complete) << "the decoder saw the end but does not keep its radial";
 }
 
 TEST_F(VolumeBuilderTest, AMomentThatIsNotAskedForIsLeftOut) {
@@ -236,7 +236,7 @@ TEST(FragmentBuilderLimit, RowsOfManyKindsStopAtTheLimitOfASweep) {
     const int taken = radials_taken(ample, 1000, [&](int number) {
         return MomentBlock{.gates = 1000, .scale = static_cast<float>(1 + number), .codes = codes};
     });
-    EXPECT_GT(taken, 200) << "radials of as many kinds: 200 x 200 x 1000 bytes";
+    EXPECT_GT(taken, 200) << "200 radials of 200 kinds take 200 x 200 x 1000 bytes";
     EXPECT_LT(taken, 270);
 }
 

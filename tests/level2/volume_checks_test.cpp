@@ -61,7 +61,7 @@ TEST(VolumeChecks, MissingRadialsAreCountedBeyond32Bits) {
 TEST(VolumeChecks, NumbersThatNoRadarGivesAreNamedAndMissNothing) {
     const Checked outcome = check(volume_of({{65'535, 1, 2, 1001, 4}}), "odd_numbers");
     EXPECT_EQ(outcome.messages, std::vector<std::string>{"2 radials have a number above 1000"});
-    EXPECT_TRUE(outcome.missing) << "number 3";
+    EXPECT_TRUE(outcome.missing) << "number 3 is missing";
 }
 
 TEST(VolumeChecks, AVolumeThatIsGivenUpInsideAFileIsPartial) {
