@@ -34,16 +34,16 @@ inline constexpr std::uint64_t output_limit_bytes = std::uint64_t{64} << 20;
 void check_container(std::span<const std::byte> file);
 
 // Checks a message stream without the 24-byte header. The stream gives the same result packed into
-// an LDM record as unpacked. Good radials before it are kept unchanged.
+// an LDM record as unpacked. Good radials before the stream are kept unchanged.
 void check_messages(std::span<const std::byte> stream);
 
-// Checks a file that follows eight bytes; these decide how it arrives. While it grows it gives the
-// same result as the whole file. Its chunks, some of them lost, repeated or damaged, give the same
-// result in any order.
+// Checks a file that arrives piece by piece. The first eight bytes of the input decide how the file
+// arrives; the file follows them. The growing file gives the same result as the whole file. Its
+// chunks, some of them lost, repeated or damaged, give the same result in any order.
 void check_live(std::span<const std::byte> input);
 
-// Checks that a .Z file expands to the same bytes as with slow_expand(), and that the bytes of the
-// file itself, compressed, expand to themselves.
+// Checks that a .Z file expands to the same bytes as with slow_expand(), and that the file,
+// compressed once more, expands to itself.
 void check_compress(std::span<const std::byte> file);
 
 // Checks a tar or zip archive: the output is within the limits, names are unique and do not lead
@@ -55,8 +55,9 @@ void check_archive(std::span<const std::byte> file);
 void check_bunzip(std::span<const std::byte> choices);
 
 // Checks a grid file. An error names the file and has one of the promised codes. If the file opens,
-// every cell can be read. If verify() accepts it, its counts and extremes are true, and writing it
-// gives the same grid. If the file is cut while it is mapped, check_whole() fails.
+// every cell can be read. If verify() accepts it, its counts and extremes are true, and the file
+// that is written from its grid gives the same grid. If the file is cut while it is mapped,
+// check_whole() fails.
 void check_grid_file(std::span<const std::byte> file);
 
 // Checks an HTTP request: a line with method and target, and lines with one header each. The

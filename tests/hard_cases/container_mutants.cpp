@@ -150,7 +150,7 @@ Mutant ContainerMutants::cut(Random& random) const {
     mutant.file.resize(place);
     std::vector<std::size_t> order = all_records();
     order.resize(place > start ? record + 1 : record);
-    // The last record is the one that is cut, unless the cut is exactly between two records.
+    // The last record is cut, unless the cut is exactly between two records.
     mutant.expected = expect(
         order, place == start || order.empty() ? std::nullopt : std::optional{order.size() - 1});
     return mutant;

@@ -9,7 +9,7 @@
 namespace stormcellar::level2 {
 
 // Makes numbered mutants of a volume in LDM records. The kinds of damage alternate with the number,
-// and the number decides the rest, so it gives the same mutant on every machine.
+// and the number decides the rest, so a number gives the same mutant on every machine.
 class ContainerMutants {
   public:
     explicit ContainerMutants(const UnpackedVolume& volume) : volume_(volume) {}

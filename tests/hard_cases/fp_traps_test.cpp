@@ -43,7 +43,7 @@ TEST(FpTrapsDeathTest, WhatIsNoNumberEndsTheProgram) {
 
 TEST(FpTrapsDeathTest, AComparisonWithWhatIsNoNumberEndsTheProgram) {
 #if defined(__clang__)
-    GTEST_SKIP() << "clang compares by an instruction that says nothing";
+    GTEST_SKIP() << "clang compares by an instruction that raises no trap";
 #else
     EXPECT_EXIT(trapped([] { keep(nan_value < zero ? 1 : 2); }), ::testing::KilledBySignal(SIGFPE),
                 "");

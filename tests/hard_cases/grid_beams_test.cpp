@@ -74,8 +74,8 @@ TEST(ConeOfSilence, IsNotSeenByAnyMethod) {
                 const double edge_m = beam.over(arc_m, 19.5 + 0.475).height_m;
                 for (int level = 0; level < spec.nz(); ++level) {
                     const double height_m = spec.levels_m[static_cast<std::size_t>(level)];
-                    // In cells with areas, a level reaches halfway to its neighbors, and an outline
-                    // 707 m from its center.
+                    // If cells have areas, a level reaches halfway to the next levels, and the
+                    // outline of a cell reaches 707 m from its center.
                     const double margin_m = method.cell == CellExtent::area ? 2600 : 2;
                     const CellStatus status = grid.status[spec.index(ix, iy, level)];
                     if (height_m > edge_m + margin_m) {

@@ -260,7 +260,8 @@ TEST(TinyAndHugeCells, OneMetreAndAHundredKilometres) {
     tiny.spec.center_latitude_deg = there.latitude_deg;
     tiny.spec.center_longitude_deg = there.longitude_deg;
     tiny.spec.levels_m = {1500, 1501, 1502};
-    // Either all cells are doubtful, within 0.25 m of another gate, or none is, so allow all.
+    // Either all cells are within 0.25 m of another gate, and so doubtful, or none is. So allow all
+    // cells to be doubtful.
     expect_sound_by_every_method(tiny, {1, 1});
     GridCase huge = about(plains, plans, 3, 100e3);
     huge.spec.center_latitude_deg += 0.13;  // away from the borders of radials
@@ -301,8 +302,8 @@ TEST(LevelsAtABeamsHeight, HoldThatBeamAndDivideByNothing) {
     given.spec = plane_about({"", there.latitude_deg, there.longitude_deg, 0}, 1, 1000, {});
     for (const SweepPlan& plan : plans) {
         const double exact_m = beam.over(100e3, plan.elevation_deg).height_m;
-        // The levels are the float nearest to this height and its neighbors; the gridder uses one
-        // of them.
+        // The levels are the float nearest to this height and the two floats beside it; the gridder
+        // uses one of the three.
         const auto height_m = static_cast<float>(exact_m);
         given.spec.levels_m = {static_cast<double>(std::nextafter(height_m, 0.0F)),
                                static_cast<double>(height_m),

@@ -60,8 +60,8 @@ TEST(ReversedElevations, OfSomeRadialsAreSortedByEveryMethod) {
     expect_sound_by_every_method(with_reversed_radials());
 }
 
-// The gridder skips beams above the highest level, but must not if a higher sweep has lower
-// radials.
+// The gridder skips beams above the highest level, but must look further if a higher sweep has
+// lower radials.
 TEST(ReversedElevations, AboutTheHighestLevel) {
     GridCase given = with_reversed_radials();
     for (const double top_m : {800.0, 1400.0, 2100.0}) {
@@ -70,8 +70,8 @@ TEST(ReversedElevations, AboutTheHighestLevel) {
     }
 }
 
-// The plan of a tile leaves out a quiet sweep between two quiet sweeps, but must not if radials of
-// another sweep are between them.
+// The plan of a tile leaves out a quiet sweep between two quiet sweeps, but must keep it if radials
+// of another sweep are between them.
 TEST(ReversedElevations, AmongSweepsOfNoEcho) {
     GridCase given = with_reversed_radials();
     for (const std::size_t quiet : {0U, 1U, 2U}) {

@@ -369,7 +369,8 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
     }
 }
 
-// A gate of no echo enters a value with its weight and its detection limit.
+// In the mean for a value, a gate of no echo counts with its weight, as a value at its detection
+// limit.
 TEST(StatusRule, NoEchoEntersAtItsDetectionLimitByEveryMethod) {
     Pair pair = pair_of(all_of(echo), all_of(below_threshold));
     const double share = 0.35;

@@ -72,7 +72,7 @@ void expect_small(const std::function<void()>& work) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     ::testing::Test::RecordProperty("peak_mib", static_cast<int>(peak));
     fmt::print("peak {} MiB, {:.2f} s\n", peak, took.count());
-    EXPECT_GT(peak, 0) << "it crashed";
+    EXPECT_GT(peak, 0) << "the process crashed";
     EXPECT_LT(peak, most_mib);
 }
 
@@ -211,7 +211,7 @@ TEST(Memory, RadialsThatExpandAreCounted) {
     for (unsigned i = 0; i < 5000; ++i)
         append(messages, small);
     const auto decoded = decode(file_of(wire::ldm_record(messages), 4));
-    ASSERT_FALSE(decoded) << "4 times 5000 radials of 60 kB";
+    ASSERT_FALSE(decoded) << "the radials expand to 4 times 5000 times 60 kB";
     EXPECT_NE(decoded.error().message.find("decompresses to more"), std::string::npos);
 }
 
@@ -310,7 +310,7 @@ TEST(Memory, ChunksOfRecordsOfOneRadialHoldWhatTheyMay) {
     constexpr std::uint64_t limit_mib = 32;
     if (!peak_is_ours) {
         fill(limit_mib << 20);
-        GTEST_SKIP() << "it decodes; the sanitizer's own memory is not ours";
+        GTEST_SKIP() << "the chunks are added; the sanitizer's own memory is not ours";
     }
     const long empty = peak_mib([&] { fill(1); });
     const long full = peak_mib([&] { fill(limit_mib << 20); });

@@ -61,8 +61,9 @@ bool Oracle::names_something(const DecodeReport& report) const {
 }
 
 // Walks through the expected and the returned radials in the order of the volume. If a returned
-// radial is not the next expected one, but equals a later one within the same damage, the radials
-// between them are lost; otherwise it may be the damaged radial itself.
+// radial is not the next expected radial, but equals a later expected radial within the same
+// damage, the radials between these two are lost. Otherwise the returned radial may be the damaged
+// radial itself.
 Oracle::Match Oracle::match(const Mutant& mutant, const std::vector<RadialIdentity>& found,
                             KindFigures& figures) const {
     Match match;

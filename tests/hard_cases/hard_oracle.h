@@ -1,9 +1,9 @@
 // tests/hard_cases/hard_oracle.h -- decodes mutants and compares them with the undamaged volume.
 //
-// The oracle checks for every mutant that radials are returned as their fates say, in the order in
-// which the radar sent them, and no others; that sweeps begin only where a radial says so; and that
-// for lost radials there is a problem that the undamaged volume does not have. The decoder may
-// refuse the whole file only if it need not keep any radial.
+// For every mutant, the oracle checks three things. The decoder returns the radials as their fates
+// say, in the order in which the radar sent them, and no other radials. Sweeps begin only where a
+// radial says so. For lost radials, the report has a problem that the undamaged volume does not
+// have. The decoder may refuse the whole file only if it need not keep any radial.
 #pragma once
 
 #include <chrono>

@@ -136,7 +136,7 @@ void MessageMutants::rearranged(Draft& draft, Random& random) const {
     if (kind == 0) order.erase(order.begin() + static_cast<std::ptrdiff_t>(a));
     if (kind == 1) order.insert(order.begin() + static_cast<std::ptrdiff_t>(b), a);
     if (kind == 2) std::swap(order[a], order[b]);
-    // A repeated radial directly after the first one is not older, so the decoder keeps both.
+    // A copy directly after its radial is not older than the radial, so the decoder keeps both.
     const bool is_beside_itself = kind == 1 && (b == a || b == a + 1);
     draft.is_put_right = !is_beside_itself && is_of_one_volume(std::min(a, b), std::max(a, b));
     draft.mutant.kind = kinds[kind];

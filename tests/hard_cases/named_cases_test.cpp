@@ -153,9 +153,9 @@ TEST(FoundByMutants, MetadataOfAnotherTypeIsNoRadial) {
     }
 }
 
-// 2026-11-21, KDOX20100911 and L2D_185: message 31 was shorter than a frame, and its type was
-// damaged to one that fills a frame. The reader believed it because of zeros among the gates a
-// frame later.
+// 2026-11-21, KDOX20100911 and L2D_185: a message 31 was shorter than a frame, and its type was
+// damaged to a type that fills a frame. The reader accepted that type because of zeros among the
+// gates a frame later.
 TEST(FoundByMutants, AFrameDoesNotSwallowTheRadialsInsideIt) {
     Bytes radials;
     for (unsigned i = 0; i < 20; ++i) {
