@@ -24,12 +24,12 @@ inline constexpr std::size_t tar_block_bytes = 512;
 inline constexpr std::size_t most_name_bytes = 1024;
 
 [[nodiscard]] bool begins_with(std::span<const std::byte> bytes, std::string_view text);
-// Returns true if `start`, the first 512 bytes of a file, may begin an archive. For packed bytes
-// the result is true, because only unpacking can decide.
+// Returns true if `start`, the first 512 bytes of a file, may begin an archive. Returns true for
+// packed bytes, because only unpacking can decide.
 [[nodiscard]] bool may_be_archive(std::span<const std::byte> start);
 
-// Returns a reader of tar and zip; null if libarchive lacks one of them. The reader has no filters,
-// because a PackedStream unpacks the data.
+// Returns a reader of tar and zip, or null if libarchive lacks one of these formats. The reader has
+// no filters, because a PackedStream unpacks the data.
 [[nodiscard]] Handle new_reader();
 [[nodiscard]] bool is_zip(::archive* handle);
 [[nodiscard]] bool is_tar(::archive* handle);
@@ -40,10 +40,11 @@ inline constexpr std::size_t most_name_bytes = 1024;
 [[nodiscard]] std::uint64_t place_of(::archive* handle);
 
 [[nodiscard]] std::string name_of(::archive_entry* entry);
-// Returns the reason why the entry must be left out; empty if it is a file to return.
+// Returns the reason why the entry must be left out, or an empty text if the entry is a file to
+// return.
 [[nodiscard]] std::string_view refusal_of(::archive_entry* entry, const std::string& name);
 [[nodiscard]] std::optional<UtcTime> time_of(::archive_entry* entry);
-// Returns the size in the header, which is only a hint; 0: unknown.
+// Returns the size in the header, which is only a hint, or 0 if it is unknown.
 [[nodiscard]] std::uint64_t claimed_bytes_of(::archive_entry* entry);
 
 }  // namespace stormcellar::archive

@@ -1,8 +1,8 @@
 // archive/packed_stream.h -- unpacks the bytes of a packed archive, and checks their number.
 //
 // Only the archive room uses this. libarchive skips members of a packed archive by unpacking them,
-// and does not count these bytes; a PackedStream checks the number of all unpacked bytes against a
-// bound. It unpacks only one layer, so an archive that is packed twice is not accepted.
+// and does not count their bytes. A PackedStream checks the number of all unpacked bytes against a
+// bound. The stream unpacks only one layer, so an archive that is packed twice is not accepted.
 //
 // Threads   One thread at a time.
 #pragma once

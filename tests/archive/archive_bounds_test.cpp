@@ -235,8 +235,8 @@ TEST(ArchiveReader, ANameOfGzipInABzip2TakesNoMemory) {
     EXPECT_LT(peak_bytes() - before, std::size_t{24} << 20);
 }
 
-// Returns a zip with a member packed by LZMA. Its header asks for a dictionary of 1 GiB, and its
-// length follows its data.
+// Returns a zip with a member packed by LZMA. The header of the member asks for a dictionary of 1
+// GiB, and the length of the member follows its data.
 std::vector<std::byte> zip_of_lzma() {
     std::string zip("PK\x03\x04\x3F\0\x08\0\x0E\0", 10);
     zip += std::string(16, '\0') + std::string("\x01\0\0\0x", 5);

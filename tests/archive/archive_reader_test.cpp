@@ -132,8 +132,8 @@ TEST(ArchiveReader, AnArchiveInAnArchiveIsGoneThroughOnce) {
     EXPECT_THAT(names_of(*one), ElementsAre("inner.tar.gz!a/KTLX_1", "inner.tar.gz!KTLX_2", "c"));
     const auto outer = make_archive(Kind::tar, {{"middle.zip", middle}});
     auto two_deep = ArchiveReader::open(outer);
-    // An archive two levels deep is returned as a member. It is no volume, so decoding it reports
-    // an error.
+    // An archive two levels deep is returned as a member. The member is no volume, so decoding it
+    // reports an error.
     EXPECT_THAT(names_of(*two_deep), ElementsAre("middle.zip!inner.tar.gz", "middle.zip!c"));
 }
 

@@ -51,7 +51,7 @@ struct Limits {
     std::chrono::seconds time{std::chrono::hours{24}};
     int nesting = 1;  // levels of archives inside archives that are read
     // Allows only codecs that need a few megabytes of memory whatever the input says: gzip, bzip2
-    // and compress for tar; deflated or stored members for zip. This excludes xz and zstd.
+    // and compress for tar; deflated or stored members for zip. So xz and zstd are excluded.
     bool small_codecs = false;
 };
 
@@ -73,8 +73,9 @@ class ArchiveReader {
   public:
     // Opens the archive in the file of a descriptor, which must stay open as long as the reader.
     // Reads from the start of the file, whatever the position of the descriptor. Returns none if
-    // the file is not an archive. If the start of the file cannot be read, which may be temporary,
-    // returns a reader whose is_unreadable() is true.
+    // the file is not an archive, or is packed by a codec that `limits` excludes. If the start of
+    // the file cannot be read, which may be temporary, returns a reader whose is_unreadable() is
+    // true.
     [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
     // Opens an archive in memory. Returns none if the bytes are not an archive. The bytes must
     // outlive the reader.
