@@ -62,8 +62,7 @@ class Reader {
     Reader& operator=(Reader&&) noexcept;
     ~Reader();
 
-    // Writes the next bytes to `out` and returns their number. It fills `out` unless the stream
-    // ends.
+    // Writes the next bytes to `out` and returns their number. Fills `out` unless the stream ends.
     [[nodiscard]] std::size_t read(std::span<std::byte> out);
     [[nodiscard]] bool ended() const;
     // Returns whole, truncated or corrupt, depending on how the stream ended; whole before the end.

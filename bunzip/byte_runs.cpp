@@ -18,7 +18,7 @@
 #define STORMCELLAR_BUNZIP_BYTE_RUNS_ONCE
 namespace stormcellar::bunzip {
 
-// A number of bytes larger than any block. It makes the caller find the block bad.
+// A number of bytes larger than any block. The caller then finds that the block is bad.
 constexpr std::uint64_t too_many_bytes = std::uint64_t{1} << 62;
 
 // Makes a table of permutations. Row k moves the byte at place k to the front, and each byte before
@@ -81,9 +81,9 @@ class FrontList {
     static HWY_INLINE std::uint8_t first_of(__m512i part) {
         return static_cast<std::uint8_t>(_mm_cvtsi128_si32(_mm512_castsi512_si128(part)));
     }
-    // For a move from farther back, first rotate each register before the one with the moved byte,
-    // so that its last byte comes to the front. Then put this byte at the front of the next
-    // register, and the moved byte at the front of the first register.
+    // For a move from farther back, first rotate each register before the register with the moved
+    // byte, so that the last byte of each comes to the front. Then put this byte at the front of
+    // the next register, and the moved byte at the front of the first register.
     HWY_INLINE void move_far(std::uint32_t place) {
         const __mmask64 first = 1;
         const __m512i front = to_front(part_[0], 63);
@@ -158,7 +158,7 @@ class FrontList {
     static HWY_INLINE __m128i pattern(std::uint32_t place) {
         return _mm_loadu_si128(reinterpret_cast<const __m128i*>(patterns[place].data()));
     }
-    // Moves the bytes before the moved one back by one place, in pieces of 32 from the end. The
+    // Moves the bytes before the moved byte back by one place, in pieces of 32 from the end. The
     // last piece also reads bytes of the slack.
     HWY_INLINE void move_far(std::uint32_t place) {
         std::uint8_t* const rest = rest_ + slack;

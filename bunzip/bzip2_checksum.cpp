@@ -89,7 +89,8 @@ HWY_INLINE __m128i powers_of() {
 }
 
 // Computes the checksum of long input with carry-less multiplications. Four sums of 16 bytes
-// alternate, so that no multiplication waits for the previous one; then they are folded into one.
+// alternate, so that no multiplication waits for the previous multiplication. At the end, the four
+// sums are folded into one.
 std::uint32_t checksum(std::uint32_t state, std::span<const std::uint8_t> bytes) {
     constexpr std::size_t step = 64;
     if (bytes.size() < 2 * step) return checksum_plainly(state, bytes);

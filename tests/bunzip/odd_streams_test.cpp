@@ -112,8 +112,8 @@ TEST_P(OddStreams, LongestWords) {
     EXPECT_EQ(check(mended_stream('9', block)), End::whole);
 }
 
-// Returns a block of one byte that occurs `rows` times. Its symbols are the digits 1 and 2 of that
-// number.
+// Returns a block in which one byte occurs `rows` times. The symbols are `rows` written with the
+// digits 1 and 2.
 BlockPlan run_of(std::size_t rows) {
     std::vector<std::uint16_t> digits;
     for (std::size_t left = rows; left > 0; left = (left - 1) / 2)
