@@ -38,7 +38,7 @@ class CompressStream {
 
     explicit CompressStream(std::span<const std::byte> bytes);
 
-    // Returns the next bytes, which are valid until the next call; empty at the end.
+    // Returns the next bytes, which are valid until the next call, or an empty span at the end.
     [[nodiscard]] std::span<const std::byte> next();
     [[nodiscard]] CompressEnd end() const { return end_; }
     // Returns how many compressed bytes were read.

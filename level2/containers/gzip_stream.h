@@ -34,7 +34,7 @@ class GzipStream {
     GzipStream& operator=(const GzipStream&) = delete;
     ~GzipStream();
 
-    // Returns the next bytes, which are valid until the next call; empty at the end.
+    // Returns the next bytes, which are valid until the next call, or an empty span at the end.
     [[nodiscard]] std::span<const std::byte> next();
     [[nodiscard]] GzipEnd end() const { return end_; }
     // Returns how many compressed bytes were read.

@@ -192,7 +192,7 @@ void describe_times(Json& json, const Volume& volume) {
     json["last_radial_time"] = iso_time(volume.sweeps.back().radials.back().time);
 }
 
-// Describes the last message 2; null if there is none.
+// Describes the last message 2. Returns null if there is none.
 Json describe_status(const std::optional<RdaStatus>& status) {
     if (!status) return nullptr;
     Json json = {{"state", static_cast<int>(status->state)},

@@ -47,7 +47,8 @@ class FragmentBuilder {
     [[nodiscard]] bool add_expanded(std::uint64_t bytes);
     void further_header(const VolumeHeader& header) { marks_.header = header; }
 
-    // Returns the first station that a radial of the fragment names; empty if none does.
+    // Returns the first station that a radial of the fragment names, or an empty text if no radial
+    // names one.
     [[nodiscard]] const std::string& station() const { return fragment_.station; }
     [[nodiscard]] ReportWriter report() { return ReportWriter{fragment_.report}; }
     [[nodiscard]] DecodeReport& report_data() { return fragment_.report; }

@@ -42,11 +42,11 @@ class MessageReader {
     // Returns the fragment of the messages read so far. Offsets then begin at 0 again. Returns none
     // after dropped bytes until a message follows, because the damage may continue.
     [[nodiscard]] std::optional<Fragment> take_fragment();
-    // Returns the limit that stopped the reader; none if it has not stopped.
+    // Returns the limit that stopped the reader, or Failure::none if it has not stopped.
     [[nodiscard]] Fragment::Failure failure() const { return failure_; }
 
   private:
-    // Returns the number of bytes consumed; 0 if the reader needs more bytes to decide.
+    // Returns the number of bytes consumed, or 0 if the reader needs more bytes to decide.
     std::size_t step(std::span<const std::byte> rest, bool last);
     std::size_t read_fill(std::span<const std::byte> rest, bool last);
     std::size_t read_message(const MessageHeader& header, std::span<const std::byte> rest,

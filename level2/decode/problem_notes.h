@@ -9,8 +9,8 @@
 
 namespace stormcellar::level2 {
 
-// Returns the texts of the first 20 problems, and then a text with the number of the others, if
-// any.
+// Returns the texts of the first 20 listed problems. If more are listed, adds a text with their
+// number.
 [[nodiscard]] std::vector<std::string> notes_of(const DecodeReport& report);
 
 }  // namespace stormcellar::level2

@@ -301,7 +301,7 @@ bool VolumeBuilder::is_late(const Sweep& sweep, std::size_t radial) const {
            previous_->message_type != sweep.message_type;
 }
 
-// Appends a piece. Its late radials go where they belong; the others are appended.
+// Appends a piece. Late radials go where they belong; the other radials are appended.
 bool VolumeBuilder::append_piece(Fragment::Piece piece) {
     if (!note_marks(std::move(piece.before))) return false;
     if (piece.left_out) {
@@ -440,8 +440,7 @@ Status VolumeBuilder::append(Fragment fragment) {
     return {};
 }
 
-// Checks whether anything is whole, settles the station, and calls check_volume() to find missing
-// parts.
+// Fails if nothing is whole. Sets the station, and calls check_volume() to find missing parts.
 Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     const bool last_is_newest = sweep_is_open_;
     end_sweep();

@@ -68,7 +68,7 @@ class VolumeBuilder {
     // Returns how many bytes the arrays of the next fragment may take.
     [[nodiscard]] std::uint64_t arrays_left() const { return room_.left_bytes(); }
     // Takes the volume header from the start of a stream of messages or LDM records, and returns
-    // the bytes after it; all bytes if there is no header.
+    // the bytes after the header. Returns all bytes if there is no header.
     [[nodiscard]] std::span<const std::byte> begin_stream(std::span<const std::byte> bytes);
     void set_header(VolumeHeader header) { volume_.header = std::move(header); }
 
@@ -78,15 +78,15 @@ class VolumeBuilder {
     [[nodiscard]] bool is_cut() const { return cut_; }
     // Marks the volume as damaged.
     void set_incomplete() { incomplete_ = true; }
-    // Returns the volume up to now. Its last sweep may continue, and its moments may have missing
-    // or too long rows.
+    // Returns the volume up to now. The last sweep may continue; its moments may lack rows or have
+    // rows that are too long.
     [[nodiscard]] const Volume& so_far() const { return volume_; }
     [[nodiscard]] bool so_far_holds_one() const { return report_.further_volume_starts.empty(); }
     // Returns a copy of a sweep of so_far() with complete rows.
     [[nodiscard]] Sweep whole_sweep(std::size_t index) const;
     // Returns the number of sweeps that later radials have closed.
     [[nodiscard]] std::size_t closed_sweeps() const;
-    // Frees the arrays of a closed sweep that is not the last one. The caller must put an equal
+    // Frees the arrays of a closed sweep that is not the last sweep. The caller must put an equal
     // sweep back before finish().
     void drop_sweep(std::size_t index);
     // Sets the function that returns a dropped sweep. append() calls it to search the sweep for the

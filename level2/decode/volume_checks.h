@@ -30,7 +30,8 @@ struct VolumeFacts {
 // Reports what is wrong in a volume: a position that is missing or disagrees with the station
 // table, times that contradict each other, radials that are missing or repeated, missing cuts, a
 // volume without its end, and the faults that the radar reports about itself. Returns true if
-// radials or cuts are missing, or if a volume stops before its end and another volume follows.
+// radials or cuts are missing, or if a volume stops before its end and another volume follows. If
+// facts.all_cuts is false, only missing radials count.
 [[nodiscard]] bool check_volume(const Volume& volume, const VolumeFacts& facts,
                                 ReportWriter report);
 

@@ -1,8 +1,8 @@
 // level2/encode/read_back.h -- decodes a volume while it is written and compares the result;
 // internal to the writer.
 //
-// The decoder's own reader reads the messages of each record before they are compressed. Its result
-// must equal the written volume to the bit, within the default limits of decode().
+// The decoder's own reader reads the messages of each record before they are compressed. The
+// decoded volume must equal the written volume to the bit, within the default limits of decode().
 //
 // Memory    A second copy of the volume.
 // Threads   One thread at a time.
@@ -25,8 +25,9 @@ class ReadBack {
     // `volume` must outlive the object.
     explicit ReadBack(const Volume& volume) : volume_(volume) {}
 
-    // Reads the 24-byte header. Errors: bad_argument if it is not recognized as a header, or if the
-    // volume has no header and the header made for it does not give its station.
+    // Reads the 24-byte header. Errors: bad_argument if the bytes are not recognized as a header,
+    // or if the volume has no header and the header made for it does not give the station of the
+    // volume.
     [[nodiscard]] Status read_header(std::span<const std::byte> bytes);
 
     // The reason why the decoder does not accept all of a record.
@@ -37,8 +38,8 @@ class ReadBack {
     // Reads the messages of the next record. Returns none if the decoder reports no problem.
     [[nodiscard]] std::optional<Fault> read_record(std::span<const std::byte> messages);
 
-    // Compares the decoded volume with the written one after the last record. Errors: bad_argument
-    // if they differ; the message names the first difference.
+    // Compares the decoded volume with the written volume after the last record. Errors:
+    // bad_argument if they differ; the message names the first difference.
     [[nodiscard]] Status finish();
 
   private:

@@ -44,8 +44,9 @@ struct MessageHeader {
 // Returns true if the ICD has this type.
 [[nodiscard]] bool is_known_message_type(int type);
 
-// Returns true if the fields are within their ranges. This holds for every header in a good stream,
-// but also for about one in a million random headers, so it proves little at an arbitrary place.
+// Returns true if the fields are within their ranges. All headers in a good stream are plausible,
+// but so is about one in a million random headers. So a plausible header proves little at an
+// arbitrary place.
 [[nodiscard]] bool is_plausible(const MessageHeader& header);
 
 // Returns true if a message surely begins at the start of `bytes`: the header is plausible, and the

@@ -142,7 +142,7 @@ TEST(MessageReader, AMessageCutByTheEndIsDropped) {
     }
 }
 
-// The second radial has lost bytes, so by its length it ends inside the third one, a few bytes
+// The second radial has lost bytes, so by its length it ends inside the third radial, a few bytes
 // before the end of the data. These few bytes are no message, so they do not prove that the second
 // radial ends there.
 TEST(MessageReader, AFewBytesBehindARadialDoNotProveItsEnd) {

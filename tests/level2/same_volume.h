@@ -9,7 +9,7 @@
 namespace stormcellar::level2 {
 
 // Returns the first difference between the volumes (volume_difference.h), or between the counts and
-// texts of the reports; empty if there is none. Ignores the time taken.
+// texts of the reports. Returns an empty text if there is no difference. Ignores the time taken.
 [[nodiscard]] std::string difference(const Decoded& a, const Decoded& b);
 
 }  // namespace stormcellar::level2

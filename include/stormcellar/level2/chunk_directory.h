@@ -26,9 +26,10 @@ struct ChunkSet {
 [[nodiscard]] Result<std::vector<ChunkSet>> chunk_sets(const std::filesystem::path& directory);
 
 // Decodes the chunks of one volume. The report lists missing chunk numbers, and files that hold
-// nothing whole, as problems. If the chunks do not name the station, the name of their directory or
-// of its parent gives it. Errors: empty if `chunks` is empty; bad_argument for a file that is not
-// named as a chunk, or that belongs to another volume; the errors of read_file() and decode().
+// nothing whole, as problems. If neither the chunks nor `options` name the station, the name of the
+// directory or of its parent gives it. Errors: empty if `chunks` is empty; bad_argument for a file
+// that is not named as a chunk, or that belongs to another volume; the errors of read_file() and
+// decode().
 [[nodiscard]] Result<Decoded> decode_chunks(const std::vector<std::filesystem::path>& chunks,
                                             const DecodeOptions& options = {});
 

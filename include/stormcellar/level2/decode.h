@@ -35,12 +35,12 @@ struct DecodeOptions {
     int threads = 1;
     // Limits the bytes of all decompressed messages. Memory holds only a few messages at a time.
     std::uint64_t output_limit_bytes = std::uint64_t{512} << 20;
-    // Limits the arrays made from the messages; 0: the same as output_limit_bytes.
+    // Limits the arrays made from the messages; 0 means output_limit_bytes.
     std::uint64_t array_limit_bytes = 0;
     [[nodiscard]] std::uint64_t most_array_bytes() const {
         return array_limit_bytes == 0 ? output_limit_bytes : array_limit_bytes;
     }
-    // Limits the open sweep of a growing volume; 0: no separate limit. GrowingVolume checks it
+    // Limits the open sweep of a growing volume; 0 means no separate limit. GrowingVolume checks it
     // after each record and fails with over_budget beyond it.
     std::uint64_t open_sweep_limit_bytes = 0;
     // Arrays are made only for these moments and cuts. A cut that is not selected gives no sweep.

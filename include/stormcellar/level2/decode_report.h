@@ -30,7 +30,7 @@ struct Problem {
     std::optional<std::uint64_t> offset;
     std::optional<std::uint64_t> ldm_record;  // the bad record; counts from 1
     // Number of messages with this problem, if one Problem stands for many. Then `offset` and
-    // `ldm_record` belong to the first message. 0: the Problem describes one place.
+    // `ldm_record` belong to the first message. The count is 0 if the Problem describes one place.
     std::uint64_t count = 0;
     std::uint64_t dropped_bytes = 0;  // of all these messages together
 

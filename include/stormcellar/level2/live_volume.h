@@ -46,8 +46,8 @@ struct LiveOptions {
     // If the end has come but chunks are missing, is_due() returns true this long after the newest
     // chunk.
     std::chrono::seconds grace{30};
-    // Stores the sweeps of chunks until they are needed; null: they stay in memory. The depot must
-    // outlive the volume.
+    // Stores the sweeps of chunks until they are needed. If `depot` is null, the sweeps stay in
+    // memory. The depot must outlive the volume.
     SweepDepot* depot = nullptr;
 };
 
