@@ -80,8 +80,8 @@ struct FoldGraph {
 [[nodiscard]] FoldGraph fold_graph(std::vector<FoldEdge> edges, std::int32_t regions,
                                    const std::vector<float>& anchor_bound);
 
-// Returns a first solution. It follows the winner of each edge, the clearest winner first, unless
-// the edges already followed decide otherwise.
+// Returns a first solution, which follows the winner of each edge, the clearest winner first,
+// unless edges followed before already fix the difference.
 [[nodiscard]] std::vector<std::int32_t> likely_folds(const FoldGraph& graph);
 
 // Changes `folds` until no set of nodes that moves by one lowers the cost, or a limit on the work

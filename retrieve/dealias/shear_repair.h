@@ -1,7 +1,7 @@
 // retrieve/dealias/shear_repair.h -- unfolds gate by gate where neighbors still jump.
 //
 // A region can hold gates of two folds: in a tornado, inbound gates beyond the Nyquist velocity
-// look like the outbound ones beside them. Then jumps are left along the region's edge. The repair
+// look like the outbound gates beside them. Then jumps are left along the region's edge. The repair
 // makes each gate near such a jump a region of its own; all other gates keep their fold numbers.
 //
 // Threads  Pure functions.
