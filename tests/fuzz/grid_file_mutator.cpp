@@ -51,7 +51,7 @@ void set_entry(Bytes& file, const Sections& sections, std::size_t brick, const B
     std::memcpy(file.data() + sections.table + brick * sizeof(BrickEntry), &entry, sizeof entry);
 }
 
-// Returns the unpacked codes of a brick; empty if the file does not hold them.
+// Returns the unpacked codes of a brick, or no bytes if the file does not hold them.
 Bytes codes_of(const Bytes& file, const Sections& sections, std::size_t brick) {
     std::size_t begin = sections.codes + brick * sections.brick_bytes;
     std::size_t size = sections.brick_bytes;

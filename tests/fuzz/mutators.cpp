@@ -63,8 +63,8 @@ Parts cut_messages(std::span<const std::byte> stream) {
     return parts;
 }
 
-// Returns the unpacked contents of a record; empty if the record is damaged or unpacks to more than
-// most_unpacked_bytes.
+// Returns the unpacked contents of a record, or no bytes if the record is damaged or unpacks to
+// more than most_unpacked_bytes.
 Bytes unpack(const Bytes& record) {
     if (record.size() <= 4) return {};
     Bytes out(most_unpacked_bytes);

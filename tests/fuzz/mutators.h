@@ -21,7 +21,7 @@ using Random = std::minstd_rand;
 // Mutates any bytes; the result is at most `most` bytes long.
 using MutateBytes = std::function<Bytes(Bytes bytes, std::size_t most)>;
 
-// Returns a random number below `limit`; 0 if `limit` is 0.
+// Returns a random number below `limit`, or 0 if `limit` is 0.
 inline std::size_t below(Random& random, std::size_t limit) {
     return limit == 0 ? 0 : random() % limit;
 }

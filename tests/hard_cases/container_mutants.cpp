@@ -204,7 +204,7 @@ Mutant ContainerMutants::overwritten(Random& random) const {
 }
 
 // Damages the gzip layer around records. Records that are unpacked before the damage are kept;
-// checksums of bzip2 guard the others.
+// checksums of bzip2 guard the other records.
 Mutant ContainerMutants::gzip(Random& random) const {
     Mutant mutant;
     mutant.kind = "gzip around records";

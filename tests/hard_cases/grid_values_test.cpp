@@ -26,9 +26,9 @@ double folded(double mps, double half_mps) {
     return mps - 2 * half_mps * std::floor((mps + half_mps) / (2 * half_mps));
 }
 
-// Returns the radial velocity of a wind of about 26 m/s toward the northeast. It folds where it
-// blows along the beam, and grows with range and elevation, so that neighbors in all directions
-// straddle the fold.
+// Returns the radial velocity of a wind of about 26 m/s toward the northeast. The velocity folds
+// where the wind blows along the beam. The wind grows with range and elevation, so that neighbors
+// in all directions straddle the fold.
 double radial_wind_mps(double azimuth_deg, double range_m, double elevation_deg) {
     const double along = std::cos((azimuth_deg - 45) * M_PI / 180);
     return (26 + range_m / 1e5 + elevation_deg) * along;
@@ -353,8 +353,8 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
             const Grid grid = grid_of(pair.given, method);
             EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
         }
-        // A cell of 29 km has 16 or 17 radials. Its center is 2 radials off the border of the
-        // states.
+        // A cell of 29 km has 16 or 17 radials. The center of the cell is 2 radials from the border
+        // between the states.
         pair.given.spec.spacing_m = 29000;
         const double shift_deg = mixed.share < 0.5 ? -2 : 2;
         const GeoPoint wide =

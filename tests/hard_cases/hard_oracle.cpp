@@ -20,8 +20,8 @@ bool begins_sweep(const Radial& radial) {
            status == RadialStatus::start_of_last_elevation;
 }
 
-// Returns a text about a sweep that begins or goes on although the radials say otherwise; empty if
-// there is none.
+// Returns a text about a sweep that begins or goes on although the radials say otherwise, or an
+// empty text if there is no such sweep.
 std::string wrong_sweep(const Decoded& decoded) {
     const std::vector<Sweep>& sweeps = decoded.volume.sweeps;
     for (std::size_t i = 0; i < sweeps.size(); ++i) {

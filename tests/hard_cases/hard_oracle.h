@@ -35,7 +35,7 @@ class Oracle {
     explicit Oracle(std::span<const std::byte> file);
 
     [[nodiscard]] std::size_t radials() const { return radials_.size(); }
-    // Decodes a mutant and returns what is wrong with the result; empty if nothing is.
+    // Decodes a mutant and returns a text about what is wrong with the result, or an empty text.
     [[nodiscard]] std::string check(const Mutant& mutant);
     [[nodiscard]] const std::map<std::string, KindFigures>& figures() const { return figures_; }
     [[nodiscard]] std::chrono::duration<double> slowest() const { return slowest_; }

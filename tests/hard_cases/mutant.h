@@ -48,7 +48,7 @@ inline void put_in_order(std::vector<ExpectedRadial>& expected) {
     expected.erase(std::unique(expected.begin(), expected.end(), is_same), expected.end());
 }
 
-// Returns a random number below `limit`; 0 if `limit` is 0.
+// Returns a random number below `limit`, or 0 if `limit` is 0.
 inline std::size_t below(std::mt19937_64& random, std::size_t limit) {
     return static_cast<std::size_t>(random() % std::max<std::size_t>(limit, 1));
 }

@@ -205,8 +205,8 @@ TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     EXPECT_FALSE(decoded->report.problems.empty());
 }
 
-// 2026-11-21: the clutter map of KMPX20060106 has no date, so the reader did not recognize it. It
-// accepted a radial that had lost bytes before the map, with the map in its gates.
+// 2026-11-21: the clutter map of KMPX20060106 has no date, so the reader did not recognize it. The
+// reader accepted a radial before the map that had lost bytes, with a part of the map as its gates.
 TEST(FoundByMutants, HalfARadialBeforeUndatedFramesDoesNotComeOut) {
     Bytes half = wire::message_1({});
     half.resize(664);

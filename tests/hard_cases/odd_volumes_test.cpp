@@ -153,7 +153,7 @@ TEST(OddVolumes, ARadarThatNobodyKnowsSaysSo) {
 TEST(OddVolumes, APositionThatDisagreesWithTheTableIsReported) {
     wire::Ray ray;
     Bytes radial = wire::message_31(ray);
-    // The volume block is the first one; its latitude is at byte 8.
+    // The volume block is the first block; its latitude is at byte 8.
     const std::size_t pointer_at = body_at + 32;
     const auto low = [&](std::size_t at) { return std::to_integer<std::size_t>(radial[at]); };
     const std::size_t block = body_at + ((low(pointer_at + 2) << 8) | low(pointer_at + 3));

@@ -34,7 +34,8 @@ std::vector<std::uint32_t> odd_values(std::size_t width) {
             0x7F800000, 0x7149F2CA, 0x6B746C78, 0x2A2A2A2A, 90'000'000};
 }
 
-// Returns where the block of this name begins in a message 31; none if it has no such block.
+// Returns the place where the block of this name begins in a message 31, or none if the message has
+// no such block.
 std::optional<std::size_t> block_at(std::span<const std::byte> message, std::string_view name) {
     const std::uint32_t blocks = number_at(message, 58, 2);
     for (std::uint32_t i = 0; i < blocks; ++i) {
@@ -89,7 +90,7 @@ bool is_part_of(const Gates& found, const Gates& own) {
 }
 
 // Returns a text about the first returned radial whose gates match no radial of the volume, in the
-// order of the file; empty if there is none.
+// order of the file, or an empty text if there is no such radial.
 std::string invented(const std::vector<Gates>& found, const std::vector<Gates>& own) {
     std::size_t at = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
