@@ -65,7 +65,8 @@ class Reader {
     // Writes the next bytes to `out` and returns their number. Fills `out` unless the stream ends.
     [[nodiscard]] std::size_t read(std::span<std::byte> out);
     [[nodiscard]] bool ended() const;
-    // Returns whole, truncated or corrupt, depending on how the stream ended; whole before the end.
+    // Returns whole, truncated or corrupt, depending on how the stream ended. Returns whole before
+    // the end.
     [[nodiscard]] Status status() const;
     // Returns the number of bytes read from `stream` so far. If the stream ended whole, the next
     // stream may begin after them.

@@ -1,5 +1,6 @@
-// bunzip/bzip2_checksum.h -- the checksum of bzip2: CRC-32 with the polynomial 04C11DB7, the
-// highest bit first. The state begins as FFFFFFFF, and all bits are inverted at the end.
+// bunzip/bzip2_checksum.h -- computes the checksum of bzip2, which is CRC-32 with the polynomial
+// 04C11DB7, the highest bit first. The state begins as FFFFFFFF, and all bits are inverted at the
+// end.
 //
 // Threads   Pure functions.
 #pragma once

@@ -31,8 +31,8 @@ std::uint32_t LinkWalk::mark_count(std::uint32_t rows) {
 }
 
 // Returns the i-th marked row. Each mark is in one of mark_count() equal pieces of the block.
-// Multiples of the golden ratio give its place in the piece, so that the marks follow no period in
-// the data.
+// Multiples of the golden ratio give the place of the mark in its piece, so that the marks follow
+// no period in the data.
 std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
     const std::uint64_t count = mark_count(rows);
     const std::uint64_t begin = rows * std::uint64_t{i} / count;

@@ -1,10 +1,10 @@
 // bunzip/row_links.h -- makes the link of each row from the last column of the sorted block.
 //
 // The rows are the sorted rotations of the block. The link of a row is the row that comes from
-// rotating it by one byte. The k-th row that begins with a byte, rotated by one, is the k-th row
-// that ends with this byte, so counting bytes in the last column gives all links. A link also holds
-// the first byte of its row, so that a walk along the links reads the block with one load for each
-// byte.
+// rotating this row by one byte. The k-th row that begins with a byte, rotated by one, is the k-th
+// row that ends with this byte, so counting bytes in the last column gives all links. A link also
+// holds the first byte of its row, so that a walk along the links reads the block with one load for
+// each byte.
 //
 // Threads   Pure functions.
 #pragma once

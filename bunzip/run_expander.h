@@ -14,9 +14,9 @@ namespace stormcellar::bunzip {
 
 class RunExpander {
   public:
-    // Begins a block. The argument holds its bytes and one more byte, which follows when the block
-    // is read as a ring. If the block ends with four equal bytes, this class takes the additional
-    // byte as the count, as libbz2 does, and the block is bad.
+    // Begins a block. The argument holds the bytes of the block, and one more byte, which follows
+    // when the block is read as a ring. If the block ends with four equal bytes, this class takes
+    // the additional byte as the count, as libbz2 does, and the block is bad.
     void begin(std::span<const std::uint8_t> bytes_and_one_more, Path path);
     // Fills `out` unless the block ends, and returns the number of bytes.
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> out);
