@@ -40,8 +40,8 @@ struct DecodeOptions {
     [[nodiscard]] std::uint64_t most_array_bytes() const {
         return array_limit_bytes == 0 ? output_limit_bytes : array_limit_bytes;
     }
-    // Limits the open sweep of a growing volume; 0 means no separate limit. GrowingVolume checks it
-    // after each record and fails with over_budget beyond it.
+    // Limits the open sweep of a growing volume; 0 means no separate limit. GrowingVolume checks
+    // this limit after each record, and fails with over_budget beyond it.
     std::uint64_t open_sweep_limit_bytes = 0;
     // Arrays are made only for these moments and cuts. A cut that is not selected gives no sweep.
     Selection selection;

@@ -4,14 +4,13 @@
 // metadata record of 134 frames with messages 5 and 2 at their usual places. The frames of clutter
 // maps and adaptation data stay empty, as in files of TDWRs, because a Volume does not hold these
 // data. LDM bzip2 records of up to 120 radials (message 1: 100) follow. No record spans two sweeps,
-// and the last control word is negative. Each sweep is written as the message type that it came
-// from, 31 or 1.
+// and the last control word is negative. Each sweep keeps its message type, 31 or 1.
 //
 // decode(encode(v)) gives v to the bit. encode() decodes each record that it makes, and refuses a
 // volume in which anything would be lost, rounded, joined or split. There are two exceptions. A
 // volume without a header gets the header AR2V0006.001 or AR2V0001.001 with the time of the first
 // radial. A volume without radials of message 31 and without an ICAO in the header loses its
-// station; the decoder then needs it as its fallback.
+// station; give the decoder the station as DecodeOptions::fallback_station.
 //
 // Units     Those of stormcellar/level2/volume.h.
 // Memory    A second copy of the volume, made to check the result.
@@ -51,8 +50,8 @@ struct EncodedVolume {
 
     [[nodiscard]] std::vector<std::byte> joined() const;  // header and records: a whole file
     // Returns the same bytes as chunks, named by `start`. The first chunk (S) holds the header and
-    // the metadata record. Each further record is one chunk (I, the last one E). The volume must
-    // have at most 999 records, because chunk numbers have three digits.
+    // the metadata record. Each further record is one chunk of kind I, or E for the last chunk. The
+    // volume must have at most 999 records, because chunk numbers have three digits.
     [[nodiscard]] std::vector<EncodedChunk> chunks() const;
 };
 

@@ -20,7 +20,7 @@
 namespace stormcellar::level2 {
 
 struct LiveChunk {
-    std::optional<VolumeHeader> header;  // if the chunk begins with one
+    std::optional<VolumeHeader> header;  // if the chunk begins with a header
     std::vector<Fragment> fragments;     // the fragments of its records, in order
     bool has_records = false;            // false: the chunk has plain messages
     bool negative = false;               // the control word of the last record is negative
