@@ -4,7 +4,7 @@
 // Nodes can be wrong together. So the function changes single nodes, then groups of nodes that firm
 // edges hold together, and, if there are anchors, whole components.
 //
-// Accuracy  A wrong gate may be unmarked; Score::wrong_unmarked counts these in tests.
+// Accuracy  Wrong gates may stay unmarked; Score::wrong_unmarked counts such gates in tests.
 // Threads   Pure functions.
 #pragma once
 

@@ -1,8 +1,9 @@
 // retrieve/dealias/shear_repair.h -- unfolds gate by gate where neighbors still jump.
 //
 // A region can hold gates of two folds: in a tornado, inbound gates beyond the Nyquist velocity
-// look like the outbound gates beside them. Then jumps are left along the region's edge. The repair
-// makes each gate near such a jump a region of its own; all other gates keep their fold numbers.
+// look like the outbound gates beside them. In that case jumps remain along the edge of the region.
+// The repair makes each gate near such a jump a region of its own; all other gates keep their fold
+// numbers.
 //
 // Threads  Pure functions.
 #pragma once

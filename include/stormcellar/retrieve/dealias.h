@@ -4,10 +4,10 @@
 // is raw + 2 n Nyquist, where the fold number n is whole. dealias() finds n. Values are never
 // smoothed, replaced or invented.
 //
-// Rungs     The methods, from fast to accurate:
+// Rungs     The methods, from the simplest on:
 //           profile   takes the fold number that brings a gate nearest to the wind at its height
-//           region    finds regions without folds, and unfolds them so that neighboring gates agree
-//                     as well as they can
+//           region    joins gates of similar velocity into regions, and unfolds the regions so that
+//                     neighboring gates agree as well as they can
 //           anchored  unfolds the regions so that they also agree with the wind at their height and
 //                     with the sweeps above and below
 // Units     m/s; fold numbers.
@@ -15,8 +15,8 @@
 //           Valadao (2007). The weights of jumps, the anchors and the repair are our own.
 // Accuracy  The rung `anchored` is right at 99.9 % of the gates of uniform, sheared and rotating
 //           winds with 1 m/s of noise, for Nyquist velocities from 8 to 33 m/s
-//           (tests/retrieve/dealias_test.cpp). In noisy data it does not always reach the minimum.
-//           `ambiguous` marks only some of the wrong gates.
+//           (tests/retrieve/dealias_test.cpp). In noisy data the search may stop before the best
+//           solution. `ambiguous` marks only some of the wrong gates.
 // Errors    None. The fold number is 0 for gates without a value, for radials whose Nyquist
 //           velocity is missing (TDWR) or not from 1 to 200 m/s, and where `profile` has no wind.
 // Threads   Pure functions.
