@@ -3,8 +3,8 @@
 //
 // next() returns the bytes before any damage; end() then reports the damage.
 //
-// Format    3 bytes (1F 9D, then the largest code width, 9 to 16, and 0x80 if code 256 clears the
-//           table). After them come codes, low bits first, beginning with codes of 9 bits. Codes of
+// Format    3 bytes: 1F 9D, then the largest code width, 9 to 16, plus 0x80 if code 256 clears the
+//           table. After them come codes, low bits first, beginning with codes of 9 bits. Codes of
 //           one width come in groups of eight; where the width changes or the table is cleared, the
 //           rest of the group is padding. The format has no checksum and no length, so a cut
 //           between two codes cannot be detected.

@@ -5,8 +5,7 @@
 // each kind, a sweep takes one row for each radial, as long as the longest row of the kind, and
 // some fixed bytes. The count is the same if radials come one by one or in pieces. The pieces of a
 // sweep together count for no more than the sweep, because a piece that may continue a sweep does
-// not count the fixed bytes. So it does not matter for the limit how a volume is cut into
-// fragments.
+// not count the fixed bytes. So the count does not depend on how a volume is cut into fragments.
 //
 // Units     Bytes.
 // Threads   One thread at a time.

@@ -21,8 +21,9 @@ namespace stormcellar::level2 {
 
 enum class LateFit : std::uint8_t { none, fills_gap, repeats };
 
-// Returns how a radial fits into a sweep: it repeats radial number `at`, or fills the gap between
-// `before` (null: the gap begins the sweep) and radial number `at`.
+// Returns `repeats` if the radial repeats radial number `at` of the sweep, `fills_gap` if it fits
+// between `before` and radial number `at`, and otherwise `none`. If `before` is null, the gap is at
+// the start of the sweep.
 [[nodiscard]] LateFit fit_at(const Sweep& sweep, std::size_t at, const Radial* before,
                              const Radial& radial);
 

@@ -33,8 +33,8 @@ Status check_rows(const Sweep& sweep, std::size_t index, const SweepMoment& mome
     return {};
 }
 
-// Checks that the decoder would find the same limits of sweeps: only the status, the elevation
-// number and the message type separate radials into sweeps.
+// Checks that the decoder would begin and end sweeps at the same radials. Only the status, the
+// elevation number and the message type separate radials into sweeps.
 Status check_limits(const Volume& volume, std::size_t index) {
     const Sweep& sweep = volume.sweeps[index];
     if (sweep.radials.empty()) return refuse("sweep {} has no radials", index);

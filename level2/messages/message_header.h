@@ -49,8 +49,9 @@ struct MessageHeader {
 // arbitrary place.
 [[nodiscard]] bool is_plausible(const MessageHeader& header);
 
-// Returns true if a message surely begins at the start of `bytes`: the header is plausible, and the
-// body or further rules confirm it. The reader uses this to find messages after damage.
+// Returns true if a message surely begins at the start of `bytes`, that is, if the header is
+// plausible and the body or further rules confirm the header. The reader uses this to find messages
+// after damage.
 inline constexpr std::size_t sure_message_bytes = 128;  // is_surely_message() reads no more
 [[nodiscard]] bool is_surely_message(std::span<const std::byte> bytes);
 

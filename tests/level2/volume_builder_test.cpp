@@ -217,7 +217,7 @@ int radials_taken(std::size_t room_bytes, int most, BlockOf block_of) {
     return taken;
 }
 
-// One radial with very many gates makes every row long: 65,535 codes for 4 gates that were sent.
+// One radial with very many gates makes every row long, so a radial of 4 gates takes 65,535 codes.
 TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
     const std::vector<std::byte> codes(65'535);
     const int taken = radials_taken(10'000'000, 100'000, [&](int number) {
