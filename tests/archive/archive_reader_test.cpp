@@ -213,8 +213,8 @@ TEST(ArchiveReader, ReadsOnBehindZeros) {
     EXPECT_THAT(names_of(*reader), ElementsAre("a", "d"));
 }
 
-// 2026-11-29: if the start of an archive could not be read, the file was permanently taken for no
-// archive.
+// 2026-11-29: if the start of an archive could not be read once, the file never counted as an
+// archive again.
 TEST(ArchiveReader, AStartThatCannotBeReadIsNotThatOfAnotherFile) {
     const Descriptor unreadable{::open("/proc/self/mem", O_RDONLY | O_CLOEXEC)};  // EIO at 0
     auto reader = ArchiveReader::open(unreadable.number());
@@ -225,8 +225,8 @@ TEST(ArchiveReader, AStartThatCannotBeReadIsNotThatOfAnotherFile) {
     EXPECT_EQ(find_member(unreadable.number(), "KTLX").error().code, ErrorCode::io);
 }
 
-// 2026-11-29: for a member after the place where an archive is cut, the error said that it was not
-// in the archive, or gone.
+// 2026-11-29: for a member after the place where an archive is cut, the error said that the member
+// was not in the archive, or was gone.
 TEST(ArchiveReader, SaysWhyAMemberIsMissing) {
     std::vector<std::byte> tar = make_archive(Kind::tar, {{"a", bytes_of(std::string(2000, 'a'))},
                                                           {"b", bytes_of(std::string(9000, 'b'))},

@@ -100,9 +100,9 @@ void rearrange(Parts& parts, std::size_t first, Random& random) {
 
 // Sets a halfword of a message to an extreme value, most often a halfword of a known field.
 void set_field(Bytes& message, Random& random) {
-    // Offsets of size, channel and type, and segments; in message 31 of azimuth number, azimuth,
-    // status, number of blocks and pointers; in message 1 of gates and pointers; in message 5 of
-    // the number of cuts.
+    // The offsets are for the size, the channel and type, and the segments of any message; the
+    // azimuth number, azimuth, status, number of blocks and pointers of message 31; the gates and
+    // pointers of message 1; and the number of cuts of message 5.
     constexpr std::array<std::size_t, 16> fields = {12, 14, 18, 24, 26, 28, 34, 36,
                                                     38, 40, 48, 54, 58, 62, 64, 68};
     constexpr std::array<unsigned, 14> numbers = {

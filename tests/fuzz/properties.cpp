@@ -136,8 +136,8 @@ void require_well_formed_report(const Decoded& decoded) {
     }
 }
 
-// The writer may refuse a volume with bad_argument. If it does not, the volume must be read back
-// unchanged.
+// The writer may refuse a volume with bad_argument. A volume that the writer accepts must be read
+// back unchanged.
 void require_round_trip(const Decoded& decoded) {
     const auto encoded = level2::encode(decoded.volume, {1, 120});
     if (!encoded) {
@@ -208,8 +208,8 @@ void require_good_radials_kept(std::span<const std::byte> stream) {
 
 void check_container(std::span<const std::byte> file) {
     const auto one = decode(file, 1);
-    // The decoder uses threads only for LDM records. If it fails, there is no report that names the
-    // container, so compare too.
+    // The decoder uses threads only for LDM records. If the decoder fails, no report names the
+    // container, so compare in that case too.
     if (!one || one->report.ldm_records) require_same(one, decode(file, 2));
     if (!one) return;
     require_well_formed(*one);

@@ -26,7 +26,7 @@ std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
     return numbers[below(random, width == 4 ? 13 : 10)] & most;
 }
 
-// Overwrites a field, whose offset counts from `start`, and returns a text about the change; an
+// Overwrites a field, whose offset counts from `start`, and returns a text about the change, or an
 // empty text if the field is beyond the end.
 std::string overwrite(Bytes& bytes, std::size_t start, const MessageField& field, Random& random) {
     const std::size_t at = start + field.at;
@@ -65,8 +65,8 @@ std::uint32_t MessageMutants::elevation_number(std::size_t number) const {
     return message.type == 31 ? number_at(bytes, 50, 1) : number_at(bytes, 44, 2);
 }
 
-// Returns true if the decoder can take the radials between these messages for one volume: they are
-// no more than 15 minutes apart (level2/decode/late_radials.h).
+// Returns true if the decoder can take the radials between these messages for one volume, because
+// they are no more than 15 minutes apart (level2/decode/late_radials.h).
 bool MessageMutants::is_of_one_volume(std::size_t first_message, std::size_t last_message) const {
     constexpr std::uint32_t longest_ms = 15 * 60'000;
     std::optional<std::uint32_t> first;
@@ -181,7 +181,8 @@ void MessageMutants::flipped(Draft& draft, Random& random) const {
     draft.mutant.what += fmt::format(" message {}, bytes{}", number, where);
 }
 
-// Overwrites bytes with noise or zeros, from inside one message on and possibly over the next ones.
+// Overwrites bytes with noise or zeros, from inside one message on, possibly into the next
+// messages.
 void MessageMutants::overwritten(Draft& draft, Random& random) const {
     const bool zeros = random() % 2 == 0;
     const std::size_t first = any_message(random);
