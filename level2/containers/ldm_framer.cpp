@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t control_word_bytes = 4;
 
-// Returns true if `rest`, the bytes after a record, makes the length of that record credible; none
-// while there are too few bytes to decide.
+// Returns true if `rest`, the bytes after a record, makes the length of that record credible.
+// Returns none while there are too few bytes to decide.
 std::optional<bool> may_begin(std::span<const std::byte> rest, bool last) {
     if (rest.size() < archive_header_bytes && !last) return std::nullopt;
     // a short remainder, or nothing, is credible at the end of the file

@@ -57,7 +57,7 @@ class LdmStreamFramer {
 
     std::size_t at_ = 0;
     std::size_t searched_ = 0;  // the next part has no stream in its first `searched_` bytes
-    // For a record without a length: no second stream begins in these first bytes of the part.
+    // In a record without a length, no further stream begins in the first `searched_behind_` bytes.
     std::size_t searched_behind_ = 0;
 };
 

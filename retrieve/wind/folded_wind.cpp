@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t sectors = 72;
 constexpr int least_gates = 8;    // in a sector, of one sheet and layer
-constexpr float most_gates = 30;  // weight of a sector at most; neighbors agree
+constexpr float most_gates = 30;  // largest weight of a sector, whose gates are alike
 
 // Sums over the gates of one sheet in a sector and a layer, from which score() tests a wind.
 struct SectorSum {

@@ -100,12 +100,12 @@ struct SweepMoment {
 };
 
 // The radials, in file order, that share an elevation number. A new sweep begins where the number
-// changes or a radial has status 0, 3 or 5.
+// or the message type changes, at a radial with status 0, 3 or 5, and after a 24-byte header.
 struct Sweep {
     int elevation_number = 0;                // the cut of the VCP, from 1
     int message_type = 31;                   // 1 or 31
     float azimuth_spacing_deg = 0;           // 0.5 or 1; 0 if the message does not say
-    std::optional<float> vcp_elevation_deg;  // the cut's fixed angle, from message 5
+    std::optional<float> vcp_elevation_deg;  // the cut's fixed angle, from message 5 or 7
     std::vector<Radial> radials;
     std::vector<SweepMoment> moments;
 
