@@ -51,7 +51,7 @@ function fetched(
     return { share, mean: share > 0 ? sum / share : NaN };
 }
 
-// Computes the same from eight cells of the grid.
+// Computes the wanted share and mean from eight cells of the grid, without the atlas.
 function wanted(grid: PackedGrid, place: [number, number, number]): { share: number; mean: number } {
     let [sum, share] = [0, 0];
     const base = place.map(Math.floor);

@@ -23,8 +23,8 @@ export function slotOf(entry: number): number {
     return (entry & slotBits) - 1;
 }
 
-// Writes into the words of each column of bricks without a slot how many columns away the nearest column with a slot
-// is: 1 for a neighbor, 7 for all that are farther. A ray skips all nearer columns at once.
+// Finds for each column of bricks without a slot how many columns away the nearest column with a slot is, and writes
+// this distance into the column's words. It is 1 for a neighbor and at most 7. A ray skips all nearer columns at once.
 export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [number, number, number]): void {
     const reach = new Uint8Array(bx * by).fill(mostReach);
     for (let i = 0; i < indirection.length; ++i) if (slotOf(indirection[i]!) >= 0) reach[i % (bx * by)] = 0;
@@ -35,7 +35,8 @@ export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [num
                 reach[y * bx + x] = Math.min(reach[y * bx + x]!, reach[ny * bx + nx]! + 1);
         }
     };
-    // The first pass looks at the neighbors that come before a column in row order, the second at those after it.
+    // The first pass looks at the neighbors that come before a column in row order. The second pass looks at the
+    // neighbors that come after it.
     const before = [
         [-1, 0],
         [-1, -1],
@@ -67,10 +68,10 @@ export interface Atlas {
     slots: [number, number, number]; // bricks along each axis
     brickCount: number; // in the atlas
     texels: Uint8Array; // RG, x fastest
-    // One word for each brick of the grid, x fastest. Bits 0 to 20 hold 1 + the number of its slot, or 0 if it has
-    // none. Bits 21 to 23 hold the number of halvings of the slot's brick; without a slot, they hold the distance that
-    // putReaches() writes, or 0. Bits 24 to 31 hold an upper bound of the shown codes that a sample in the brick can
-    // use.
+    // One word for each brick of the grid, x fastest. Bits 0 to 20 hold 1 + the number of the brick's slot, or 0
+    // without a slot. Bits 21 to 23 hold the number of halvings of the slot's brick; without a slot, they hold the
+    // distance that putReaches() writes, or 0. Bits 24 to 31 hold an upper bound of the shown codes that a sample in
+    // the brick can use.
     indirection: Uint32Array;
     bricks: [number, number, number];
     // code = codeOffset + codeScale * shown code
@@ -340,7 +341,7 @@ export const enum Coverage {
 }
 const lowM = 3000;
 
-// Lowers the numbers of `lowest`, which is the lowest seen level of each column, where one brick has a lower seen cell.
+// Lowers `lowest`, the lowest seen level of each column, in the columns where this brick has a lower seen cell.
 function lowerByBrick(grid: PackedGrid, bx: number, by: number, bz: number, lowest: Uint16Array): void {
     const edge = grid.brickEdge;
     const brick = brickIndex(grid, bx, by, bz);

@@ -3,7 +3,8 @@
 import { pageEntry, putReaches } from './atlas';
 import { Pyramid } from './pyramid';
 
-// A column of bricks of a level that is in the atlas. Slots are from the bottom; -1 is a brick without values.
+// A column of bricks in the atlas, at a level. `slots` has the slot of each brick, from the bottom; -1 for a brick
+// without values.
 export interface ResidentColumn {
     level: number;
     x: number;

@@ -41,8 +41,8 @@ function halved(from: Level, layers: number): Level {
     return withNeighbors(columns, greatest, layers);
 }
 
-// Returns for each number the greatest of the number and its two neighbors along an axis. The axis has `count` numbers,
-// which are `stride` apart.
+// Replaces each number by the greatest of the number and its two neighbors along an axis, in a copy. The axis has
+// `count` numbers, which are `stride` apart.
 function widened(from: Uint16Array, count: number, stride: number): Uint16Array {
     return from.map((code, i) => {
         const place = Math.floor(i / stride) % count;
@@ -71,7 +71,8 @@ export function bricksShown(level: Level): number {
     return level.shown.reduce((sum, count) => sum + count, 0);
 }
 
-// Returns the finest level with at most `mostBricks` bricks that can show anything; the coarsest if none is so small.
+// Returns the finest level with at most `mostBricks` bricks that can show anything; the coarsest level if all have
+// more.
 export function levelWithin(pyramid: Pyramid, mostBricks: number): number {
     const found = pyramid.levels.findIndex((level) => bricksShown(level) <= mostBricks);
     return found < 0 ? mostHalvings : found;

@@ -10,7 +10,7 @@ export interface WantedColumn {
     x: number;
     y: number;
     key: string;
-    away: number; // distance from its middle to the middle of the picture, in pixels; 0 if it reaches behind the camera
+    away: number; // pixels from the column's middle to the picture's; 0 if the column reaches behind the camera
 }
 
 // A view, and the sizes of a grid's bricks and cells.
@@ -57,7 +57,8 @@ function extentOf(placed: Placed, level: number, x: number, y: number): Extent {
         [left, right] = [Math.min(left, pixel[0]), Math.max(right, pixel[0])];
         [top, bottom] = [Math.min(top, pixel[1]), Math.max(bottom, pixel[1])];
     }
-    // A box that reaches behind the camera may be anywhere in the picture; a box all behind it is not seen.
+    // A box that reaches behind the camera may be anywhere in the picture. A box that is all behind the camera is not
+    // seen.
     const isSeen = left <= right && (isBehind || (right >= 0 && left <= width && bottom >= 0 && top <= height));
     const metersPerPixel = geometry.isPerspective
         ? Math.max(nearest, geometry.nearM) / geometry.focalPixels
@@ -115,7 +116,7 @@ export function wantedColumns(
 }
 
 // Returns all columns that a view shows, with or without echo, each of the coarsest level whose cells are at most
-// `mostPixels` wide.
+// `mostPixels` wide, or of level 0 if even its cells are wider.
 export function seenColumns(placed: Placed, pyramid: Pyramid, mostPixels: number): WantedColumn[] {
     return collect(placed, pyramid, [0, pyramid.levels.length - 1], mostPixels, () => true);
 }

@@ -14,7 +14,7 @@ export interface Window {
 const geometryOf = (camera: Camera, { box, exaggeration, width, height }: Window): ViewGeometry =>
     new ViewGeometry(box, camera, exaggeration, width, height);
 
-// Returns the camera that looks in the same direction from an eye in drawn space.
+// Returns the camera with its eye moved to a place in drawn space. The direction of the view stays.
 export function withEye(camera: Camera, window: Window, eye: Vec3): Camera {
     const usual = geometryOf({ ...camera, lookAtM: null }, window);
     const drawn = plus(minus(eye, usual.eye), 1, usual.middle);

@@ -14,8 +14,8 @@ test('a leg is a geodesic, as the published line from JFK to LHR', () => {
 });
 
 test('areas are on the ellipsoid', () => {
-    // The authalic latitude gives the area of a quadrangle between parallels in closed form. This one is so narrow
-    // that its northern and southern sides are nearly geodesics.
+    // The authalic latitude gives the area of a quadrangle between parallels in closed form. The quadrangle here is so
+    // narrow that its northern and southern sides are nearly geodesics.
     const a = 6378137;
     const e2 = 0.0066943799901413165;
     const e = Math.sqrt(e2);

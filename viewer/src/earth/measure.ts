@@ -1,6 +1,6 @@
 // Computes distances, azimuths and areas on the ellipsoid of WGS84.
 //
-// Distances are accurate to millimeters, as geodesic() is. Areas are accurate to some 1e-6, because each side is
+// Distances are from geodesic(), and accurate to millimeters. Areas are accurate to some 1e-6, because each side is
 // divided into steps along its geodesic, which are straight on the sphere of equal area.
 
 import { Place, destination, geodesic } from './projection';
@@ -14,7 +14,7 @@ const longestStepM = 20_000;
 
 export interface Leg {
     distanceM: number;
-    azimuthDeg: number; // at its beginning, clockwise from north
+    azimuthDeg: number; // direction at the beginning of the leg, clockwise from north
 }
 
 export function legOf(from: Place, to: Place): Leg {

@@ -25,8 +25,8 @@ test('a geodesic has the length of the meridian and of the equator', () => {
     );
 });
 
-// Compares with the usual example, from Flinders Peak to Buninyong. It is on GRS80, which differs from WGS84 by
-// micrometers here.
+// Compares with the usual example of Vincenty's formulas, from Flinders Peak to Buninyong. The example is on GRS80,
+// which differs from WGS84 by micrometers here.
 test('a geodesic agrees with the published example', () => {
     const flinders = { latitudeDeg: -(37 + 57 / 60 + 3.7203 / 3600), longitudeDeg: 144 + 25 / 60 + 29.5244 / 3600 };
     const buninyong = { latitudeDeg: -(37 + 39 / 60 + 10.1561 / 3600), longitudeDeg: 143 + 55 / 60 + 35.3839 / 3600 };

@@ -1,8 +1,8 @@
 // Converts places on the earth to a grid's plane, in meters from the middle of the grid, and back.
 //
 // There are three projections: azimuthal equidistant by geodesics of WGS84 (Vincenty 1975, to millimeters except near
-// the antipode), Lambert conformal conic of the ellipsoid (Snyder 1987, pp 107-109), and latitude and longitude, whose
-// degrees are drawn everywhere as long as at the center, as in pictures.
+// the antipode), Lambert conformal conic of the ellipsoid (Snyder 1987, pp 107-109), and latitude and longitude. For
+// the third, a degree has the same drawn length everywhere as at the center, as in pictures.
 
 import { projections } from '../facts';
 import { GridPlace } from '../wire/packed_grid';

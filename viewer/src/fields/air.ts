@@ -1,5 +1,5 @@
-// Measures in coarse cells of 4 x 4 columns and 2 levels which share of the air was not seen, and which share is range
-// folded, as render/volume/haze.h does.
+// Computes the share of air that was not seen, and the share that is range folded, in coarse cells of 4 x 4 columns and
+// 2 levels, as render/volume/haze.h does.
 
 import { CellState, PackedGrid } from '../wire/packed_grid';
 import { levelCodes } from './level_codes';

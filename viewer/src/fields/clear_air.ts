@@ -1,6 +1,6 @@
 // Decides whether a grid of reflectivity shows clear air: it has echo, but column maxima reach 20 dBZ on less than 150
-// km2, and 30 dBZ on less than 60 km2 (render/view/echo_outline.h). In a grid that was halved n times, a cell is the
-// greatest of 4^n cells, so the areas are estimates: it counts as 2^n cells.
+// km2, and 30 dBZ on less than 60 km2 (render/view/echo_outline.h). In a grid that was halved n times, a cell has the
+// greatest value of 4^n cells. The function then estimates the areas, and counts each cell as 2^n cells.
 
 import { cellSizeM } from '../earth/projection';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';

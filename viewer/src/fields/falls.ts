@@ -1,10 +1,12 @@
-// Computes in which direction and how steeply the values of a volume fall, for its light. This is the part of
-// render/volume/shade_field.h that depends neither on the sun nor on the view, so it is computed once for a grid. Cells
-// are averaged over 2 x 2 columns, and smoothed along each axis by 1-4-6-4-1.
+// Computes the falls of a volume: in which direction and how steeply its values decrease. The light of the volume is
+// computed from the falls. This file does the part of render/volume/shade_field.h that depends neither on the sun nor
+// on the view, so falls are computed once for a grid. Cells are averaged over 2 x 2 columns, and smoothed along each
+// axis by 1-4-6-4-1.
 //
 // Reflectivity counts from 0 dBZ, or from the lowest color of the table if that is lower, up to 60 dBZ. A value of any
-// other moment counts as 30, and no echo as 0. Cells that were not seen or are range folded do not count; where no cell
-// of an average counts, it is copied from the level below, or from the lowest level that has one.
+// other moment counts as 30, and no echo as 0. Cells that were not seen or are range folded do not count. If no cell of
+// an average counts, the average is copied from the level below, or at the bottom from the lowest level that has an
+// average.
 
 import { BrickKind, CellState, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 

@@ -35,7 +35,7 @@ export function beamAt(site: Antenna, elevationDeg: number, rangeM: number): { a
     };
 }
 
-// Finds the beam that meets a point: the inverse of beamAt().
+// Finds the beam that meets a point. This is the inverse of beamAt().
 export function beamTo(site: Antenna, arcM: number, heightM: number): { elevationDeg: number; rangeM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const along = (radius + heightM) * Math.sin(arcM / radius);

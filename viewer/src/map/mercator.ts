@@ -89,8 +89,8 @@ function westernmost(points: MapPoint[]): number {
     return first;
 }
 
-// Returns a view of all points, or of the whole earth without points. `clear` is how many pixels the page covers at the
-// left, top, right and bottom.
+// Returns a view of all points, or of the whole earth without points. `clear` has the numbers of pixels that the page
+// covers at the left, top, right and bottom.
 export function fittedMap(
     points: MapPoint[],
     width: number,
@@ -168,8 +168,8 @@ export function boxAbout(middleDeg: number, places: Place[]): MapBox {
     };
 }
 
-// Returns a box with a margin at each side. The margin is a share of the side's length, but the box gets no wider than
-// the earth, and reaches no farther than 85 degrees north and south.
+// Returns a box with a margin at each side. The margin is a share of the side's length. The box gets no wider than the
+// earth, and reaches no farther than 85 degrees north and south.
 export function grownBox({ west, south, east, north }: MapBox, share: number): MapBox {
     const wide = Math.min(360, east - west);
     const dx = Math.min(share * wide, (360 - wide) / 2);

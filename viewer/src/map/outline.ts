@@ -23,7 +23,8 @@ function halvesM(facts: GridFacts): [number, number] {
     return [(facts.nx * width) / 2, (facts.ny * height) / 2];
 }
 
-// Returns points along the border of a grid. Each side has several, because it is not straight on another map.
+// Returns points along the border of a grid. Each side has several points, because a side is usually curved on another
+// map.
 export function outlineOf(facts: GridFacts): Place[] {
     const plane = planeOf(geometryOf(facts));
     const [x, y] = halvesM(facts);

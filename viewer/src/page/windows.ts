@@ -1,5 +1,5 @@
 // Finds the cells for layers and readings. A whole grid has all cells. For a grid in parts, asks the server for a
-// window, which is as fine as the view shows and memory allows.
+// window: a rectangle of its columns, with cells as fine as the view shows and memory allows.
 
 import {
     BrickWindow,
@@ -18,13 +18,13 @@ import { Place, Plane, cellSizeM, destination, geodesic, middleOn, planeOf } fro
 import { isAbsent, packed } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 
-// Purpose of a window. Each purpose has one window of the shown grid, and one of the grid that is shown next.
+// Purpose of a window. Each purpose has at most one window of the shown grid, and one of the grid that is shown next.
 export type Purpose = 'layers' | 'light' | 'section' | 'ray';
 
 const bytesOfWindow = 0.06; // share of the page's memory for the cells of a window
-const fieldOfLayers = 0.05; // share for fields that are made of a window
-const bytesOfFields = 10; // bytes of a column in two fields
-const fallsOfLight = 0.05; // share for the falls that are made of a window
+const fieldOfLayers = 0.05; // share for the flat fields (such as planes) that are cut from a window
+const bytesOfFields = 10; // bytes that a column of cells takes in two flat fields
+const fallsOfLight = 0.05; // share for the falls (how steeply values fall; fields/falls.ts) of a window for light
 const columnsOfSection = 480;
 const pointsOfLine = 32;
 const againAfterMs = 3000; // after a failure
@@ -34,14 +34,14 @@ interface Held {
     asked: BrickWindow | null; // window that was last asked for
     has: BrickWindow | null; // last window that came
     cells: Cells | null; // cells of `has`
-    abort: AbortController | null; // aborts the request for `asked`; null if `asked` has come
+    abort: AbortController | null; // aborts the request for `asked`; null if nothing is being fetched
     done: Promise<void>; // resolves when `asked` comes or is replaced; rejects if the grid is gone
 }
 
 export class Windows {
     private held = new Map<Purpose, Held>();
     private ahead = new Map<Purpose, Held>(); // windows of the grid that is shown next
-    private taken = this.held; // either of these maps; take() uses it
+    private taken = this.held; // the map that take() uses: `ahead` during next(), otherwise `held`
     private wholes = new WeakMap<PackedGrid, Cells>();
 
     constructor(
@@ -51,7 +51,7 @@ export class Windows {
         private fail: (error: unknown) => void,
     ) {}
 
-    // Returns true if a window for layers has not come.
+    // Returns true if a window of the shown grid has not come. Windows for readings along a ray do not count.
     get isWaiting(): boolean {
         return [...this.held].some(([purpose, { abort }]) => purpose !== 'ray' && abort !== null);
     }
@@ -61,7 +61,8 @@ export class Windows {
             0,
         );
     }
-    // Returns the number of halvings of the coarsest window for layers; 0 for a whole grid.
+    // Returns the number of halvings of the coarsest window. Windows along a ray do not count. Returns 0 for a whole
+    // grid, and if no window has come.
     coarsest(loaded: LoadedGrid): number {
         return Math.max(
             0,
@@ -75,8 +76,9 @@ export class Windows {
         return (loaded.stream ? this.cellsOf(loaded, purpose)?.grid : loaded.grid)?.halvings ?? 0;
     }
 
-    // Returns a whole grid, or of a grid in parts the cells that the view shows. While the view moves, and until these
-    // cells have come, returns earlier cells of the same grid, or null if there are none.
+    // Returns all cells of a whole grid. For a grid in parts, returns the cells that the view shows, or null if the
+    // view shows no part of the grid. While the view moves, and until the new cells have come, returns the last cells
+    // that came for this grid and purpose, or null if there are none.
     seen(loaded: LoadedGrid, purpose: 'layers' | 'light', geometry: ViewGeometry, isMoving: boolean): Cells | null {
         const { grid, stream } = loaded;
         if (!stream) return this.whole(grid);
@@ -86,8 +88,8 @@ export class Windows {
         return window && this.take(loaded, stream, purpose, window);
     }
 
-    // Returns a whole grid, or of a grid in parts the cells along the geodesic between two places. Returns null until
-    // these have come, or if the geodesic misses the grid in parts.
+    // Returns all cells of a whole grid. For a grid in parts, returns the cells along the geodesic between two places.
+    // Returns null until these cells have come, or if all of the geodesic is beyond one side of the grid.
     along(loaded: LoadedGrid, [from, to]: readonly [Place, Place]): Cells | null {
         const { grid, stream } = loaded;
         if (!stream) return this.whole(grid);
@@ -96,7 +98,8 @@ export class Windows {
         const points = Array.from({ length: pointsOfLine + 1 }, (_, i) =>
             plane.toPlane(destination(from, way.azimuth, (i / pointsOfLine) * way.distanceM)),
         );
-        // Choose cells no finer than the columns of a plot of the section.
+        // Find the coarsest level whose cells are not wider than the columns of a plot of the section. If even the
+        // cells of level 0 are wider, take level 0.
         const finest = Math.max(
             0,
             Math.floor(Math.log2(way.distanceM / columnsOfSection / Math.max(...cellSizeM(grid)))),
@@ -110,8 +113,9 @@ export class Windows {
         );
     }
 
-    // Calls `ask`, and keeps the windows that it takes as windows of the next grid. The promise resolves when all
-    // have come; null if all are here.
+    // Calls `ask`, and keeps the windows that `ask` requests as windows of the next grid. Returns a promise that
+    // resolves when all of these windows have come. Returns null if none is missing, and for a whole grid, for which
+    // `ask` is not called.
     next(loaded: LoadedGrid, ask: () => void): Promise<void> | null {
         if (!loaded.stream) return null;
         this.taken = this.ahead;
@@ -121,8 +125,9 @@ export class Windows {
         return waits.length > 0 ? Promise.all(waits.map((one) => one.done)).then(() => undefined) : null;
     }
 
-    // Returns a whole grid, or of a grid in parts the cells about points, of level 0 if there is room. Returns null
-    // until these have come, or if the points are beyond the grid in parts.
+    // Returns all cells of a whole grid. For a grid in parts, returns the cells about the points: of level 0 if they
+    // fit into memory, otherwise coarser cells. Returns null until these cells have come, or if all points are beyond
+    // one side of the grid.
     ray(loaded: LoadedGrid, points: readonly Plane[]): Cells | null {
         const { grid, stream } = loaded;
         return stream ? this.about(loaded, stream, 'ray', points, 0) : this.whole(grid);
@@ -162,7 +167,7 @@ export class Windows {
         return held?.of === loaded ? held.cells : null;
     }
 
-    // Asks for a window unless it is already asked for, and returns the last cells that came for this purpose.
+    // Asks for a window, unless the last requested window covers it. Returns the last cells that came for this purpose.
     private take(loaded: LoadedGrid, stream: GridInParts, purpose: Purpose, window: BrickWindow): Cells | null {
         let held = this.taken.get(purpose);
         if (held?.of !== loaded) {
@@ -183,8 +188,8 @@ export class Windows {
         return held.cells;
     }
 
-    // Fetches a window. After a failure tries again, because a picture without its layer would look like clear air, but
-    // throws if the grid is gone.
+    // Fetches a window. After a failure, tries again, because a picture without its layer would look like clear air. If
+    // the grid is gone, throws instead.
     private async fetch(held: Held, loaded: LoadedGrid, stream: GridInParts, window: BrickWindow): Promise<void> {
         const { grid } = loaded;
         const { domain, moment, time } = stream;
@@ -215,7 +220,7 @@ export class Windows {
         this.came();
     }
 
-    // Drops the window of a purpose that is not needed.
+    // Drops the shown grid's window for a purpose, and aborts its request.
     release(purpose: Purpose): void {
         this.held.get(purpose)?.abort?.abort();
         this.held.delete(purpose);

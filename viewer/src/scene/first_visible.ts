@@ -1,4 +1,4 @@
-// Finds by the exact codes of a grid the first visible cell along a ray from the eye, and the most visible cell.
+// Finds the first visible cell and the most visible cell along a ray from the eye, by the exact codes of a grid.
 
 import { Ray } from '../camera/ray';
 import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -105,7 +105,7 @@ export interface Contribution {
     foldedM: number; // length of the ray in range folded air, in drawn space
 }
 
-const opaque = 0.002; // the ray ends when less of the background than this can be seen
+const opaque = 0.002; // the ray ends when the background's share of the pixel is less than this
 
 // Finds the cell along a ray that contributes most to its pixel. `perM` returns the extinction of a value per drawn
 // meter; 0 for a clear value.

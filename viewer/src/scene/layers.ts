@@ -40,8 +40,8 @@ export const isBelow = (moment: string, value: number): boolean => moment === 'V
 export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean =>
     hasFolded ?? (hasVolume && moment !== '' && momentFacts(moment).isDoppler);
 
-// Returns the value of `hasFolded` that turns the veil on or off; null if this is what the moment does without a
-// choice, which keeps the address short.
+// Returns the value of `hasFolded` that turns the veil on or off; null if the moment's usual veil already is as wanted,
+// which keeps the address short.
 export function toggledFolded(layers: Layers, moment: string): boolean | null {
     const wanted = !veilsFolded(layers, moment);
     return wanted === veilsFolded({ ...layers, hasFolded: null }, moment) ? null : wanted;

@@ -102,7 +102,7 @@ export function sectionHit(ray: Ray, section: Section, mixes: boolean): SolidHit
 }
 
 const steps = 400; // the ray is divided into so many steps to find the step that crosses the beam
-const halvings = 30; // of that step
+const halvings = 30; // number of times that this step is halved
 const beyondM = 1000; // margin of the box below the lowest gate and above the highest
 
 // Returns a box that holds a sweep; null if the projection cannot show the site.
