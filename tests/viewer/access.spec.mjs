@@ -109,7 +109,7 @@ function misplaced() {
   if (document.documentElement.scrollWidth > innerWidth) bad.push('the page scrolls sideways');
   return bad;
 }
-// Checks the places of panels, and waits, because a panel makes room for the head one frame after the head has changed.
+// Waits until the panels are in place, because a panel makes room for the head one frame after the head has changed.
 const expectInPlace = (viewer, what) => expect.poll(() => viewer.page.evaluate(misplaced), `${what}: what is not in its place`).toEqual([]);
 
 test('each control has a name, and texts have contrast', async ({ near: viewer }) => {

@@ -1,5 +1,5 @@
-// Checks the editor of colors: what mouse, fingers and keys do, and that `stormcellar frame` draws the same with the
-// saved files.
+// Checks the editor of colors: what mouse, fingers and keys do, and that `stormcellar frame` draws the same picture
+// with the saved files.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 

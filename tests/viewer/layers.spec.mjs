@@ -1,5 +1,5 @@
-// Checks layers. Compares flat layers with pictures of `stormcellar frame`, which cuts the same grid with other code.
-// Checks what mouse and keys do to layers.
+// Checks layers. Compares flat layers with pictures of `stormcellar frame`, which cuts the same grid, but with code in
+// C++. Checks what mouse and keys do to layers.
 import { expect, expectLikeSlicer, report, test as base } from './fixtures.mjs';
 import { decoded, image } from './pixels.mjs';
 import { mostDifference, pictureOf, viewOf } from './slicer.mjs';

@@ -79,7 +79,7 @@ test('a newcomer shares a section through the hook', async ({ page, context, vie
   expect(read).toBeLessThanOrEqual(greatest + 0.5);
   expect(read).toBeGreaterThan(greatest - 3);
 
-  // Open the link in another page, which shows the same.
+  // Open the link in another page, which must show the same picture.
   const link = await page.evaluate(() => navigator.clipboard.readText());
   const other = new ViewerPage(await context.newPage(), server.address);
   await other.page.goto(link);

@@ -31,7 +31,7 @@ export async function decoded(page, href) {
   return image(Buffer.concat([Buffer.from(`P6\n${width} ${height}\n255\n`), Buffer.from(text, 'base64')]));
 }
 
-// Returns latitude and longitude of a text such as "35.292 N, 97.561 W".
+// Returns the latitude and longitude in a text such as "35.292 N, 97.561 W".
 export function placeOf(text) {
   const [, latitude, north, longitude, east] = text.match(/(\d+\.\d+) ([NS]), (\d+\.\d+) ([EW])/);
   return [Number(latitude) * (north === 'S' ? -1 : 1), Number(longitude) * (east === 'W' ? -1 : 1)];

@@ -66,7 +66,7 @@ test('a box over two sites opens a region of them', async ({ page, viewer, sites
   await expectSites(viewer, third, [one, other]);
   expect(shadesOf(await viewer.pixels()).size, 'colors').toBeGreaterThan(100);
   await viewer.keep('region');
-  // Open the address in a new page, which shows the same.
+  // Open the address in a new page, which must show the same region.
   const drawn = await viewer.data('drawn');
   const link = page.url();
   await page.goto('about:blank');

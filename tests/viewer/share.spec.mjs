@@ -14,7 +14,7 @@ const copied = (page) => page.evaluate(() => window.copied ?? null);
 // Returns the time of the drawn grid.
 const drawnTime = async (viewer) => (await viewer.data('drawn')).split('/').pop();
 
-// Answers the page's requests for raw volumes with `volumes`, or if that is null lets the server answer. Sets
+// Answers the page's requests for raw volumes with `volumes`. If `volumes` is null, lets the server answer. Sets
 // window.told once the page has read the answer.
 function tellVolumes(page, volumes = null) {
   return page.evaluate((volumes) => {
@@ -23,7 +23,7 @@ function tellVolumes(page, volumes = null) {
     window.fetch = async (url, ...more) => {
       if (!String(url).includes('/volumes?to=')) return own(url, ...more);
       const read = volumes ? { volumes } : await (await own(url, ...more)).json();
-      // Set it by a timer, which fires after the page has handled the answer.
+      // Set window.told by a timer, which fires after the page has handled the answer.
       return Object.assign(new Response(), { json: async () => (setTimeout(() => (window.told = true)), read) });
     };
   }, volumes);
@@ -49,7 +49,8 @@ test.describe('sharing', { tag: '@full' }, () => {
     expect(link).toBe(pinned);
     expect(link).toContain('height-km=3');
     const picture = await viewer.pixels();
-    // The page offers no command if none draws the same (2026-11-28: the command drew one of several layers).
+    // The page offers no command if no command draws the same picture (2026-11-28: the command drew one of several
+    // layers).
     await page.evaluate(() => void (window.copied = undefined));
     await viewer.press('command');
     await expect(state(viewer)).toContainText('one layer');
@@ -176,7 +177,7 @@ test.describe('sharing', { tag: '@full' }, () => {
     await expect(viewer.byId('tool-says')).toHaveText('');
   });
 
-  // The volume has two files, one of which was deleted (2026-11-28: the command drew the first volume of the file).
+  // The volume had two files, and one was deleted (2026-11-28: the command drew the first volume of the file).
   test('a command draws the second volume of a file', async ({ viewer, server: { station } }) => {
     const command = await commandFor(viewer, station, [{ raw: 'TWO', number_in_file: 2 }, { raw: null, number_in_file: 2 }]);
     expect(command).toMatch(/^stormcellar frame TWO /);

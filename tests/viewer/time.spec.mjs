@@ -44,7 +44,7 @@ test('keys follow the newest, set a loop and step in it', async ({ viewer, newes
   expect(await shown(viewer)).toBe(third);
 });
 
-// The page must also never show another time than it says.
+// The page must never show a picture of another time than its texts say.
 test('playback stays in its loop', async ({ page, viewer, newest }) => {
   await viewer.settled(() => viewer.key(','));
   await viewer.press('loop-to');

@@ -1,5 +1,5 @@
 // Tests which windows of a grid in parts the page asks for, and that layers and readings of a window are the same as
-// those of the whole grid.
+// layers and readings of the whole grid.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';

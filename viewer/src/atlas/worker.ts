@@ -12,10 +12,10 @@ interface Column {
     y: number;
 }
 
-// 'grid' brings a whole grid, or the table of a grid in parts, for which the worker then makes a store with the name
-// `key`. For such a store, 'level' brings a whole halved grid, 'table' the table of a halved grid, and 'bricks' some of
-// its bricks; 'make' asks for the texels of columns, 'drop' drops the codes of columns, and 'forget' the whole store.
-// 'cells' brings a grid that needs no atlas.
+// 'grid' brings a whole grid, or the table of a grid in parts. For a table, the worker makes a store with the name
+// `key`, which other requests name: 'level' brings a whole halved grid, 'table' the table of a halved grid, and
+// 'bricks' some bricks of a grid whose table came before. 'make' asks for the texels of columns, 'drop' drops the codes
+// of columns, and 'forget' drops the store. 'cells' brings a grid that needs no atlas.
 export type WorkerRequest =
     | { kind: 'grid'; key: string; bytes: ArrayBuffer; mostTexels: number }
     | { kind: 'level'; key: string; bytes: ArrayBuffer }

@@ -43,7 +43,7 @@ test('a flight begins with nearly the same picture', () => {
         const off = takenOff(from, view);
         assert.ok(off.fieldOfViewDeg > 0 && off.zoom === 1);
         const [before, after] = [geometryOf(from), geometryOf(off)];
-        // The point in the middle stays there, and its surroundings have the same size.
+        // The point in the middle of the picture stays in the middle, and its surroundings keep their size.
         const target: Vec3 = from.lookAtM
             ? [from.lookAtM[0], from.lookAtM[1], from.lookAtM[2] * view.exaggeration]
             : before.middle;

@@ -91,7 +91,7 @@ test('a split cut shows the half that pictures take, and either half can be chos
         elevation_deg,
         moments: moments.map((text) => ({ moment: text.replace('!', ''), chosen: text.endsWith('!') })),
     });
-    // Two split cuts, the lower of which is repeated, and a whole cut. The server says which cuts pictures take.
+    // Two split cuts and a whole cut. The lower split cut is repeated. The server says which cuts pictures take.
     const rows = [
         row(0, 0.48, 'REF', 'ZDR'),
         row(1, 0.5, 'REF', 'VEL'),

@@ -21,7 +21,8 @@ export class Ahead {
         const loaded = await app.showing.load(time);
         if (!isLeft()) await app.alongside(app.showing.shownOf(time, loaded), isAhead);
     }
-    // Loads the times before and after, so that a step shows at once, or during playback the next times.
+    // Loads the times before and after the shown time, so that a step shows at once. During playback, loads the next
+    // times instead.
     load(): void {
         const { app } = this;
         const { times, at, isPlaying } = app.player;
@@ -34,7 +35,8 @@ export class Ahead {
         let before = Promise.resolve();
         for (const [i, index] of next.entries()) {
             const time = times[index ?? -1];
-            // Load only the next few frames between volumes, because the server makes them on request.
+            // Load frames between volumes only during playback, and only the next few, because the server makes them on
+            // request.
             if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
                 if (!isLeft())

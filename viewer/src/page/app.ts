@@ -50,14 +50,14 @@ export class App {
     book: TableBook | null = null; // null until the server's tables have come
     shown: Shown | null = null;
     isOnMap = false; // the map of all stations is open
-    // Fetches the data other than its grid that a picture of `next` needs, and resolves when they have come; null if
-    // they are here. The shown picture stays until then.
+    // Fetches the data that a picture of `next` needs besides its grid. Returns a promise that resolves when the data
+    // have come, or null if they are here. The shown picture stays until then.
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
     isShownWhole: () => boolean = () => true; // returns true if all layers of the picture have come
     isGraphicsLost = false; // the WebGL context is lost
     readonly server = new ServerState(() => this.tell('notice'));
     missed = ''; // message about what the user asked for and the server does not have
-    missedTime = ''; // time that this message names; empty if it names none
+    missedTime = ''; // time that `missed` names; empty if it names none
     readonly timeline = new Timeline(
         this.state.time === 'latest',
         () => this.state.betweenS,

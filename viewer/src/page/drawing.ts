@@ -174,7 +174,8 @@ export class Drawing {
     }
 
     // Calls `act` when the next fine picture is complete and on the canvas. If this takes longer than longestWishMs,
-    // calls `giveUp` instead. A later call replaces a wish that still waits, of which neither is called then.
+    // calls `giveUp` instead. A later call replaces a call that still waits; neither function of the replaced call is
+    // called then.
     whenFine(act: () => void, giveUp: () => void): void {
         const wish = (this.wish = { act });
         window.setTimeout(() => {
@@ -185,8 +186,8 @@ export class Drawing {
         this.draw();
     }
 
-    // Returns true if the picture has all layers, the ground and the chosen moment. A grid in parts may still lack
-    // detail.
+    // Returns true if the picture has all layers, the ground, and the chosen domain and moment. A grid in parts may
+    // still lack detail.
     private get isComplete(): boolean {
         const { shown, state } = this.app;
         return (

@@ -1,7 +1,8 @@
 // Fetches items one at a time, and keeps the most recently used.
 //
 // The page uses this for sweeps. The server decodes a volume to list its sweeps, and keeps the decoded volume for the
-// gates that the page asks for next. So sweeps come fastest one at a time, and the server does not get busy.
+// gates that the page asks for next. So sweeps come fastest if the page asks for them one at a time. This also keeps
+// the server from being busy with one page.
 
 interface Wanted<T> {
     value: T | null;
@@ -23,7 +24,7 @@ export class FetchedInTurn<T> {
         private now: () => number = () => performance.now(),
     ) {}
 
-    // Returns an item; null if it has not come or failed.
+    // Returns an item; null if the item has failed or has not come yet.
     find(key: string): T | null {
         return this.known(key)?.value ?? null;
     }

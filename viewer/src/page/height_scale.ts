@@ -7,9 +7,9 @@ import { Units } from '../tables/units';
 import { fontOf } from './dom';
 import { Rect, haloed } from './labels';
 
-const room = 26; // width of its numbers, to the left
+const room = 26; // pixels for the numbers to the left of the scale
 
-// Draws the scale in pixels of the pen, each of which is `pixelRatio` pixels of the picture wide. Returns the
+// Draws the scale in pixels of the pen. A pixel of the pen is `pixelRatio` pixels of the picture wide. Returns the
 // rectangles that the scale covers.
 export function drawHeightScale(
     pen: CanvasRenderingContext2D,

@@ -37,8 +37,8 @@ export function clearLabels(pen: CanvasRenderingContext2D): void {
     pen.scale(pixelRatio(), pixelRatio());
 }
 
-// Draws marks in pixels of the pen, each of which is `ratio` pixels of the picture wide. `taken` are the rectangles
-// that the page covers, in pixels of the pen.
+// Draws marks in pixels of the pen. A pixel of the pen is `ratio` pixels of the picture wide. `taken` are the
+// rectangles that the page covers, in pixels of the pen.
 export function drawLabels(
     pen: CanvasRenderingContext2D,
     geometry: ViewGeometry,

@@ -253,7 +253,7 @@ export class LayerMaker {
             if (!isAbsent(error)) this.askLater();
         }
     }
-    // Draws another picture later, which asks again.
+    // Has another picture drawn later. Drawing it asks again for what failed.
     private askLater(): void {
         window.setTimeout(this.came, againAfterMs + 1);
     }
@@ -334,8 +334,8 @@ export class LayerMaker {
         if (error === undefined) return texts.layers.sweepComes(station);
         return isAbsent(error) ? texts.layers.noSweep(station) : texts.layers.sweepFailed(station);
     }
-    // Returns the station nearest to the point that the view looks at, whose sweep is drawn; an empty text without
-    // sites.
+    // Returns the station whose sweep is drawn, which is the site nearest to the point that the view looks at. Returns
+    // an empty text without sites.
     private stationOf({ loaded: { grid } }: Shown): string {
         const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];
         return nearestSite(grid.sites, planeOf(grid), [x, y])?.icao ?? '';
@@ -392,7 +392,8 @@ export class LayerMaker {
         return this.sweeps.take(this.sweepKey(shown), fetch, isAhead);
     }
 
-    // Returns the sweep to draw. Until it has come, returns the last drawn sweep of the same grid, or null without one.
+    // Returns the sweep to draw. Until this sweep has come, returns the last drawn sweep of the same grid; null if
+    // there is none.
     private sweepOf(shown: Shown): PlacedSweep | null {
         if (this.app.state.layers.sweepDeg === null) return null;
         const { loaded, moment } = shown;

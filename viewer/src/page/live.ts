@@ -94,7 +94,7 @@ export class Live {
         this.isBehind = this.isBehind || wasCutOff || (this.last === '' && this.app.hasLists);
         void this.begun.then(() => this.askSilences()).catch(() => undefined);
     }
-    // Asks which stations are silent, because events tell only of stations that fall silent later.
+    // Asks which stations are silent, because events report only later changes.
     private async askSilences(): Promise<void> {
         const { silent, serverMs } = await silences();
         this.app.server.take(true, serverMs);

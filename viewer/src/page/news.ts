@@ -7,8 +7,8 @@ import { Loader } from './loader';
 import { mostTimes, soonTimes } from './showing';
 import { texts } from './texts';
 
-// Greatest time between a grid and an instant of a region that uses it. The instant is at most 15 minutes from the
-// volume, which takes some minutes.
+// Greatest time between a grid and an instant of a region that uses the grid. The instant is at most 15 minutes from
+// the grid's volume, and a volume takes some minutes.
 const farthestMadeMs = 30 * 60 * 1000;
 
 export class News {
@@ -31,7 +31,7 @@ export class News {
         await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
     }
     // Takes a new list of times. If the time that the user looks at was evicted, goes to the nearest time and tells so.
-    // If the user asked for a time that was missing, goes to the time that is nearest to it now.
+    // If the user asked for a time that was missing, goes to the time that is now nearest to the missing time.
     private takeNewTimes(stored: string[]): void {
         const { app } = this;
         const [now, missedTime] = [app.timeline.now, app.missedTime];

@@ -27,7 +27,7 @@ export interface Picked {
     value: number; // 0 unless the state is a value
     gate: GateHit | null; // gate of a sweep; null for other layers
     halvings: number; // number of halvings of the cells that were read
-    lacksCells: boolean; // cells along the ray have not come; with them, the layer or the height may be another
+    lacksCells: boolean; // cells along the ray have not come; they may change the layer or the height
 }
 
 const leastSeen = 0.03; // least share of a pixel for which the volume counts as seen before the ground
@@ -144,8 +144,8 @@ function foundOn(sight: Sight, app: App, drawing: Drawing): Found | null {
     return ground && groundOn(sight, ground, drawing.drawn?.hasFolded ? (volume?.foldedM ?? 0) : 0);
 }
 
-// Returns what the ray shows at a place of the ground. If the ray was long enough in range folded air (`foldedM`), this
-// is range folded air.
+// Returns what the ray shows at a place of the ground. Within the grid, this is range folded air if the ray's length in
+// such air (`foldedM`) is great enough, and otherwise the ground.
 function groundOn({ ray, grid, cells, whole }: Sight, ground: Plane, foldedM: number): Found {
     const { groundM, exaggeration } = ray.geometry;
     if (!columnAt(grid, ...ground)) return found('outside', ground, groundM, null);

@@ -1,4 +1,4 @@
-// Keeps the state of the server: its clock, its silent stations, and if it answers.
+// Keeps the state of the server: its clock, its silent stations, and whether it answers.
 
 export class ServerState {
     isCutOff = false; // the server does not answer
@@ -25,7 +25,7 @@ export class ServerState {
         this.changed();
     }
     // Takes the list of all silent stations, each with the seconds since its last data. A station with undefined
-    // instead stays as it was.
+    // instead of seconds keeps its state.
     takeSilences(all: [string, number | undefined][]): void {
         const before = this.silentSince;
         this.silentSince = new Map();

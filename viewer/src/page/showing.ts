@@ -20,7 +20,8 @@ export class Showing {
 
     constructor(private app: App) {}
 
-    // Shows an error. If its time is not wanted any more, shows it only if the server did not answer.
+    // Shows the error of a failed load. If what was loaded is not wanted any more (`isWanted` is false), shows the
+    // error only if the server did not answer.
     failed(error: unknown, isWanted: boolean): void {
         if (isWanted || error instanceof TypeError) this.app.fail(error);
     }
@@ -48,7 +49,8 @@ export class Showing {
             if (choice === app.choices) app.fail(error);
         }
     }
-    // If the user has stopped following, but `state.time` is still 'latest', sets it to the time of the player.
+    // If the user has stopped following, but `state.time` is still 'latest', sets `state.time` to the time of the
+    // player. If the player has no time, follows again.
     private stayWhoPaused(): void {
         const { app } = this;
         if (app.player.follows || app.state.time !== 'latest') return;
@@ -80,8 +82,10 @@ export class Showing {
         const { domain, moment } = app.state;
         return () => domain !== app.state.domain || moment !== app.state.moment;
     }
-    // Shows the current time of the timeline. If its grid does not exist, goes to another time: after a step (`by` is
-    // not 0) to the next time in the same direction, otherwise to the time nearest to `nearest` or to the current time.
+    // Shows the current time of the timeline. If its grid does not exist, leaves the time out and shows another. After
+    // a step (`by` is not 0), this is the next time in the same direction. Otherwise it is the time nearest to
+    // `nearest`, or without `nearest` to the current time. During playback, or while the page follows the newest, the
+    // timeline chooses.
     async showTime(nearest?: string, by = 0): Promise<void> {
         const { app } = this;
         const time = app.timeline.now;
@@ -141,8 +145,8 @@ export class Showing {
     private take(shown: Shown): void {
         const { app } = this;
         const { book } = app;
-        // Choose the colors for clear air or storms, except during playback. For a grid in parts, its first halved grid
-        // decides.
+        // Choose the colors for clear air or for storms, but keep them during playback of one domain. The first halved
+        // grid decides for a grid in parts.
         const isOther = app.shown?.domain !== shown.domain || !app.player.isPlaying;
         if (book && isOther)
             book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));

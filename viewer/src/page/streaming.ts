@@ -12,9 +12,9 @@ import { isAbsent, packed } from '../wire/api';
 import { BrickRange, rangesOf } from '../wire/ranges';
 import { Decoder } from '../atlas/decoder';
 
-const mostFlights = 5; // a browser has six connections to a server, one of which is for events
+const mostFlights = 5; // a browser has six connections to a server, and one is for events
 const mostRequestBytes = 1024 * 1024; // most uncompressed bytes of a request
-const mostPlannedBytes = 4 * mostRequestBytes; // requests are chosen from the first missing columns of so many bytes
+const mostPlannedBytes = 4 * mostRequestBytes; // requests are chosen from missing columns of about so many bytes
 const mostSkippedBytes = 64 * 1024; // most bytes between two needed columns of a request
 const retryMs = 1000;
 const mostFailures = 5; // consecutive failures before an error is shown
@@ -279,8 +279,8 @@ class Stream {
             .catch((error: unknown) => this.fail(error));
     }
 
-    // Handles a failed request, and asks again later. Ends if the grid is gone. Shows the error if the grid is gone, or
-    // after many failures in a row.
+    // Handles a failed request. Ends and shows the error if the grid is gone; otherwise asks again later. Also shows
+    // the error after more than mostFailures failures in a row.
     private stumble(error: unknown): void {
         if (this.hasEnded || (error instanceof DOMException && error.name === 'AbortError')) return;
         this.hasEnded = isAbsent(error);
@@ -316,7 +316,7 @@ export class Streaming {
         this.stream?.look(geometry, finest);
     }
 
-    // Null if the shown grid is whole.
+    // Returns which bricks of the shown grid have come; null if the grid is whole.
     get detail(): Detail | null {
         return this.stream?.detail ?? null;
     }

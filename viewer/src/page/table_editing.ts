@@ -105,8 +105,8 @@ export class TableEditing {
             draft && { name: `${draft.name}.toml`, text: writeToml(fileOf(draft, this.app.state.least)), isWhole: true }
         );
     }
-    // Returns the same file with a name that depends on its content. If two files had the same name, the browser would
-    // rename the second, and a command would read the first.
+    // Returns the file of the shown table under a name that depends on its content. If two different files had one
+    // name, the browser would rename the second file, and a command would read the first.
     tomlForCommand(): ExportedFile | undefined {
         const file = this.toml();
         return file && { ...file, name: file.name.replace(/\.toml$/, `-${checksum(file.text)}.toml`) };

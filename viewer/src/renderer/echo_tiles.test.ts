@@ -13,7 +13,7 @@ const made: Made = {
     nx: 150,
     ny: 100,
     levelsM: evenLevels(40),
-    // Echo in two towers, the second of which is weak.
+    // Echo in two towers. The second tower is weak.
     codeOf: (x, y) => (x > 30 && x < 36 && y > 40 && y < 50 ? 150 : x > 100 && x < 108 && y > 20 && y < 24 ? 40 : 1),
 };
 const grid = readPackedGrid(packedGrid(made));

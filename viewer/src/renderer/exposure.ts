@@ -1,5 +1,5 @@
-// Finds the exposure of a lit picture, a factor of its light. With it, echo has the same mean lightness as without
-// light (render/volume/lit_layer.h). The exposure is measured in a small picture.
+// Finds the exposure of a lit picture, a factor of its light. With the exposure, echo has the same mean lightness as
+// without light (render/volume/lit_layer.h). The exposure is measured in a small picture.
 
 import { ViewGeometry } from '../camera/geometry';
 import { RayView } from './echo_tiles';

@@ -2,7 +2,7 @@
 // whose error is allowed, it takes the most exact rung that should be drawn in time, or the fastest if there is none.
 //
 // Divided by the cost of its rung, the time of a frame estimates how long the first rung would take. A moving mean of
-// these estimates, times the cost of a rung, predicts its time.
+// these estimates, times the cost of a rung, predicts the time of a frame on that rung.
 
 import { Rung } from './ladder';
 

@@ -192,9 +192,9 @@ export function isUsualGrid({
     );
 }
 
-// Returns the command that draws the view; if several layers are on, it draws one of them. `colors` is a table or a
-// file; if it is empty, the command uses the moment's own colors. `file` is a raw file to draw instead of the domain's
-// grid, and `volume` the number of the volume in that file.
+// Returns the command that draws the view; if several layers are on, the command draws one of them. `colors` is a table
+// or a file; if it is empty, the command uses the moment's own colors. `file` is a raw file to draw instead of the
+// domain's grid, and `volume` the number of the volume in that file.
 export function commandOf(
     state: ViewState,
     width: number,

@@ -2,7 +2,7 @@
 // of color and opacity that a user can move each of them.
 //
 // Numbers of a draft are rounded as in files and addresses, so that saving changes nothing. The page draws the table
-// that it would read from the draft's file, so that `stormcellar frame` draws the same.
+// that it would read from the draft's file, so that `stormcellar frame` draws the same picture with this file.
 
 import { ColorTable, ExtinctionPoint, Rgba } from '../wire/color_tables';
 import { colorDistance, cornersToKeep, mixed } from './simplify';
@@ -25,7 +25,7 @@ export interface Draft {
     colors: ColorPoint[]; // values rise; two points at one value make an edge
     opacity: OpacityPoint[] | null; // constant beyond the outermost points; null: the usual opacity, faded by alpha
     end: number; // end of the color bar
-    barBegin: number; // its beginning
+    barBegin: number; // beginning of the color bar
     rangeFolded: Rgba;
 }
 
@@ -33,7 +33,7 @@ export const mostPoints = 160;
 const nearEnough = 0.012; // allowed error of a color, in OKLab
 const alphaWeight = 0.25;
 const nearEnoughShare = 0.06; // allowed relative error of an opacity
-const clearestPerKm = 0.003; // errors of lower opacities are relative to this
+const clearestPerKm = 0.003; // errors of opacities below this are relative to it
 const leastStep = 0.0005; // least difference between two values
 
 export const roundedValue = (value: number): number =>

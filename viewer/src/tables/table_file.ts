@@ -1,5 +1,5 @@
 // Makes a color table of the content of a file. render/color/color_file.h has the same rules, so that `stormcellar
-// frame --colors FILE` and the page draw the same.
+// frame --colors FILE` and the page draw the same picture.
 //
 // Errors: a TableError that names the file, the line if there is one, and the reason.
 

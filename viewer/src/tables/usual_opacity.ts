@@ -1,5 +1,5 @@
 // Finds the opacity for a table whose file does not state it, by the tables of the server. default_extinction() of
-// render/color/built_in_tables.h gives the same.
+// render/color/built_in_tables.h gives the same opacity.
 
 import { colorOf } from './color_table';
 import { ColorTable, ExtinctionPoint } from '../wire/color_tables';

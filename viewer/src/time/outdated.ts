@@ -3,8 +3,8 @@
 
 import { longestBridgeMs } from './between';
 
-// Returns a function that is true for the keys of outdated grids. The grid that was made again is of `of`
-// (DOMAIN/MOMENT) at `time`. Outdated are
+// Returns a function that is true for the keys of outdated grids. `of` (DOMAIN/MOMENT) and `time` name the grid that
+// was made again. Outdated are
 //   - the kept grid of this time;
 //   - frames between this time and its neighbors in `times`, which rise; if `times` is empty, frames within
 //     longestBridgeMs;

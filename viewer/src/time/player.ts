@@ -16,8 +16,8 @@ export interface Loop {
 
 export const stopped: PlayerState = { times: [], at: -1, isPlaying: false, follows: true, loop: null };
 
-// Takes a new list of times. A player that follows goes to the index `newest`; another keeps its time, or goes to the
-// nearest if its time is not in the list.
+// Takes a new list of times. A player that follows the newest goes to the index `newest`. Any other player keeps its
+// time, or goes to the nearest time if its time is not in the list.
 export function withTimes(player: PlayerState, times: string[], newest = times.length - 1): PlayerState {
     const shown = player.times[player.at];
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
@@ -51,8 +51,8 @@ export function stepped(player: PlayerState, by: number): PlayerState {
     return { ...at(player, player.at + by), isPlaying: false };
 }
 
-// Returns the index that is played after `by` steps. The beginning of the loop follows its end; null if the loop has
-// fewer than two times.
+// Returns the index that is played after `by` steps, where the beginning of the loop follows its end. Outside of the
+// loop, returns its beginning. Returns null if the loop has fewer than two times.
 export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null {
     const first = loop ? times.findIndex((time) => time >= loop.from) : 0;
     const last = loop ? times.reduce((found, time, i) => (time <= loop.to ? i : found), -1) : times.length - 1;
@@ -62,7 +62,7 @@ export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null 
     return first + ((at - first + by) % count);
 }
 
-// Goes to the next time if playback is on and the time is loaded. If it is not loaded, `waitsFor` names it.
+// Goes to the next time if playback is on and the time is loaded. If the time is not loaded, `waitsFor` names it.
 export function advanced(
     player: PlayerState,
     isLoaded: (time: string) => boolean,
@@ -74,7 +74,7 @@ export function advanced(
     return { player: { ...player, at: next, follows: false }, waitsFor: null };
 }
 
-// Moves one end of the loop to the current time. If the ends would cross, moves both there.
+// Moves one end of the loop to the current time. If the ends would cross, moves both ends to the current time.
 export function looped(player: PlayerState, end: 'from' | 'to'): PlayerState {
     const now = player.times[player.at];
     if (now === undefined) return player;

@@ -150,7 +150,7 @@ export async function stations(): Promise<Station[]> {
     return (await told<{ stations: Station[] }>('api/v1/stations')).stations;
 }
 // Returns the silent stations, each with the seconds since data came from it, and the time of the server. Includes the
-// stations of which the server does not know whether they are silent, with undefined instead of seconds.
+// stations whose silence the server does not know, with undefined instead of seconds.
 export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
@@ -185,7 +185,7 @@ export interface Times {
     more: boolean; // the server has older times
 }
 // Returns the times of a domain's grids up to `to`, inclusive. If there are more than `limit` (at most 10,000), returns
-// the newest. For a region, returns all times.
+// the newest of them. `limit` does not apply to a region.
 export async function times(domain: string, moment: string, limit: number, to?: string): Promise<Times> {
     if (isRegion(domain)) {
         const found = (await region(domain)).moments.find((one) => one.moment === moment);

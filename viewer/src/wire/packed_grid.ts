@@ -252,8 +252,8 @@ export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole:
     return { grid, isWhole };
 }
 
-// Decodes the form that has codes only for cells with values. The states of all cells tell which cells these are. Each
-// code is stored as its difference from the code before.
+// Decodes the form that has codes only for cells with values. The states of all cells tell which cells have values.
+// Each code is stored as the difference from the previous code.
 function spreadValues(header: Header, grid: PackedGrid): void {
     const { cells } = header;
     const states = header.section(232, (header.u32(188) * cells) / 4);

@@ -10,7 +10,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns true if the condition holds, as "/api/v1 !/zarr".
+// Returns true if the doors meet a condition such as "/api/v1 !/zarr": every door without "!" is
+// there, and no door with "!" is.
 bool holds(std::string_view condition, const std::vector<std::string>& doors) {
     while (!condition.empty()) {
         std::string_view door = condition.substr(0, condition.find(' '));
@@ -42,7 +43,7 @@ std::string parts_for(const std::vector<std::string>& doors, std::string_view pa
     }
 }
 
-// Returns the page with a value for each name in double braces.
+// Replaces each name in double braces by its value.
 std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values) {
     std::string text;
     while (true) {

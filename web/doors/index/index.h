@@ -3,12 +3,13 @@
 //
 // The page (index.html) links to the doors and shows how programs connect, with addresses to copy.
 // Its script asks /api/v1 for stations and mosaics. Style and script are separate files, since the
-// Content-Security-Policy allows neither within the page. In index.html
+// Content-Security-Policy allows neither within the page. index.html has these marks:
 //
-//   <!--if /api/v1 !/zarr--> ... <!--end-->   is left out unless the server has the first door and
-//                                             lacks the second
-//   {{base}} {{path}} {{host}}                are the server's address, and its parts
-//   {{bucket}} {{version}}                    are those of the bucket of "/s3", and of the program
+//   <!--if /api/v1 !/zarr--> ... <!--end-->   a part that is left out unless the server has the
+//                                             first door and lacks the second
+//   {{base}} {{path}} {{host}}                the server's address, its path, and the address
+//                                             without "http://"
+//   {{bucket}} {{version}}                    the bucket of "/s3", and the version of the program
 //
 // Threads   As Door.
 // Errors    404 for every other path.

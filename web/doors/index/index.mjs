@@ -107,7 +107,7 @@ function summary(stations) {
     return `${parts.join('')}.`;
 }
 
-// Puts a station into the examples. Prefers stations with volumes, and among these stations that are not silent. If the
+// Puts a station into the examples. Prefers stations that have volumes, and next stations that are not silent. If the
 // station has no grids, examples of grids get the first mosaic.
 function fillExamples(stations, domains) {
     const worth = (station) => (station.newest_volume ? 2 : 0) + (isSilent(station) ? 0 : 1);

@@ -175,7 +175,8 @@ export class Editor {
         const { draft } = this.editing;
         const { table, book } = this.app;
         if (!draft || !table || !book) return [];
-        // Make points of the table's opacity. Without its moment, the opacity does not count as the usual one.
+        // Make points of the table's opacity. Leave out the table's moment, because a draft of a moment with its usual
+        // opacity has no points.
         return draft.opacity ?? draftOf({ ...table, moment: '' }, draft.moment, book.usual).opacity ?? [];
     }
     private valueOfSelected(): number {

@@ -289,7 +289,7 @@ export class EditorPlot {
         if (sideways !== undefined) {
             this.actions.move(selection, value + sideways, perKm, doing);
         } else if (upward !== undefined && perKm !== null) {
-            // From 0, count a step up from the start of the axis.
+            // Count a step up from opacity 0 as a step from the start of the axis.
             const next = Math.max(perKm, leastPerKm) * (event.shiftKey ? 2 : 1.1) ** upward;
             this.actions.move(selection, value, next < leastPerKm ? 0 : next, doing);
         } else if (upward !== undefined) {

@@ -94,7 +94,7 @@ export class Hover {
                   )
                 : [texts.notSeen, texts.noEcho, texts.rangeFolded][state ?? 0]!;
         if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
-        // Tell no height of range folded air, which is all along the ray.
+        // Tell no height of range folded air, because the ray may cross it at many heights.
         if (layer === 'volume' && state !== CellState.value) return [told, ...from];
         // Tell the height of a column maximum only if it has a value and its cells are not halved.
         const isAtOne = layer !== 'maximum' || (picked.halvings === 0 && state === CellState.value);
@@ -122,8 +122,8 @@ export class Hover {
         return state === CellState.notSeen ? [beam] : [beam, this.when(timeMs)];
     }
 
-    // Returns the lines about the beam. If the facts list no sweeps, no beam may have had this elevation, so the lines
-    // have only `from`, the way from the site.
+    // Returns the lines about the beam. If the facts list no sweeps, it is unknown whether any beam had this elevation.
+    // The lines then have `from`, the way from the site, instead of the beam.
     private beamLines(picked: Picked, from: string[]): string[] {
         const { units } = this.app.state;
         const { known } = this.facts;

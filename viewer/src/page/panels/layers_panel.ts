@@ -248,7 +248,7 @@ export class LayersPanel {
         );
         says.textContent = hint;
     }
-    // Turns the camera to the side of the section on which its end A is at the left.
+    // Turns the camera so that it looks at the section from the side, with the section's end A at the left.
     private lookAtSection(): void {
         const { section } = this.layers;
         const { shown, state } = this.app;
@@ -298,7 +298,7 @@ export class LayersPanel {
     private drawCrop(): void {
         this.draw(CropTool, words.dragCrop);
     }
-    // Moves a side of the box. It stays at least a hundredth of the range from the opposite side.
+    // Moves a side of the box. Keeps a distance of at least a hundredth of the grid's extent to the opposite side.
     private slideCrop(side: keyof Crop, value: number): void {
         const box = wholeBox(this.app);
         if (!this.layers.crop || !box) return;

@@ -57,7 +57,7 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
 
 export class Reader implements Tool {
     private at: Plane | null = null; // place of the last click, in meters from the middle of the grid
-    private picked: { of: Shown; what: Picked } | null = null; // reading of that click, and the grid that was shown
+    private picked: { of: Shown; what: Picked } | null = null; // reading of the last click, and its grid
     private waits: [number, number] | null = null; // pixel of a click for which cells along the ray have not come
     private domain = '';
     private close = labeledButton('reading-close', '×', texts.close, () => this.leave());

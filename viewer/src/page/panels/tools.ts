@@ -81,7 +81,7 @@ export class ToolsPanel {
         if (!isUsed) this.tell(texts.tools.flyHint);
     }
 
-    // Ends the tool in use, and begins a tool unless that was in use.
+    // Ends the tool in use. Then begins the tool that `make` makes, unless that tool was in use (`isUsed`).
     private use(id: string, isUsed: boolean, make: (ended: () => void) => Tool): void {
         this.toldOf = null;
         this.pointers.use(null);
@@ -94,9 +94,9 @@ export class ToolsPanel {
         press(id, true);
     }
 
-    // Returns the raw files that the server offers of the shown grid. For a region, these are the files of its sites;
-    // for a frame between volumes, the file of the volume before it. If the facts of the grid do not come, tells the
-    // error and returns null.
+    // Returns the raw files of the shown grid, as far as the server offers them. For a region, these are the files of
+    // the volumes in the grid. For a frame between volumes, this is the file of the volume before the frame. If the
+    // facts of the grid do not come, tells the error and returns null.
     private async rawFiles(): Promise<RawFile[] | null> {
         const { shown } = this.app;
         if (!shown) return [];
@@ -117,7 +117,7 @@ export class ToolsPanel {
         if (source_files.length === 1 && own) return [own];
         const named = source_files.map((name) => ({ station: name.slice(0, 4), name }));
         const isThere = await Promise.all(named.map(({ station, name }) => hasRaw(station, name)));
-        if (!isThere.includes(true)) await domains(); // throws if the server does not answer, and a proxy did
+        if (!isThere.includes(true)) await domains(); // throws if only a proxy answered, not the server
         return named.filter((_, i) => isThere[i]);
     }
 

@@ -61,7 +61,8 @@ export class StartData {
         return domain.moments.find((one) => one.moment === pictured) ?? domain.moments[0];
     }
 
-    // Asks for the facts of a domain's newest grid. If that fails, keeps the facts of this grid if they are known.
+    // Asks for the facts of a domain's newest grid. If the request fails, keeps the facts of the same grid if they are
+    // known.
     private async see(domain: Domain, isStation: boolean): Promise<SeenDomain> {
         const moment = StartData.momentOf(domain);
         const facts = moment
@@ -86,8 +87,8 @@ export class StartData {
             : undefined;
     }
 
-    // Returns the newest known facts of a station; null if there are none. Asks for its newest grid if that is not
-    // known.
+    // Returns what is known of a station; null if nothing is. Asks once for the facts of the station's newest grid,
+    // unless they are known.
     find(domain: Domain): SeenDomain | null {
         const key = `${domain.domain} ${StartData.momentOf(domain)?.newest ?? ''}`;
         if (!this.known(domain) && !this.asked.has(key)) {
@@ -103,9 +104,9 @@ export class StartData {
         return domain.moments.find((one) => one.moment === pictured)?.newest ?? null;
     }
 
-    // Returns the domains to draw, in the order of drawing. First come the stations that no mosaic shows, the oldest
-    // picture first, then the mosaics that are up to date. Takes the first mostPicturedStations of `visible`, which is
-    // sorted by distance.
+    // Returns the domains to draw, in the order of drawing. First come stations that no mosaic shows, the oldest
+    // picture first, then the mosaics that are up to date. The stations are the first mostPicturedStations of `visible`
+    // that no mosaic shows. `visible` is sorted by distance.
     pictures(
         domains: Domain[],
         visible: StationPlace[],

@@ -1,10 +1,11 @@
-// Draws a surface. Inside of it, at least half of the cells about a place have values, and the mean of these is at
-// least the chosen value (with IS_BELOW, at most). Where a crop cuts the surface open, the cut shows the values inside.
+// Draws a surface. Inside of it, at least half of the cells about a place have values, and the mean of these values is
+// at least the chosen value (with IS_BELOW, at most). Where a crop cuts the surface open, the cut shows the values
+// inside.
 uniform float chosen; // shown code
 uniform vec2 depthRange;
 uniform vec3 cellM; // of drawn space
 
-const float surfaceExposure = 0.86; // with it a surface is about as light as its color
+const float surfaceExposure = 0.86; // makes a surface about as light as its color
 const vec3 plainColor = vec3(0.62); // where the table has no color
 const float nowhere = 1e30; // depth if the ray misses the surface; other depths may be less than 0
 
