@@ -21,7 +21,7 @@ const test = base.extend({
     await use({
       notice,
       nothing: () => expect(notice).toHaveText(''),
-      // Checks whether the page says that it follows the newest.
+      // Checks that the page says whether it follows the newest, as `isLive` wants.
       live: (isLive = true) => expect(follow).toHaveAttribute('aria-pressed', String(isLive)),
     });
   },
@@ -33,7 +33,7 @@ async function openOnly(viewer, view) {
   await viewer.page.goto('about:blank');
   await viewer.goto(view);
 }
-// Waits until the page has sent `count` requests whose address has this part.
+// Waits until the page has sent at least `times` requests whose address has this part.
 const expectAsked = (viewer, part, times) => expect.poll(() => viewer.asked(part), `requests for ${part}`).toBeGreaterThanOrEqual(times);
 // Sends an event to the page once the page listens.
 async function tell(relay, kind, data) {

@@ -139,7 +139,7 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
     expect(await readAt(viewer, resting), 'readings').toEqual(readOfParts);
   });
 
-  // 2026-11-29: the page did not say so, and told the height of another value.
+  // 2026-11-29: the page did not say that cells were halved, and told the height of another value.
   partly('says that layers of halved cells are read as they are drawn', async ({ viewer, server: { station }, parts }) => {
     await viewer.open(parts.view(parts.scene));
     for (const [layer, pattern] of [
@@ -155,7 +155,7 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
   });
 
   // A finger never rests over the picture, so a tap must read at once. 2026-11-28: a tap read the column of the ground
-  // behind the echo. 2026-11-29: it told the height of the ground for a maximum, and read a plane behind the volume.
+  // behind the echo. 2026-11-29: a tap told the height of the ground for a maximum, and read a plane behind the volume.
   partly('reads the same for a finger as for a pointer', async ({ viewer, parts: { scene, view } }) => {
     await viewer.open(view(scene));
     await complete(viewer);

@@ -26,8 +26,8 @@ const statesBlockBytes = 1024;
 const clipped = (from: number, to: number, count: number): [number, number] | null =>
     to < 0 || from >= count ? null : [Math.max(0, from), Math.min(count - 1, to)];
 
-// Returns the columns and rows of the grid that hold all points; null without points, or if all points are beyond one
-// side of the grid.
+// Returns the smallest range of the grid's columns and rows about all points, cut off at the border of the grid.
+// Returns null without points, or if all points are beyond one side of the grid.
 export function boundsAbout(points: readonly Plane[], grid: PackedGrid): Bounds | null {
     const size = cellSizeM(grid);
     const along = (axis: 0 | 1, count: number) => {
@@ -70,8 +70,8 @@ function fits(
     return bytes <= limits.bytes;
 }
 
-// Returns the window about the bounds of the finest level that fits the limits, from the level `finest` on. If none
-// fits, returns the window of the coarsest level.
+// Returns the window about the bounds at the finest level that is within the limits. Tries no level finer than
+// `finest`. If no level is within the limits, returns the window of the coarsest level.
 export function windowAbout(
     bounds: Bounds,
     finest: number,

@@ -1,5 +1,5 @@
 // Moves and turns the eye of the camera in a flight. A camera does not store its eye, so these functions move the point
-// that it looks at until the eye is at the wanted place.
+// that the camera looks at until the eye is at the wanted place.
 
 import { ranges } from '../facts';
 import { Box, Camera, Vec3, ViewGeometry, minus, plus } from './geometry';

@@ -148,8 +148,8 @@ export class ViewGeometry {
         return [near, Math.max(far, near + nearest)];
     }
 
-    // Returns the least and the greatest depth of the visible part of the box. Over the picture, the depth at which
-    // rays meet a plane is least and greatest in corners.
+    // Returns the least and the greatest depth of the visible part of the box. The depth at which rays meet a level
+    // plane is least and greatest in corners of the picture, so these are enough.
     get shownDepths(): [number, number] {
         const corners: [number, number][] = [
             [0, 0],

@@ -2,9 +2,9 @@
 // (render/products/cell_mixer.h).
 //
 // The cells about a place give weights to the four states. The place is
-//   - not seen if that weighs more than all other states together, or if nothing has weight;
-//   - else range folded if that weighs more than values, and more than no echo;
-//   - else no echo if that weighs more than values;
+//   - not seen if this state weighs more than all other states together, or if nothing has weight;
+//   - else range folded if this state weighs more than values, and more than no echo;
+//   - else no echo if this state weighs more than values;
 //   - else the mean of the values alone. Phases average on a circle. Velocities take the heaviest value, because a grid
 //     does not say at which velocity they alias.
 

@@ -35,7 +35,8 @@ export class StreamPlaces {
         };
     }
 
-    // Takes a place at once. If other pages then answer that they have all places, gives it back and calls `noPlace`.
+    // Takes a place at once. If other pages then answer that they have all places, gives the place back and calls
+    // `noPlace`.
     take(noPlace: () => void): void {
         const id = (this.id = String(Math.random()));
         this.state = 'asking';

@@ -1,4 +1,4 @@
-// Fetches the bricks that a view needs of a grid in parts, from the middle of the picture outward. The picture always
+// Fetches the bricks of a grid in parts that a view needs, from the middle of the picture outward. The picture always
 // shows the finest bricks that have come, and elsewhere the first halved grid.
 
 import { GridInParts, LoadedGrid } from '../atlas/loaded_grid';
@@ -85,7 +85,7 @@ class Stream {
         return level === this.parts.level || this.pool.has(key);
     }
 
-    // Takes another view. Fetches the bricks that it needs, and stops fetching others.
+    // Takes another view. Fetches the bricks that this view needs, and stops fetching other bricks.
     look(geometry: ViewGeometry, finest: number): void {
         const { grid } = this.loaded;
         const { pyramid, level } = this.parts;

@@ -29,7 +29,7 @@ export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, hal
         pen.fill('nonzero');
     };
     // Paint sea, then land, then lakes. A cell in which two rings touch may keep a little of the color below. The
-    // picture does not show this, because a place is water only if half of it is.
+    // picture does not show this, because a place counts as water only if at least half of it is water.
     pen.fillStyle = 'white';
     pen.fillRect(0, 0, picture.width, picture.height);
     paint(land, 'black');

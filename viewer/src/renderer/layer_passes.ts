@@ -310,7 +310,7 @@ export class LayerPasses {
         program.colors('foldedColor', layers.folded);
     }
 
-    // Binds the falls of a volume's values, and the sun, which light it.
+    // Binds the sun and the falls of the volume (fields/falls.ts), by which the program lights the volume.
     bindLight(
         unit: number,
         falls: Falls & { placing: Placing },

@@ -124,7 +124,7 @@ class PalReader {
         });
     }
 
-    // Returns the moment and the unit of the values, and how many units of the file make one of this unit.
+    // Returns the moment and the unit of the values, and how many units of the file make one unit of the values.
     private meaning(): { moment: string; unit: string; perOurs: number } {
         let moment = '';
         let unit = '';

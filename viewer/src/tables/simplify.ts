@@ -2,9 +2,9 @@
 
 import { Rgba } from '../wire/color_tables';
 
-// Returns the indexes of the points to keep of a line of `count` points (Douglas and Peucker). `errorAt(first, last,
-// i)` returns the error of leaving out point i between the kept points `first` and `last`; it is at most `most` for
-// each left out point.
+// Chooses the points to keep from a line of `count` points (Douglas and Peucker), and returns their indexes.
+// `errorAt(first, last, i)` returns the error of leaving out point i between the kept points `first` and `last`. The
+// error of each left out point is at most `most`.
 export function cornersToKeep(
     count: number,
     most: number,

@@ -52,7 +52,7 @@ export class Timeline {
     follow(): void {
         this.player = followed(this.player, this.newestOf(this.player.times));
     }
-    // Goes to the time nearest to `wanted`. Returns false if that time is in another second.
+    // Goes to the time nearest to `wanted`. Returns false if the nearest time is in another second than `wanted`.
     find(wanted: string): boolean {
         this.player = { ...this.player, at: nearestTime(this.player.times, wanted) };
         const second = (time: string) => Math.floor(Date.parse(time) / 1000);

@@ -73,7 +73,7 @@ class RawFile {
     }
 }
 
-// Returns the reason why no command draws the view; an empty text if one does.
+// Returns the reason why no command draws the view; an empty text if a command does.
 function whyNoCommand(app: App, drawing: Drawing): string {
     const { shown, state } = app;
     const words = texts.noCommand;

@@ -39,8 +39,8 @@ export class BaseMap {
         this.loaded();
     }
 
-    // Returns the best lines that are here for a view; null if none are. Once the view rests, loads the lines that it
-    // needs.
+    // Returns the best lines that are here for a view; null if there are none. Once the view rests, loads the lines
+    // that the view needs.
     for(view: MapView): MapPaths | null {
         const seen = boxBetween(view, [0, 0], [view.width, view.height]);
         const box = {
