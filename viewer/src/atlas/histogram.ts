@@ -27,8 +27,8 @@ export function countCodes(
     return counts;
 }
 
-// Returns the number of cells in each of at most `most` columns of equal width from `low` to `high`. Values outside of
-// this range are not counted.
+// Returns the number of cells in each of at most `most` columns of equal width from `low` to `high`. Values below
+// `low`, and values of `high` or more, are not counted.
 export function histogramOf(
     grid: PackedGrid,
     counts: Uint32Array,

@@ -1,5 +1,5 @@
-// Assigns slots of the atlas to columns of bricks. If slots run out, the least recently used columns lose theirs, but
-// never the pinned columns.
+// Assigns slots of the atlas to columns of bricks. If slots run out, the least recently used columns lose their slots,
+// but pinned columns never do.
 
 import { ResidentColumn } from './page_table';
 
@@ -33,8 +33,8 @@ export class SlotPool {
         this.pinned.add(key);
     }
 
-    // Gives a slot to each brick of a column whose `hasValues` is true. Columns with a key in `wanted` keep their
-    // slots. Returns null if there is no room.
+    // Gives a slot to each brick of a column whose `hasValues` is true. If slots run out, takes slots from the least
+    // recently used columns whose keys are neither pinned nor in `wanted`. Returns null if that is not enough.
     take(
         level: number,
         x: number,

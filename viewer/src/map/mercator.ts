@@ -156,7 +156,7 @@ export function boxBetween(view: MapView, a: [number, number], b: [number, numbe
 
 const turned = (degrees: number): number => ((degrees % 360) + 360) % 360;
 
-// Returns the smallest box that holds all places, whose longitudes are within 180 degrees of `middleDeg`.
+// Returns the smallest box that holds all places. The longitudes of its sides are within 180 degrees of `middleDeg`.
 export function boxAbout(middleDeg: number, places: Place[]): MapBox {
     const longitudes = places.map((place) => middleDeg - 180 + turned(place.longitudeDeg - middleDeg + 180));
     const latitudes = places.map((place) => place.latitudeDeg);

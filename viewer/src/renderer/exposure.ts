@@ -14,7 +14,7 @@ function litLightness(l: number, factor: number): number {
 }
 
 // Returns the exposure for pixels of four bytes: lightness, half of the light's factor, opacity (each of 255), and a
-// byte that is not used. Returns 1 if no pixel is opaque.
+// byte that is not used. Returns 1 if every pixel is clear.
 export function exposureOf(pixels: Uint8Array): number {
     let [low, high] = [leastExposure, mostExposure];
     let isEmpty = true;

@@ -21,7 +21,8 @@ export class Governor {
         private mostDE: number,
     ) {}
 
-    // Returns the rung for the next frame. This is the first rung if the view does not move, or if no error is allowed.
+    // Returns the rung for the next frame. This is the first rung if the view does not move, or if no rung is allowed.
+    // Until a frame has been measured, this is the most exact allowed rung.
     next(isMoving: boolean): Rung {
         const still = this.rungs[0]!;
         if (!isMoving) {

@@ -87,7 +87,7 @@ export function mapLines(all: ProjectedLine[], halfM: number): MapLines[] {
     });
 }
 
-// Returns rings about the first site, and the border of the grid.
+// Returns the border of the grid, rings about the site if there is just one, and marks of rings and sites.
 export function ringLines(
     sites: Site[],
     plane: GridPlane,

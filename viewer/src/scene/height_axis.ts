@@ -48,8 +48,9 @@ function axisOver(
     return marks.length > 1 ? { foot, head, marks } : null;
 }
 
-// Places the axis at the leftmost free corner of the grid, or in the left part of the picture if there is none.
-// `isFree` returns true for pixels that are in the picture and not covered.
+// Places the axis at the leftmost free corner of the grid, or in the left part of the picture if no corner is free.
+// Returns null if there is no place for the axis. `isFree` returns true for pixels that are in the picture and not
+// covered.
 export function heightAxis(
     geometry: ViewGeometry,
     unit: Unit,

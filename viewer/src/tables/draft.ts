@@ -189,8 +189,8 @@ export function tableOf(draft: Draft, usual: UsualOpacity, least: number | null 
     return { ...table, bar_begin: Math.max(table.bar_begin, draft.barBegin) };
 }
 
-// Returns the table for a .pal file, whose alpha is the opacity relative to the usual opacity. `isWhole` is false if
-// the table is anywhere more opaque than usual, which a .pal file cannot express.
+// Returns the table for a .pal file, whose alpha is the opacity relative to the usual opacity. `isWhole` is false if a
+// color of the table is clearly more opaque than usual, which a .pal file cannot express.
 export function tableForPal(
     draft: Draft,
     usual: UsualOpacity,

@@ -1,4 +1,5 @@
-// Edits drafts. Each function returns a new draft, or the same draft if the edit is not possible.
+// Edits drafts. An edit does not change the given draft. It returns a new draft, or the given draft if the edit is not
+// possible.
 
 import { Rgba } from '../wire/color_tables';
 import { Draft, OpacityPoint, colorAt, mostPoints, perKmAt, roundedPerKm, roundedValue } from './draft';

@@ -6,8 +6,8 @@ export interface BrickRange {
 }
 
 // Returns ranges of bricks that hold the columns, each of `layers` bricks. Columns share a range if the columns between
-// them have at most `mostSkipped` bytes, and the range has at most `most` bytes. `weightOf` returns the bytes of a
-// column.
+// them have at most `mostSkipped` bytes, and the range has at most `most` bytes and at most mostBricks bricks.
+// `weightOf` returns the bytes of a column.
 export function rangesOf(
     columns: readonly number[],
     layers: number,

@@ -92,7 +92,8 @@ function whyNoCommand(app: App, drawing: Drawing): string {
 }
 
 // Copies the command that draws the view in the size of the page. The command names the shown time even if the page
-// follows the newest. If no table of the program has the colors, saves them in a file that the command names.
+// follows the newest. If the user edited the colors or set a threshold, saves the shown table in a file that the
+// command names.
 function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile: RawFile): void {
     const why = whyNoCommand(app, drawing);
     const size = drawing.geometry();

@@ -316,7 +316,8 @@ export class StartMap {
     private tellBox(): void {
         this.say(texts.start.boxed(this.stationsInBox().map((one) => one.icao)));
     }
-    // Opens the region of the box, or the station if the box holds just one. Without stations, tells so.
+    // Opens the region of the box, or the station if the box holds just one. If the box holds no station, tells the
+    // user.
     async openBox(): Promise<void> {
         const box = this.boxDegrees();
         const inside = this.stationsInBox();
@@ -363,8 +364,8 @@ export class StartMap {
         event.preventDefault();
     }
 
-    // Chooses the next station in a direction from the chosen station, or without one the station nearest to the
-    // middle.
+    // Chooses the next station in a direction from the chosen station. If no station is chosen, chooses the station
+    // nearest to the middle of the map.
     private step(way: Pixel): void {
         const { view, data } = this;
         if (!view || data.stations.length === 0) return;
@@ -391,8 +392,8 @@ export class StartMap {
         if (dx !== 0 || dy !== 0) this.move(dx, dy);
     }
 
-    // Begins a box at the chosen station, which arrows then widen. Drops the box if there is one already. Without a
-    // chosen station, lets drags make boxes.
+    // Begins a box at the chosen station; arrows then widen the box. Drops the box if keys have begun one already. If
+    // nothing is chosen, begins or ends the mode in which drags make boxes.
     private boxByKeys(): void {
         if (this.anchor) return this.dropBox();
         this.anchor = this.chosen;
