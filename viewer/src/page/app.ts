@@ -290,7 +290,7 @@ export class App {
         const moments = (this.domain?.moments ?? []).map((one) => one.moment);
         const before = this.state.moment;
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
-        // Drop the threshold with its moment, whose unit it has.
+        // Drop the threshold if the moment changes, because the threshold is in the unit of the old moment.
         if (before !== '' && this.state.moment !== before) this.state.least = null;
         const missed = [
             isThere ? '' : texts.notice.otherDomain(domain, this.state.domain),

@@ -98,7 +98,7 @@ export class FlyTool implements Tool {
         }
     }
 
-    // Moves by the time since the last move.
+    // Moves the camera by the held keys, for the time since the last move but at most half a second.
     private move(): void {
         const view = this.window();
         if (this.held.size === 0 || !view) return;

@@ -175,7 +175,7 @@ export class Renderer {
         }
     }
 
-    // Call after a change of the atlas's indirection, which this uploads.
+    // Uploads the atlas's indirection. Call after a change of the indirection.
     putIndirection(): void {
         const gl = this.gl;
         if (!this.uploaded) return;
@@ -386,7 +386,7 @@ export class Renderer {
         });
         const program = this.graphics.use(wanted, geometry);
         this.bindGrid(uploaded, frame, program);
-        // Step through the whole depth of the grid, on which the density of a veil depends.
+        // Use steps over the whole depth of the grid, because the density of a veil depends on this depth.
         program.float('near', geometry.nearM);
         program.float('stepM', (geometry.farM - geometry.nearM) / frame.slices);
         this.passes.bindAir(4, air, layers, program);
@@ -456,8 +456,8 @@ export class Renderer {
     }
 }
 
-// Returns the depths between which slices are. For a grid in parts these are the depths of its visible part, which may
-// be small.
+// Returns the depths of the first and the last slice. For a grid in parts, slices are only in its visible part, which
+// may be a small part of the box.
 function slicedDepths(loaded: LoadedGrid, geometry: ViewGeometry): [number, number] {
     return loaded.stream ? geometry.shownDepths : [geometry.nearM, geometry.farM];
 }

@@ -20,7 +20,7 @@ export interface PackedSweep {
     azimuthsDeg: Float32Array; // of the radials
     elevationsDeg: Float32Array;
     gateCounts: Uint32Array;
-    startMs: number; // of the first radial
+    startMs: number; // of the first radial; 0 without radials
     timesMs: Float64Array; // of the radials
     codes: Uint8Array | Uint16Array; // radial by radial
 }
