@@ -1,4 +1,5 @@
-// Gives each check of the viewer a data server with the volumes of its project, and a page, in which nothing may fail.
+// Gives each check of the viewer a data server with the volumes of the check's Playwright project, and a page. A check
+// fails if the page has an error that the check did not provoke.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -52,7 +53,7 @@ class Server {
 }
 
 export const test = base.extend({
-  // Paths of raw volumes; without any, the server gets a simulated one.
+  // Paths of raw volumes. If there are none, the server gets a simulated volume.
   volumes: [[], { option: true, scope: 'worker' }],
   server: [
     async ({ volumes }, use) => {

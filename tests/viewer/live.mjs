@@ -1,6 +1,6 @@
 // Measures the time from the end of a sweep to its picture in the viewer (scripts/bench-viewer). Appends a real volume
-// record by record to a file in the drop directory, as LDM does. Before each record, waits until the page has drawn the
-// data of the last record. Prints rows.
+// record by record to a file in the drop directory, as LDM does. After each record, waits until the page has drawn a
+// picture, but not longer than `longestMs`. Prints rows.
 //   node live.mjs ADDRESS STATION VOLUME FILE_IN_DROP_DIRECTORY
 import { appendFileSync, mkdirSync, readFileSync } from 'node:fs';
 import { dirname } from 'node:path';
@@ -10,7 +10,7 @@ import { openPage, withBrowser } from './viewer_page.mjs';
 const [address, station, volume, target] = process.argv.slice(2);
 const [width, height] = [796, 532];
 const headerBytes = 24;
-// A record that closes no sweep of the moment changes no picture. After so long, no picture will come.
+// Longest time to wait for a picture. A record that closes no sweep of the moment brings no picture.
 const longestMs = 2500;
 
 // Splits an archive file into its records. The first piece also has the header of the volume.

@@ -1,5 +1,5 @@
-// Passes requests of a page on to the data server. Checks can make it refuse, hang or break off, change answers, and
-// send events.
+// Passes requests of a page on to the data server. Checks can make the relay refuse, hang, break off, change answers,
+// and send events.
 import { createServer, request } from 'node:http';
 
 export class Relay {
@@ -48,7 +48,7 @@ export class Relay {
   get held() {
     return this.#held.length;
   }
-  // Answers the requests that wait, and holds no more.
+  // Answers the requests that wait. Later requests do not wait.
   release() {
     this.isHeld = () => false;
     for (const act of this.#held.splice(0)) act();

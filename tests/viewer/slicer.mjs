@@ -19,7 +19,7 @@ export class Slicer {
   constructor({ address, difference, directory, pictures = process.env.STORMCELLAR_PICTURES }) {
     Object.assign(this, { address, difference, directory, pictures, files: new Map() });
   }
-  // Returns the path of a file with the newest grid, or null.
+  // Returns the path of a file with the newest grid; null if the server has none.
   async fileOf(station, moment) {
     const name = `${station}-${moment}.scg`;
     if (!this.files.has(name)) {
@@ -29,8 +29,8 @@ export class Slicer {
     }
     return this.files.get(name);
   }
-  // Returns the difference of a picture from the slicer's in CIEDE2000: 99th percentile, mean, greatest, and number of
-  // pixels. `before` and `behind` are more arguments for viewer_difference.
+  // Returns the difference between a picture and the slicer's picture in CIEDE2000: 99th percentile, mean, greatest,
+  // and number of pixels. `before` and `behind` are more arguments for viewer_difference.
   async compare(scene, ppm, { name = 'picture', before = [], behind = [] } = {}) {
     const { azimuth, tilt, zoom, field, exaggeration, opacity, at } = scene;
     if (this.pictures) mkdirSync(this.pictures, { recursive: true });

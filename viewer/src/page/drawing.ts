@@ -32,7 +32,7 @@ export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) =>
 
 export class Drawing {
     readonly labels = element<HTMLCanvasElement>('labels');
-    // Let the browser paint on the processor if there is no graphics processor, which is faster then.
+    // Let the browser paint on the processor if there is no graphics processor, because that is faster then.
     private pen = this.labels.getContext('2d', { willReadFrequently: this.renderer.isSoftware })!;
     private bar = new ColorBar(element<HTMLCanvasElement>('bar'));
     private overlays: Overlay[] = [];
@@ -165,7 +165,7 @@ export class Drawing {
         return allowed.find(({ name }) => name === this.app.state.quality) ?? this.governor.next(isMoving);
     }
 
-    // Asks for bricks once for each view.
+    // Asks for bricks if the view has changed since bricks were last asked for.
     private stream(geometry: ViewGeometry, { halvings }: Rung): void {
         const { camera, exaggeration } = this.app.state;
         const view = JSON.stringify([camera, exaggeration, geometry.width, geometry.height, halvings]);

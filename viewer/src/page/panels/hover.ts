@@ -66,7 +66,8 @@ export class Hover {
         box.style.top = `${Math.max(4, y + 14 + height < window.innerHeight ? y + 14 : y - 14 - height)}px`;
     }
 
-    // Calls `again` once the facts for beam, time and error have come; not at all if they are here or fail.
+    // Calls `again` once the facts for beam, time and error have come. Does not call `again` if the facts are here
+    // already, or cannot be loaded.
     whenTold(again: () => void): void {
         const isRegional = isRegion(this.app.shown?.domain ?? '');
         if (isRegional ? this.facts.sites : this.facts.known) return;

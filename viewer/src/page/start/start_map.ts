@@ -118,8 +118,9 @@ export class StartMap {
         this.draw();
     }
 
-    // Shows all stations, or only the main group if at least 80 % are in it, so that a few stations on other continents
-    // do not shrink the others. Returns null if there is nothing to show.
+    // Fits the view to all mosaics and stations. If at least 80 % of the stations are within 65 degrees of longitude of
+    // their median, leaves out the other stations, because a few stations on other continents would shrink the map.
+    // Returns null if there is nothing to show.
     private fit(): MapView | null {
         const { stations, mosaics } = this.data;
         const middleDeg = stations.map((one) => one.longitudeDeg).sort((a, b) => a - b)[
