@@ -3,14 +3,16 @@
 //
 // A path is opened part by part from `root` down. No part below the root may be a symbolic link, so
 // a program that replaces a directory or a file by a link gains nothing. The root itself may be
-// reached through links. Mounts below the root are followed. Nothing blocks, and only regular files
-// are opened for reading. With an empty root, the directories of the path may be anywhere and may
-// be links, but the file itself may not be a link.
+// reached through links. A directory below the root may be a mount point. Only regular files and
+// directories are read, and opening them never waits for another program, as opening a FIFO would.
+// With an empty root, the directories of the path may be anywhere and may be links, but a file may
+// not be a link.
 //
 // Threads   Functions without state, which read files.
-// Errors    not_found (nothing there, a part that is not a directory or is a link, a path outside
-//           root), not_a_file (the message says what it is instead), permission, io; unsupported
-//           for more than `limit` bytes. Messages begin with the path.
+// Errors    not_found if nothing is at the path, if the path is outside the root, or if a directory
+//           of the path is a link or not a directory; not_a_file if the file is not regular (the
+//           message says what it is); unsupported if it has more than `limit` bytes; permission,
+//           io. Messages begin with the path.
 #pragma once
 
 #include <cstddef>

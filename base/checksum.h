@@ -10,11 +10,11 @@
 
 namespace stormcellar {
 
-// Returns the XXH3 hash of 64 bits with seed 0 (xxHash 0.8). It reveals damage in our own files,
-// and changed raw files.
+// Returns the XXH3 hash of 64 bits with seed 0 (xxHash 0.8). This project uses the hash to find
+// damage in its own files and changes of raw files.
 [[nodiscard]] std::uint64_t xxh3_64(std::span<const std::byte> bytes);
 
-// Computes the same hash for bytes that come in pieces of any size.
+// Computes the hash of xxh3_64() for bytes that come in pieces of any size.
 class Xxh3Stream {
   public:
     Xxh3Stream();

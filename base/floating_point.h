@@ -2,8 +2,8 @@
 //
 // A program may enable traps on invalid operations, division by zero and overflow (feenableexcept,
 // glibc). The rooms never divide by zero or compare NaN on purpose, so such a program works as
-// usual. A number that may be NaN is tested with is_within(), and other libraries, which do not
-// care about traps, are called under MaskedTraps.
+// usual. is_within() tests a number that may be NaN. MaskedTraps disables the traps during a call
+// that may overflow or divide by zero, for example a call of GeographicLib.
 //
 // Threads   Traps belong to a thread.
 #pragma once
@@ -13,15 +13,16 @@
 
 namespace stormcellar {
 
-// Returns true if the value is in the range, and false for NaN. Unlike an ordinary comparison with
-// NaN, this is not an invalid operation.
+// Returns true if the value is from `least` to `greatest`, and false if one of the three is NaN.
+// Comparing a quiet NaN with < or >= is an invalid operation, but passing it here is not.
 template <class Real>
 [[nodiscard]] bool is_within(Real value, Real least, Real greatest) noexcept {
     return std::isgreaterequal(value, least) && std::islessequal(value, greatest);
 }
 
-// Disables the traps of this thread while it lives, and then clears the flags of exceptions. If no
-// traps are enabled, it does nothing, which costs one instruction.
+// Disables the traps of the thread while the object lives. The destructor clears the flags of
+// exceptions and enables the same traps again. If no traps were enabled, the destructor does
+// nothing, so the flags stay.
 class MaskedTraps {
   public:
     MaskedTraps() noexcept : traps_(fegetexcept()) {

@@ -1,7 +1,7 @@
 // base/local_time.h -- converts UTC to local time.
 //
 // The names of zones, such as "America/Chicago", are those of the system's IANA database (package
-// tzdata). A time is converted by the rules that applied then.
+// tzdata). A time is converted by the rules that its zone had at that time.
 //
 // Threads   Any thread may call. TZ and the machine's zone are read and never set.
 #pragma once
@@ -19,8 +19,8 @@ namespace stormcellar {
 // unsupported if the database is missing.
 [[nodiscard]] Result<std::string> format_local(UtcTime time, std::string_view zone);
 
-// Returns the zone in TZ or, if TZ is not set, the zone of /etc/localtime; empty if that is not the
-// name of a zone.
+// Returns the zone in TZ or, if TZ is not set, the zone of /etc/localtime. Returns an empty text if
+// the zone has no name in the database.
 [[nodiscard]] std::string machine_time_zone();
 
 }  // namespace stormcellar

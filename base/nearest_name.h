@@ -15,9 +15,10 @@ namespace stormcellar {
 // twice. An edit inserts, deletes or replaces a byte, or exchanges two neighboring bytes.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// Returns the name with the least edit_distance() from the word, ignoring case; the first one if
-// several have it. Returns none if every name needs more than one edit and more than one for every
-// three of its bytes, or an edit for every byte; or if the word has more than 80 bytes.
+// Returns the name with the least edit_distance() from the word, ignoring case, and the first such
+// name if there are several. A name counts only if its distance is at most 1 or at most a third of
+// its length, and less than its length, in bytes. Returns none if no name counts, or if the word
+// has more than 80 bytes.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,
                                                       std::span<const std::string> names);
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <vector>
 
-// The assembler puts the table into the program, which so needs no path to a file. clang-format off
+// The assembler puts the table into the program, so no file is read. clang-format off
 asm(R"(
     .pushsection .rodata
     .hidden stormcellar_places_begin

@@ -1,8 +1,8 @@
 // base/place_table.h -- a table of towns, and the form in which their names are compared.
 //
 // The table has the incorporated places and the census-designated places of the United States and
-// Puerto Rico, the towns of New England, the townships of New Jersey, and the cities that the map
-// shows elsewhere.
+// Puerto Rico, the towns of New England, the townships of New Jersey, and the cities of other
+// countries that the map shows.
 //
 // Units     Degrees on WGS84. A position is the middle of a place's area, or a city's center.
 // Threads   Any thread may call every function; the table is read at the first call.

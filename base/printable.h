@@ -16,8 +16,8 @@ namespace stormcellar {
 // Replaces control characters, invisible characters, and bytes that are not UTF-8 by \xNN for each
 // byte. For example, U+202E, which reverses the following text, becomes "\xe2\x80\xae". So the
 // result is always one line and hides nothing. Invisible characters include variation selectors,
-// and the joiners of emoji and of some scripts. Letters stay unchanged, even in scripts that run
-// from right to left and if they look like letters of another alphabet.
+// and the joiners of emoji and of some scripts. Letters stay unchanged, even if their script runs
+// from right to left, or if they look like letters of another alphabet.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace stormcellar

@@ -11,15 +11,15 @@
 
 namespace stormcellar {
 
-// Lets `most` lines through in each period, and counts the others as held back. After a period with
-// lines held back, the next one begins only when take_held_back() has returned their number.
+// Lets `most` lines through in each period, and counts further lines as held back. If lines were
+// held back, the next period begins only when take_held_back() has returned their number.
 class RateLimit {
   public:
     RateLimit(int most, std::chrono::seconds period) : most_(most), period_(period) {}
     // Returns true if a line may be logged now; otherwise it counts as held back.
     bool allow(SteadyTime now);
-    // Returns how many lines were held back, once, after the period is over. Returns none before
-    // that, or if no lines were held back.
+    // Returns how many lines were held back in the period, if the period is over. Returns none
+    // during the period, if no lines were held back, or if their number was returned before.
     std::optional<std::uint64_t> take_held_back(SteadyTime now);
     // Returns true if this object may be deleted: its period is over, and it has no lines to
     // report.

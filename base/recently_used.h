@@ -97,7 +97,7 @@ class RecentlyUsed {
         entries_.erase(entry);
     }
 
-    // The type of `places_` for keys without an order, which need none.
+    // The empty type of `places_` for keys without an order.
     struct NoPlaces {};
     template <class K>
     struct PlacesOf {

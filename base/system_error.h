@@ -9,8 +9,8 @@
 
 namespace stormcellar {
 
-// Returns not_found, permission, no_space, exhausted or busy for the numbers with that meaning, and
-// io for all others.
+// Returns not_found, permission, no_space, exhausted or busy for the error numbers that mean these,
+// and io for all other numbers.
 [[nodiscard]] ErrorCode error_code_of(int error_number);
 
 // Returns an error with the code of error_code_of() and the message "WHAT: REASON", with the

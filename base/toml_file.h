@@ -2,10 +2,10 @@
 //
 // Every complaint names the file, the line (if it has one) and the key, as in "storm.toml:12:
 // [storm.hook] width_km: must be a number, is text". Reading continues after a complaint; finish()
-// returns the complaint with the earliest line. If that is about a missing key, finish() returns
-// the complaint about an unknown key with a similar name instead, if there is one. Keys and tables
-// that no code has read are complaints too, so that a misspelled key does not silently leave a
-// default in place.
+// returns the complaint with the earliest line. If this complaint is about a missing key, and the
+// file has an unknown key with a similar name, finish() returns the complaint about the unknown key
+// instead. Keys and tables that no code has read are unknown, and each is a complaint, so that a
+// misspelled key does not silently leave a default in place.
 //
 // Threads   One thread at a time.
 // Errors    not_found, io and others from reading the file; bad_argument for its content.

@@ -3,9 +3,9 @@
 //
 // A file appears in these steps: create a temporary file in the same directory, write it, fsync it,
 // rename it, fsync the directory. When commit() has returned success, the file survives a power
-// cut. If it fails, the path has the old file or, if only the sync of the directory failed, the new
-// one, whole. Tests replace FileSystem by a double that loses data that were not synced, is full,
-// or fails (tests/testing).
+// cut. If commit() fails, the path still has the old file, or the whole new file if only the sync
+// of the directory failed. Tests replace FileSystem by a double that has no space, fails, or loses
+// data that were not synced (tests/testing).
 //
 // Units     Offsets and sizes are in bytes.
 // Threads   Many threads may use one FileSystem. An AtomicFile may be used by one thread at a time.
@@ -45,8 +45,8 @@ class FileSystem : public Interface {
 // Returns the file system of the operating system.
 [[nodiscard]] FileSystem& real_file_system();
 
-// The prefix of the names of our temporary files, by which leftovers are found and no other files
-// are removed.
+// The prefix of the names of our temporary files. Only files with this prefix are removed as
+// leftovers.
 inline constexpr std::string_view temporary_prefix = ".stormcellar-tmp-";
 // Returns the prefix of this process's temporary files. It contains the host's name, because
 // writers on several hosts may share a directory.

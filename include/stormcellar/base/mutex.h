@@ -1,13 +1,14 @@
 // stormcellar/base/mutex.h -- mutexes whose use clang can check.
 //
-// A shared member names its mutex: int count_ STORMCELLAR_GUARDED_BY(mutex_) = 0; a function that
-// is called with it: void add() STORMCELLAR_REQUIRES(mutex_); scripts/check-locks compiles with
-// clang's -Wthread-safety, which refuses an access to the member, or a call of the function,
-// without the lock. The analysis ignores constructors and destructors. It treats a lambda as a
-// separate function, so a lambda that runs under the lock needs REQUIRES, too, and a wait must be a
-// loop without a lambda: while (!is_done_) changed_.wait(mutex_);
+// A shared member names its mutex, as in `int count_ STORMCELLAR_GUARDED_BY(mutex_) = 0;`. A
+// function that must be called with the mutex held names it, too, as in `void add()
+// STORMCELLAR_REQUIRES(mutex_);`. scripts/check-locks compiles with clang's -Wthread-safety, which
+// refuses an access to the member, or a call of the function, without the lock. The analysis
+// ignores constructors and destructors. It treats a lambda as a separate function, so a lambda that
+// runs under the lock needs STORMCELLAR_REQUIRES, too, and a wait must be a loop without a lambda,
+// as in `while (!is_done_) changed_.wait(mutex_);`.
 //
-// Cost      None: each call is one call of the standard library. With gcc the macros are empty.
+// Cost      None beyond the standard library's mutexes. With gcc the macros are empty.
 // Threads   Any thread.
 // Errors    None.
 #pragma once
@@ -23,12 +24,12 @@
 #define STORMCELLAR_LOCK_ATTRIBUTE(...)
 #endif
 
-// For a member that is used only with the mutex held; POINTEE: for the object to which a pointer
-// points.
+// GUARDED_BY is for a member that is used only with the mutex held. POINTEE_GUARDED_BY is for a
+// pointer to an object that is used only with the mutex held.
 #define STORMCELLAR_GUARDED_BY(mutex) STORMCELLAR_LOCK_ATTRIBUTE(guarded_by(mutex))
 #define STORMCELLAR_POINTEE_GUARDED_BY(mutex) STORMCELLAR_LOCK_ATTRIBUTE(pt_guarded_by(mutex))
-// For a function that is called with the mutex held; SHARED: at least for reading; EXCLUDES: not
-// held.
+// REQUIRES is for a function that must be called with the mutex held, REQUIRES_SHARED with the
+// mutex held at least for reading, and EXCLUDES with the mutex not held.
 #define STORMCELLAR_REQUIRES(...) STORMCELLAR_LOCK_ATTRIBUTE(requires_capability(__VA_ARGS__))
 #define STORMCELLAR_REQUIRES_SHARED(...) \
     STORMCELLAR_LOCK_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))

@@ -1,13 +1,13 @@
 // stormcellar/base/station_rule.h -- decides which stations' data are accepted.
 //
 // A file may claim to be from any station, and each accepted station gets a database, a domain in
-// the cache and a share of the memory and of the queue. So only stations that pass this rule get
-// anything. There are three rules:
+// the cache and a share of the memory and of the queue. So only stations that pass a rule get
+// these. There are three rules:
 //   known   the station table, and the stations added to it (set_added_stations())
-//   any     the same, and the first `most_further` other names that are admitted
+//   any     the stations of `known`, and the first `most_further` other names that are admitted
 //   listed  only the listed stations
-// Files of all other stations are cataloged among those of unknown stations, and not gridded. Every
-// rule accepts only names of four characters, [A-Z][A-Z0-9]{3}.
+// Files of all other stations are cataloged among the files of unknown stations, and not gridded.
+// Every rule accepts only names of four characters, [A-Z][A-Z0-9]{3}.
 //
 // Threads   Any thread may call every function.
 // Errors    None.

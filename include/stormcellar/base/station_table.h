@@ -5,7 +5,7 @@
 //
 // Units     Degrees on WGS84, meters above mean sea level.
 // Threads   Any thread may call every function except set_added_stations(); see there.
-// Errors    None. An unknown station gives none or an empty text.
+// Errors    None. For an unknown station, a function returns none or an empty text.
 // Accuracy  Positions to about 0.001 degrees (100 m), altitudes as published, to about 1 m, with
 //           the exceptions named in docs/data-sources.md.
 // Source    docs/data-sources.md.
@@ -38,9 +38,9 @@ struct Station {
 
 // Returns the station with which a file name begins, as in KTLX20240601_220000_V06 or, in NCEI's
 // names, 6500KTLX19910720_160529.Z. Otherwise returns the station that is a word of the name, as in
-// Level2_KTLX_19990503_2356.ar2v and 19990503_235621_KTLX.gz, or that begins a word before a digit.
-// Ignores case. Returns an empty text if find_station() finds none of these, or if words name
-// different stations.
+// Level2_KTLX_19990503_2356.ar2v and 19990503_235621_KTLX.gz, or that begins a word and is followed
+// by a digit. Ignores case. Returns an empty text if find_station() finds none of these, or if
+// words name different stations.
 [[nodiscard]] std::string station_in_name(std::string_view file_name);
 
 // A station that a configuration or a command line adds to the table. If the table already has the

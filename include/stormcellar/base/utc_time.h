@@ -32,8 +32,8 @@ inline constexpr std::chrono::minutes tolerated_future{10};
 }
 
 // Returns the instant of a NEXRAD "modified Julian date" (day 1 is 1970-01-01) and milliseconds
-// after midnight, as in ICD 2620010 section 3.2. More milliseconds than a day has carry over into
-// the next days.
+// after midnight, as in ICD 2620010 section 3.2. If there are more milliseconds than a day has, the
+// instant is on a later day.
 [[nodiscard]] UtcTime time_from_nexrad(std::uint32_t day, std::uint32_t milliseconds);
 
 // A day number and milliseconds, as above.
@@ -41,7 +41,8 @@ struct NexradTime {
     std::uint32_t day = 0;
     std::uint32_t milliseconds = 0;
 };
-// Does the inverse of time_from_nexrad(). Times before 1970 give day 0 and 0 ms.
+// Returns the day and milliseconds of an instant, so that time_from_nexrad() returns the same
+// instant. For an instant before 1970, returns day 0 and 0 ms.
 [[nodiscard]] NexradTime nexrad_from_time(UtcTime time);
 
 // Writes "2022-03-17T00:08:42.596Z"; leaves out the fraction if it is zero.
