@@ -44,7 +44,7 @@ enum class Reach {
 // The conditions under which the newest grids are protected from a limit.
 struct Protection {
     std::chrono::milliseconds age{};     // the grid was written less than this ago; 0: at any time
-    std::optional<std::uint64_t> space;  // they hold at most half of it; none: no limit
+    std::optional<std::uint64_t> space;  // protected grids hold at most half of it; none: no limit
 };
 
 class Account {
@@ -91,13 +91,13 @@ class Account {
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
     // Returns true if a grid of this name is or would be the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
-    // Returns true if a grid of this name must be kept even if protected grids must be evicted for
-    // it: if its group is known, and the grid is pinned or is or would be the newest of its domain
-    // and moment.
+    // Returns true if a grid of this name must be kept, even if protected grids must be evicted for
+    // it. This is so if its group is known, and the grid is pinned or is or would be the newest of
+    // its domain and moment.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Returns true if the age of its group does not keep a grid of this name, written now. A pinned
-    // grid does not expire; nor does the newest grid of a domain and moment in a known group,
-    // unless it is a part.
+    // Returns true if a grid of this name, written now, is older than its group's limit of age. A
+    // pinned grid does not expire; nor does the newest grid of a domain and moment in a known
+    // group, unless it is a part.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
     // Returns the space of a budget, as stormcellar/cache/budget.h defines it; none: no limit.
@@ -124,10 +124,11 @@ class Account {
     [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
                                                 std::size_t most, const Protection& protection = {},
                                                 Reach reach = Reach::unprotected) const;
-    // Does the same for all grids of others together.
+    // Returns the oldest grids of others that must be evicted so that all grids of others together
+    // hold at most `bytes`; at most `most` grids.
     [[nodiscard]] std::vector<GridName> others_down_to(std::uint64_t bytes, std::size_t most) const;
-    // Returns the group's grids that are older than its age; at most `most`. Protected grids stay,
-    // except parts.
+    // Returns the group's grids that are older than its limit of age; at most `most`. Leaves out
+    // protected grids, except parts.
     [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
                                                 std::size_t most) const;
     // Returns grids of others that were written longer ago than `protected_for`; at most `most`.
@@ -170,7 +171,8 @@ class Account {
 
     [[nodiscard]] const Group* group_of_name(std::string_view group) const;
     [[nodiscard]] bool believed(UtcTime time) const { return is_believed(time, now_); }
-    // Returns the newest believed grid, or the newest of all if none is believed.
+    // Returns the newest grid of the domain and moment among those with a believable time
+    // (is_believed()), or among all of them if no time is believable; null if there is none.
     [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
                                         level2::Moment moment) const;
     // Visits the newest grid of each domain and moment of the group.
@@ -182,7 +184,7 @@ class Account {
     [[nodiscard]] std::set<const Item*> lapsed(const Group* group,
                                                const Protection& protection) const;
     class Shield;
-    // Returns the bytes that others use, without grids that are being evicted.
+    // Returns the bytes of all grids of others, except those that are being evicted.
     [[nodiscard]] std::uint64_t staying_of_others() const;
     [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
     Item* find_item(const GridName& name);

@@ -20,7 +20,7 @@ namespace stormcellar::cache {
 // parallels.
 [[nodiscard]] std::vector<std::byte> encode_description(const GridDescription& description);
 
-// Decodes these parts. Errors: corrupt if a record runs past the end, has an impossible size, or
+// Decodes the same parts. Errors: corrupt if a record runs past the end, has an impossible size, or
 // (for an audit) impossible numbers.
 [[nodiscard]] Status decode_description(std::span<const std::byte> bytes,
                                         GridDescription& description);

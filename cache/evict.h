@@ -25,7 +25,7 @@ struct EvictionOrder {
     // is_known_group() knows (stormcellar/cache/budget.h), however old or large it is, but
     // `older_than` keeps no part (NAME.ICAO). `bytes` chooses grids of others first.
     std::optional<UtcTime> to;           // up to and including this time
-    std::optional<std::uint64_t> bytes;  // the oldest, until the others take no more than this
+    std::optional<std::uint64_t> bytes;  // the oldest, until the remaining grids take at most this
     // Grids that are older than the newest grid of their group by more than this.
     std::optional<std::chrono::milliseconds> older_than;
 };
@@ -34,7 +34,7 @@ struct EvictionPlan {
     std::vector<StoreEntry> victims;  // oldest first
     std::size_t looked_at = 0;        // grids of the requested domains
     std::size_t pinned = 0;           // pinned grids among them
-    std::uint64_t bytes_left = 0;     // size on disk of those that stay
+    std::uint64_t bytes_left = 0;     // size on disk of the grids that stay
 };
 [[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store,
                                                  const EvictionOrder& order, UtcTime now);

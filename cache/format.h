@@ -161,7 +161,7 @@ struct Layout {
     at.file_size = at.codes_offset + at.codes_size;
     return at;
 }
-// Returns the same layout with the codes packed into `codes_size` bytes.
+// Returns the layout `at`, changed so that the codes are packed into `codes_size` bytes.
 [[nodiscard]] constexpr Layout packed_layout(Layout at, std::uint64_t codes_size) {
     at.codes_size = codes_size;
     at.file_size = at.codes_offset + codes_size;

@@ -1,7 +1,7 @@
 // cache/grid_facts.h -- reads the facts of a grid file, without its cells.
 //
-// It reads only the bytes before the codes, so packed files take no longer than others. It is for
-// programs that list many grids.
+// Only the bytes before the codes are read, so packed files take no longer than others. Programs
+// that list many grids use it.
 //
 // Threads   Pure function, which reads a file.
 #pragma once

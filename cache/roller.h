@@ -3,8 +3,8 @@
 //
 // A Roller has the account of the grids in the cache. open() makes the account from the files, and
 // each roll() corrects it if other programs removed, added or pinned grids. Before a commit writes
-// the first byte, it reserves the largest size that its file may take, and evicts grids if that
-// does not fit. The removal of names is synced before their room is used again. Each file is
+// the first byte, it reserves the largest size that its file may take, and evicts grids if there is
+// too little room. The removal of names is synced before their room is used again. Each file is
 // removed in one step, so a crash leaves a grid whole or not at all.
 //
 // Threads   Any thread. The account is not locked while files are written, or while grids are
@@ -69,8 +69,8 @@ class Roller {
     // Account::is_to_stay() is true for the grid, but evicting all grids that may be evicted does
     // not make enough room.
     Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
-    // Evicts the oldest grids that hold this many bytes, after a full disk refused this grid.
-    // Returns false if no budget limits the space of the grid's group or nothing was evicted.
+    // Evicts the oldest grids that together hold `bytes`. Call it after a full disk refused the
+    // grid. Returns false if no budget limits the space of its group or nothing was evicted.
     bool make_room(const GridName& name, std::uint64_t bytes);
     // Returns true, and counts the grid as not kept, if it is a grid of others. Such a grid is left
     // out if the disk is full, because nobody should wait for it.

@@ -6,8 +6,8 @@
 //            writers, counted in the blocks that the file system allocates. A commit never exceeds
 //            this limit, because it reserves the bytes before it writes them. Directories are not
 //            counted (4 KiB for each day and domain).
-//   percent  How full the file system may be with the data of all its users, as df counts. Each
-//            roll evicts any excess from the cache, as far as the cache can.
+//   percent  How full the file system may be with the data of all its users, as df counts. If it
+//            is fuller, each roll evicts grids of this cache, as far as the rules below allow.
 //   age      A grid's age counts from the newest grid of the same group, not from now, so that old
 //            data stay while they are replayed. Times more than 10 minutes in the future do not
 //            count as newest.
@@ -18,15 +18,15 @@
 // known; its grids are the grids of others.
 //   others     Grids of others are evicted before any grid of a known group, and no grid of a known
 //              group is evicted for them. Together they hold at most a tenth of the space of the
-//              total budget; grids beyond that are not kept. A roll also evicts those that were
-//              written longer ago than protected_for.
+//              total budget; grids beyond that are not kept. A roll also evicts grids of others
+//              that were written longer ago than protected_for.
 //   protected  The newest grid of each domain (or part) and moment of a known group is protected
-//              while it was written less than protected_for ago. Because the time of writing
-//              counts, replayed old data are protected too. A part is not protected from the age.
-//              All grids that are protected from one limit may hold at most half of its space.
-//              Beyond that, the largest grids are not protected and, among equally large ones, the
-//              oldest. Protected grids are also evicted if the newest grid of a known group would
-//              otherwise find no room.
+//              until protected_for after it was written. Because the time of writing counts,
+//              replayed old data are protected too. A part is not protected from the limit of age.
+//              All grids that are protected from one limit may hold at most half of its space. If
+//              they would hold more, the largest of them lose this protection first and, among
+//              equally large ones, the oldest. Protected grids are also evicted if the newest grid
+//              of a known group would otherwise find no room.
 //   pinned     Pinned grids are never evicted.
 // The space of a budget is its bytes, or its percent of the file system, or the smaller of the two.
 // Without either, protected grids and grids of others may hold any space.

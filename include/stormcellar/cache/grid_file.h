@@ -49,10 +49,11 @@ struct GridDescription {
                                                     const grid::BrickView& view,
                                                     Packing packing = Packing::none);
 
-// Returns an upper bound of the size of that file on disk, in bytes, for a file system that
-// allocates blocks of `block_bytes` (a power of two). Counts each block that has a byte, and room
-// for the file system's own lists of blocks (1 in 64, and 4). Does not check the limits of
-// write_grid_file(). The bound is too low only if a file system allocates blocks that nobody wrote.
+// Returns an upper bound of the size on disk, in bytes, of the file that write_grid_file() would
+// write on a file system with blocks of `block_bytes` (a power of two). Counts each block that has
+// a byte of the file and, for the file system's own lists of blocks, one block for every 64 and
+// four more. Does not check the limits of write_grid_file(). The bound is too low only if a file
+// system allocates blocks that nobody wrote.
 [[nodiscard]] std::uint64_t most_bytes_on_disk(const GridDescription& description,
                                                const grid::BrickView& view,
                                                std::uint64_t block_bytes);
@@ -65,8 +66,8 @@ struct GridFileLimits {
     std::uint64_t unpacked_bytes = ~std::uint64_t{0};
 };
 // These limits exceed the needs of any site's grid. A WSR-88D grid with cells of 500 m on 48 levels
-// has 330 MB of codes if every brick is stored and the moment has two bytes a cell. With cells of
-// 250 m it has 80 MB of table and states.
+// has 330 MB of codes if every brick is stored and the moment has two bytes a cell. A grid with
+// cells of 250 m has 80 MB of table and states.
 constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{128} << 20U,
                                         .unpacked_bytes = std::uint64_t{352} << 20U};
 
@@ -98,8 +99,8 @@ class GridFile {
     // Checks, with one system call, that the file still has the size that it had when it was
     // opened. Errors: truncated or corrupt if another program cut or lengthened it. Reading mapped
     // codes of a cut file raises SIGBUS, unless the program has installed the guard of
-    // cache/map_guard.h. Then the codes read as 0 (not seen), and this function returns truncated
-    // afterward. So call it after using a view. Our own programs never cut a file.
+    // cache/map_guard.h. With the guard, the codes read as 0 (not seen), and check_whole() returns
+    // truncated afterward. So call it after using a view. Our own programs never cut a file.
     [[nodiscard]] Status check_whole() const;
     // Reads the whole file again, but not through the map, so that a cut file gives an error.
     // Checks that header, table and states have not changed since open(), that every stored brick

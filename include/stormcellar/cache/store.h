@@ -79,8 +79,8 @@ struct StoreUsage {
     bool operator==(const StoreUsage&) const = default;
 };
 
-// Removes the entries in the future (by is_believed()), unless all entries are in the future. For
-// callers that show the newest grid. `entries` must be sorted by time.
+// Removes the entries in the future (by is_believed()), unless all entries are in the future. It
+// serves callers that show the newest grid. `entries` must be sorted by time.
 void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now);
 
 class Roller;
@@ -89,8 +89,8 @@ class Roller;
 enum class Durability {
     power_cut,
     // Only a crash of the process. Readers see the grid whole or not at all, but after a power cut
-    // the file may be damaged, missing or the previous one. For grids that are replaced within
-    // seconds and can be made again.
+    // the file may be damaged, missing or the previous one. Use this for grids that are replaced
+    // within seconds and can be made again.
     until_a_crash,
 };
 
@@ -149,10 +149,10 @@ class StoreWriter : public StoreReader {
     void pack_with(Packing packing) { packing_ = packing; }
 
     // Commits a grid and returns its path. Without budgets, the grid is always written. With
-    // budgets, the path is empty and nothing is written if they do not keep the grid: if it is too
-    // old, the oldest of a full cache, or a grid of others beyond their share. On success the grid
-    // and new directories survive a power cut, unless `durability` asks for less. If the disk is
-    // full and Budgets::makes_room(), the oldest grids are evicted. Errors: bad_argument as in
+    // budgets, nothing is written and the path is empty if the grid is too old, would be the oldest
+    // of a full cache, or is a grid of others beyond their share. On success the grid and new
+    // directories survive a power cut, unless `durability` asks for less. If the disk is full and
+    // Budgets::makes_room() is true, the oldest grids are evicted. Errors: bad_argument as in
     // path_of() and write_grid_file(); over_budget if there is no room for a pinned grid or the
     // newest grid of a domain and moment in a known group, because a limit is smaller than the grid
     // or the grids in the cache are pinned or cannot be removed; no_space if the disk stays full
