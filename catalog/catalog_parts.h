@@ -88,7 +88,7 @@ struct CatalogReader::Impl {
         return done;
     }
 
-    // Does the same on behalf of another station. Does not try a database that was in trouble
+    // Calls with() on behalf of another station. Does not try a database that was in trouble
     // seconds ago, because a try may take until a failing disk gives up.
     template <class Work>
     Done<Work> with_neighbor(const std::string& name, Work work) {
@@ -161,7 +161,7 @@ struct CatalogReader::Impl {
                       std::chrono::steady_clock::time_point began);
     // Returns the trouble of a database that was tried seconds ago.
     [[nodiscard]] std::optional<Error> recent_trouble(const std::string& name) const;
-    // Returns the same trouble, but only if the try took long, for example because another process
+    // Returns recent_trouble(), but only if the try took long, for example because another process
     // has locked the database. Then files of the same station do not try again at once, because
     // other stations would have to wait for their threads.
     [[nodiscard]] std::optional<Error> slow_trouble(const std::string& name) const;

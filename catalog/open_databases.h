@@ -113,7 +113,8 @@ class OpenDatabases {
 
 // Returns true if this process has too few free descriptors to open a database.
 [[nodiscard]] bool is_out_of_descriptors();
-// Returns the error `exhausted` for that case, after which another try may succeed.
+// Returns the error `exhausted` for a database that could not be opened because
+// is_out_of_descriptors() is true. Another try may succeed.
 [[nodiscard]] tl::unexpected<Error> no_descriptor(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

@@ -37,8 +37,8 @@ inline constexpr std::string_view unknown_station = "_unknown";
 class PathHomes {
   public:
     // Notes that this database has the path. Call it after the row was written there. Returns the
-    // database that was noted before, in which the caller must delete the row; an empty text if no
-    // database had the path; none if that was unknown.
+    // database that had the path before, in which the caller must delete the row. Returns an empty
+    // text if no database had the path, and none if nothing was noted about the path.
     std::optional<std::string> exchange(const std::filesystem::path& path,
                                         const std::string& name) {
         const MutexLock lock(mutex_);
@@ -48,8 +48,8 @@ class PathHomes {
         add(key_of(path), name);
         return before;
     }
-    // Notes that this database has the path, unless another one is known to have it. Returns false
-    // in that case.
+    // Notes that this database has the path. If another database is known to have it, notes nothing
+    // and returns false.
     [[nodiscard]] bool set_if_free(const std::filesystem::path& path, const std::string& name) {
         const MutexLock lock(mutex_);
         const std::string* known = find(key_of(path));

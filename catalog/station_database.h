@@ -62,7 +62,7 @@ class StationDatabase {
     // open for writing, or its writer had not yet made the tables.
     [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
 
-    // Sets a limit: a new row is only written while used_bytes() is less, or if deleting rows of
+    // Sets the limit of used_bytes(). At the limit, a new row is written only if deleting rows of
     // files that are gone makes room.
     void set_most_bytes(std::uint64_t most_bytes) { most_bytes_ = most_bytes; }
     // Returns the bytes that rows and indices take, without free pages.
@@ -91,8 +91,8 @@ class StationDatabase {
     void forget(const std::filesystem::path& path);
     // Returns the numbers of rows that are gone and were made before `before`.
     std::vector<std::int64_t> gone_before(UtcTime before);
-    // Deletes the rows among `rows` that still meet that condition, in one transaction. Returns how
-    // many were deleted.
+    // Deletes those of `rows` that are still gone and were made before `before`, in one
+    // transaction. Returns how many were deleted.
     int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
     // Deletes the oldest rows of files that are gone, at most `most`, in one transaction. Returns
     // how many were deleted.

@@ -3,8 +3,8 @@
 // DIRECTORY/KTLX.sqlite (WAL, user_version migrations) records which raw files exist, which volumes
 // they hold, and the results of ingesting them. The rows of existing files can always be made again
 // from the files. Files of unknown stations are recorded in _unknown.sqlite. Each path has one row;
-// registering the same facts again changes nothing. A volume that another file with other contents
-// already has gets the next generation.
+// registering the same facts again changes nothing. If a volume comes again in a file with other
+// contents, it is recorded again, with the next generation number.
 //
 // A catalog is opened in one of two roles. A CatalogReader answers questions and never creates or
 // changes anything. A CatalogWriter answers the same questions, and registers files.
@@ -223,8 +223,8 @@ class CatalogReader {
     [[nodiscard]] Result<std::vector<CatalogEntry>> list_stretch(std::string_view station,
                                                                  const Stretch& stretch) const;
     // Returns the start of the oldest volume in a file that is neither gone nor a member of an
-    // archive; none if there is none. If the oldest 500 volumes have no such file, reads the table
-    // of files once: 30 ms for 100,000.
+    // archive; none if no volume is in such a file. If none of the oldest 500 volumes is, reads the
+    // whole table of files, which takes 30 ms for 100,000 files.
     [[nodiscard]] Result<std::optional<UtcTime>> oldest_kept(std::string_view station) const;
     // Returns the rows of at most `most` files, without a volume, whose paths begin with `prefix`,
     // in any state, by path. Uses the index.
@@ -245,7 +245,7 @@ class CatalogReader {
     [[nodiscard]] Impl& impl() const { return *impl_; }
 
   private:
-    // Does the same as is_settled(), but returns none if the path has no row.
+    // Returns the result of is_settled(), or none if the path has no row.
     [[nodiscard]] Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
                                                            std::uint64_t size_bytes,
                                                            std::int64_t modified_ns) const;
@@ -261,8 +261,8 @@ using Catalog [[deprecated("CatalogReader or CatalogWriter")]] = CatalogReader;
 class CatalogWriter : public CatalogReader {
   public:
     // Opens a catalog, and creates the directory if it is missing. If the rule is `any`, admits the
-    // stations that have a database already, the one written last first, as far as the rule's limit
-    // allows.
+    // stations that have a database already, up to the rule's limit, the most recently written
+    // databases first.
     static Result<CatalogWriter> open(std::filesystem::path directory, CatalogOptions options = {});
 
     // Registers a file. On success a power cut does not undo it, except for the state `seen`, which
@@ -271,15 +271,15 @@ class CatalogWriter : public CatalogReader {
     // Registers a file as `facts` describe it, unless it has a row. Call it after is_known() has
     // returned false.
     Status note_file(const FileFacts& facts);
-    // Registers several files of one station like register_file(), all of them or none. Rows that
-    // find no room are left out.
+    // Registers several files of one station like register_file(), in one transaction. Files whose
+    // rows find no room are left out.
     Status register_files(const std::string& station, const std::vector<FileFacts>& files);
     // Marks the rows of a raw file that no longer exists as gone. Returns how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 
-    // Marks the rows of all missing files below the directory as gone. These vanished while no
-    // watcher ran, or are now behind a symbolic link. `step` is called after each station and every
-    // 1,000 files, so that the caller can see progress.
+    // Marks the rows of all missing files below the directory as gone. Such files vanished while
+    // no watcher ran, or are now behind a symbolic link. `step` is called after each station and
+    // every 1,000 files, so that the caller can see progress.
     Result<int> mark_missing(const std::filesystem::path& directory,
                              const std::function<void()>& step = {});
 
@@ -293,10 +293,10 @@ class CatalogWriter : public CatalogReader {
     // `step` is called after each station and every 1,000 rows.
     Result<int> forget_gone(UtcTime before, const std::function<void()>& step = {});
 
-    // Deletes rows of files that are gone, the oldest first, if rows exceed their limits: first in
-    // each database beyond its own limit, then in the largest database while the total exceeds its
-    // limit and that database its share of the total. Never deletes rows of existing files. Call it
-    // now and then, like forget_gone().
+    // Deletes rows of files that are gone, the oldest first, if rows exceed their limits. First
+    // shrinks each database beyond its own limit. Then, while the total exceeds its limit, shrinks
+    // the largest database, unless that is within an equal share of the total. Never deletes rows
+    // of existing files. Call it now and then, like forget_gone().
     Result<Rolled> roll(const std::function<void()>& step = {});
 
     // Returns the databases of stations that the rule does not know; they are not opened.
@@ -305,7 +305,7 @@ class CatalogWriter : public CatalogReader {
     // damaged. Does nothing without a database. Errors: those of a database that cannot be read or
     // repaired.
     Status examine(std::string_view station);
-    // Examines the databases of all stations, and then returns the last error.
+    // Calls examine() for all stations, even after an error, and returns the last error.
     Status examine_all();
     // Returns the repairs since the last call. If there are any, also calls read_archives_again().
     std::vector<Repair> take_repairs();

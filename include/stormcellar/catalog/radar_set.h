@@ -41,7 +41,8 @@ class RadarSet {
     // Returns the raw bytes of a file that build_data_list() named. Errors: not_found if the
     // catalog or the disk no longer has it, and those of read_cataloged().
     [[nodiscard]] Result<std::vector<std::byte>> radar_file(const std::string& name) const;
-    // Decodes such a file. Errors: also those of level2::decode().
+    // Reads a file as radar_file() does, and decodes it. Errors: those of radar_file() and of
+    // level2::decode().
     [[nodiscard]] Result<level2::Decoded> read_radar(const std::string& name) const;
 
   private:

@@ -7,7 +7,7 @@
 //
 // If the catalog has no record of the drop directory (it was written before 2026-11-25), or a row's
 // path is not below it (the drop directory was elsewhere then), the file is opened from "/". Then
-// no part of the path may be a link; there was none when the path was cataloged.
+// no part of the path may be a link, because no part was a link when the path was cataloged.
 //
 // The row of a file that was growing (`seen`) or could not be read has no final hash, so the
 // contents are not compared. But the file must be regular, have at least the cataloged size, and

@@ -47,8 +47,9 @@ struct Examination {
 [[nodiscard]] Result<Repair> repair_database(const std::filesystem::path& path,
                                              const std::string& station, const std::string& damage);
 
-// If there is no database, but the complete new one of an interrupted repair, puts that in its
-// place. The writer calls this before it opens or creates a database.
+// Completes an interrupted repair: if the database is missing, and the complete new database of the
+// repair exists, puts the new one in its place. The writer calls this before it opens or creates a
+// database.
 [[nodiscard]] Status adopt_mended_database(const std::filesystem::path& path);
 
 // Returns a line for logs and people: "PATH: was damaged (...) and is set aside as ...; a new
