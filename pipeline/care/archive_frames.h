@@ -21,8 +21,8 @@
 namespace stormcellar::pipeline {
 
 // Makes the frames at `instants` that are due and are missing or outdated. Adds to the report how
-// many frames were made and found, the instants of both, and what the new frames leave out. When
-// `stop` is set, no further frame begins.
+// many frames were made and found, the instants of all these, and what the new frames leave out.
+// When `stop` is set, no further frame begins.
 [[nodiscard]] Status make_frames(cache::StoreWriter& store, const Domain& domain,
                                  level2::Moment moment, const std::vector<UtcTime>& instants,
                                  int threads, const FillProgress& progress,

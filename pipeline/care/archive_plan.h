@@ -1,7 +1,7 @@
 // pipeline/care/archive_plan.h -- describes which grids to make from the raw files of an archive,
 // and where to keep them (pipeline/care/archive_fill.h makes them).
 //
-// Thread contract: each call works alone.
+// Thread contract: functions without state; they read the catalog and directories.
 #pragma once
 
 #include <filesystem>

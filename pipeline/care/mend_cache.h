@@ -96,7 +96,7 @@ class CacheMender {
         UtcTime from;  // older volumes count as evicted
     };
     Result<std::optional<std::filesystem::path>> raw_of(const std::string& station, UtcTime time);
-    // Says why the station has no such file.
+    // Returns why a grid of the station's volume at this time has no file to be made from.
     [[nodiscard]] std::string why_not_again(const std::string& station, UtcTime time);
     Result<IngestOutcome> make_from(const std::filesystem::path& raw, const std::string& station);
     Result<MendedGrid> mend_from_raw(const cache::StoreEntry& entry, const std::string& station,

@@ -2,8 +2,8 @@
 //
 // For each station these are the volumes that overlap the range and, on request, its neighbors: the
 // last volume before the range and the first volume after it, if they are close enough for a frame
-// between volumes. Of a volume that was sent more than once, one file is used: an existing one
-// first, then a complete one, then the latest.
+// between volumes. If several files have a volume, one is used. Existing files are preferred, among
+// them complete ones, and among these the latest.
 //
 // Threads   Functions without state; the catalog is only read.
 #pragma once
@@ -42,8 +42,8 @@ inline constexpr std::chrono::minutes longest_volume{20};
 inline constexpr std::chrono::minutes farthest_neighbour{25};
 
 // Returns the volumes in the order of `stations`, then by start. A station that the catalog does
-// not have gives no volumes. If several stations are requested, neither does a station whose
-// database cannot be read; the catalog's troubles() names it. Errors: those of the catalog.
+// not have gives no volumes. If several stations are requested, a station whose database cannot be
+// read gives none, either; the catalog's troubles() names it. Errors: those of the catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,
     const ArchiveRange& range);

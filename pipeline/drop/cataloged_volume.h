@@ -5,7 +5,7 @@
 // by the row of its first chunk, and its chunks are joined to the bytes of a volume's file. Each
 // file must still be the cataloged one (stormcellar/catalog/read_cataloged.h).
 //
-// Threads   A function without state; the catalog is only read.
+// Threads   Functions without state; the catalog is only read.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ namespace stormcellar::pipeline {
 
 struct CatalogedVolume {
     std::vector<std::byte> bytes;
-    // Name chunks that are missing or left out, and files that were not compared because they were
-    // still growing when they were cataloged.
+    // Remarks on chunks that are missing or left out, and on files that were not compared because
+    // they were still growing when they were cataloged.
     std::vector<std::string> notes;
 };
 

@@ -19,7 +19,7 @@ namespace stormcellar::pipeline {
 // A path with the name of a chunk.
 struct ChunkPath {
     std::filesystem::path path;
-    std::string prefix;  // with which the names of all chunks of its volume begin
+    std::string prefix;  // the start of the names of all chunks of its volume
     std::string key;     // the same for all chunks of its volume, and for no other chunks
     level2::ChunkName name;
 

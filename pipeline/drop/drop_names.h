@@ -1,5 +1,5 @@
-// pipeline/drop/drop_names.h -- tells by its name whether a file in the drop directory is
-// unfinished, and its station.
+// pipeline/drop/drop_names.h -- tells from the name of a file in the drop directory if the file is
+// unfinished, if it is a chunk, and of which station it is.
 //
 // A writer marks an unfinished file with a leading dot (pqact's dot-file, rsync, our own temporary
 // files) or with an ending. Such files are ignored until they are renamed. The station in a name is

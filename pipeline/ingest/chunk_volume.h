@@ -31,8 +31,9 @@ class ChunkVolume {
         unfinished,  // the file holds no complete chunk yet
         not_ours,    // not a chunk of this volume despite its name: ingest it as another file
     };
-    // Reads the file, unless it was read with this stamp before. Errors: io or no_space if the file
-    // cannot be read now, for example because descriptors or memory ran out; then poll again.
+    // Adds the chunk. Does not read its file if the file was read with this stamp before. Errors:
+    // io or no_space if the file cannot be read now, for example because descriptors or memory ran
+    // out; then poll again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
     // Adds the chunk. Until a call has succeeded, it also adds the other chunks in the same
     // directory, up to the limits of one job. Errors: those of add() for any of the chunks. After
@@ -41,8 +42,8 @@ class ChunkVolume {
     [[nodiscard]] Result<Added> add_with_siblings(const ChunkPath& chunk, const FileStamp& stamp);
 
     // If numbers are missing, adds chunks of the volume that have come in the meantime, because
-    // their own jobs may have to wait. Does so at most once a second, or at once if `of` is the
-    // volume's end.
+    // their own jobs may have to wait. Looks for such chunks at most once a second, or at once if
+    // `of` is the volume's end.
     void add_what_is_missing(const ChunkPath& of);
 
     // Returns true if the volume has a representative that held a complete chunk when it was last
@@ -53,14 +54,14 @@ class ChunkVolume {
     // read.
     [[nodiscard]] bool is_representative(const std::filesystem::path& path) const;
     void set_representative(const std::filesystem::path& path) { representative_ = path; }
-    // Returns the representative before the last chunk was added, only once. Returns an empty path
-    // if there was none.
+    // Returns the representative that the volume had before the last chunk was added. Returns an
+    // empty path if it had none, or if a call has returned it already.
     [[nodiscard]] std::filesystem::path take_former_representative() {
         return std::exchange(former_representative_, {});
     }
 
-    // Closes the volume to further chunks. A caller that finds the volume closed must ask for a new
-    // one.
+    // Closes the volume to further chunks. A caller that finds the volume closed must ask
+    // ChunkVolumes for a new volume.
     void close() { is_closed_ = true; }
     [[nodiscard]] bool is_closed() const { return is_closed_; }
 
@@ -69,14 +70,14 @@ class ChunkVolume {
     [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
     [[nodiscard]] UnshownSweeps news() const { return news_; }
     void set_shown() { news_ = {}; }
-    // Null if the shelf has no room.
+    // Returns the sweeps on the shelf; null if there was no room for a shelf.
     [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
     // Returns true if some sweeps have closed and are on the shelf.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
     // Describes the growing volume for the catalog: its start and its closed sweeps. Returns none
     // while chunk 1 is missing or no sweep has closed.
     [[nodiscard]] std::optional<catalog::VolumeFacts> living_facts() const;
-    // Returns its approximate size in memory and on the shelf.
+    // Returns the volume's approximate size in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {live_.held_bytes(), kept_ ? kept_->shelf->bytes() : 0, has_sweeps()};
     }
@@ -88,7 +89,7 @@ class ChunkVolume {
         bool is_whole = true;
     };
     [[nodiscard]] const std::map<std::filesystem::path, File>& files() const { return files_; }
-    // Returns the complete chunk with the lowest number. The volume must have a file.
+    // Returns the path of the complete chunk with the lowest number. The volume must have a file.
     [[nodiscard]] std::filesystem::path first_file() const;
     [[nodiscard]] std::string station() const { return live_.facts().station; }
 
@@ -96,7 +97,7 @@ class ChunkVolume {
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
-    // The counters when a job began, which tell when it has read enough.
+    // The counters at the start of a job, from which is_enough() tells if the job has read enough.
     struct InOneJob {
         std::uint64_t read_bytes = 0;
         std::size_t refused = 0;

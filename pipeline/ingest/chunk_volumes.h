@@ -53,7 +53,7 @@ class ChunkVolumes {
     [[nodiscard]] bool grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                             const std::string& station);
     void forget(const ChunkPath& chunk);
-    // Does the same only if the known volume of this chunk is `volume`.
+    // Forgets the volume of this chunk, but only if that is still `volume`.
     void forget(const ChunkPath& chunk, const Shared& volume);
     [[nodiscard]] std::size_t count() const;
     // Returns the number of volumes that were given up since the last call.

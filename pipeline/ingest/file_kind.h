@@ -1,7 +1,7 @@
 // pipeline/ingest/file_kind.h -- classifies the files that are ingested.
 //
 // A path is classified by its name, its stamp, its row in the catalog and the files that are
-// followed at the moment. Of the contents, only the lengths of records are read. Classification
+// followed at the moment. Only the lengths of records are read from the file. Classification
 // changes nothing. A handler that reads a file may find that it is of another kind: a file that has
 // the name of a chunk but is not one is classified again without its name (kind_by_itself()), and a
 // file that cannot be followed is read as a whole.
@@ -28,7 +28,8 @@
 
 namespace stormcellar::pipeline {
 
-// The time to grid a volume: only when it has ended, also when nothing more is expected, or now.
+// Tells when to grid a volume: only after it has ended, also if it has not ended but nothing more
+// is expected, or in any case now.
 enum class Finish { when_it_ends, when_quiet, as_it_is };
 
 // A file that is offered to the ingestor, and how to treat it.

@@ -58,7 +58,7 @@ class Followed {
     }
 
     [[nodiscard]] bool was_given_up(const Key& key) const { return given_up_.contains(key); }
-    // Returns true once for each key that was given up, which thus gets a second try.
+    // Returns true once for each key that was given up, so that the key gets a second try.
     [[nodiscard]] bool take_second_try(const Key& key) {
         const auto at = given_up_.find(key);
         return at != given_up_.end() && !std::exchange(at->second.had_second_try, true);

@@ -113,7 +113,7 @@ class FollowedFile {
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
     [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
     [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
-    // Returns its approximate size in memory and on the shelf.
+    // Returns the file's approximate size in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {growing_.held_bytes(), kept_->shelf->bytes(), !kept_->places.empty()};
     }

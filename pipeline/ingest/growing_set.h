@@ -8,9 +8,9 @@
 //   the total limit         first among members of unknown stations, then among all
 //   the limit of beginnings among members without a closed sweep. A real volume has no closed sweep
 //                           for a fifteenth of its time; a forged one may never have any.
-// For memory and disk, the member with the largest product of its size and (1 + its minutes without
-// progress) is given up. For the number of members, it is the least active member of the station
-// that has most members.
+// If there is too little memory or disk space, the member with the largest product of its size and
+// (1 + its minutes without progress) is given up. If there are too many members, the least active
+// member of the station with the most members is given up.
 //
 // There is no place for a new member if all others are active, because giving up active members for
 // new ones would mean reading everything again and again. A member is active for a minute after it

@@ -26,9 +26,9 @@ namespace stormcellar::pipeline {
 [[nodiscard]] Result<IngestOutcome> take(IngestContext& context, const OfferedFile& file,
                                          const FileKind& kind);
 
-// Marks the rows of a file that is gone. If the file represents a volume of chunks, its data are
-// already decoded, and the volume is still polled under its name until it is due, because later
-// chunks may complete it.
+// Marks the rows of a file that is gone. If the file represents a volume of chunks, the file's data
+// are already decoded. The volume is still polled under the file's name until it is due, because
+// later chunks may complete the volume.
 class TakeGone {
   public:
     TakeGone(IngestContext& context, const OfferedFile& file) : context_(context), file_(file) {}

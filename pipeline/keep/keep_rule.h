@@ -45,8 +45,8 @@ inline constexpr std::size_t most_volumes_an_hour = 120;
 [[nodiscard]] bool has_an_hours_volumes(const cache::StoreReader& store, const std::string& domain,
                                         level2::Moment moment, UtcTime time);
 // If the store has more than `most_volumes_an_hour` grids within half an hour of `time`, removes
-// the one that was written longest ago. So forged files of one station displace little of the
-// history of other stations. Pinned grids, and the grid at `time`, stay.
+// the grid among them that was written longest ago. So forged files of one station displace little
+// of the history of other stations. Pinned grids, and the grid at `time`, stay.
 void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
                               level2::Moment moment, UtcTime time);
 

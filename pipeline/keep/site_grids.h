@@ -34,8 +34,8 @@ class SiteGrids {
     SiteGrids(cache::StoreWriter& store, const IngestOptions& options)
         : store_(store), options_(options) {}
 
-    // Returns true if the volume has a station and the radar's position is known; if not, notes
-    // that in the outcome.
+    // Returns true if the volume has a station and the radar's position is known. Otherwise notes
+    // in the outcome what is missing.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
     // Grids each of the moments that the volume holds, audits the grids and commits them. A new
@@ -44,9 +44,9 @@ class SiteGrids {
     // stay, and the times to the outcome.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
-    // Does the same for one moment of a growing volume, but neither audits nor syncs the grid,
-    // because it will be replaced in seconds and made again after a crash. Adds the path to the
-    // outcome's `living`.
+    // Grids one moment of a growing volume and commits the grid, like keep(). Neither audits nor
+    // syncs the grid, because it will be replaced in seconds and made again after a crash. Adds the
+    // path to the outcome's `living`.
     Status keep_living(const level2::Volume& volume, level2::Moment moment,
                        const GridSource& source, int threads, IngestOutcome& outcome);
 
@@ -69,7 +69,7 @@ class SiteGrids {
     // The geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};
-    // Let one thread at a time commit a grid file. The hash of the file's path selects the mutex.
+    // One thread at a time commits a grid file. The hash of the file's path selects its mutex.
     std::array<Mutex, 16> commits_;
 };
 

@@ -1,7 +1,7 @@
 // pipeline/mosaic/between_grids.h -- makes frames of a domain for any instant from the grids in its
 // cache.
 //
-// It is for frames that must be closer in time than the grids. There are two kinds of domains:
+// Use it for frames that must be closer in time than the grids. There are two kinds of domains:
 //   a station's own  grid/mosaic/time_interpolation.h makes the frame from the volumes before and
 //                    after the instant. A cell has its own time if the grid has the times of its
 //                    sweeps, otherwise the time of the volume's middle. At the middle of a volume
@@ -15,9 +15,9 @@
 //           volumes, as in the mosaic's frames.
 // States    If one of the two volumes has not seen a cell, the other volume gives its value, as in
 //           time_interpolation.h.
-// Limits    It does not account for echo that grows, decays or turns between the volumes; for the
-//           motion of moments other than REF, which are kept or blended in place; or, with undated
-//           sweeps, for the minutes from the lowest to the highest sweep.
+// Limits    A frame does not account for echo that grows, decays or turns between the volumes; for
+//           the motion of moments other than REF, which are kept or blended in place; or, with
+//           undated sweeps, for the minutes from the lowest to the highest sweep.
 // Memory    Two grids of a station and the new frame; for a mosaic, its partials.
 // Threads   One thread at a time; it starts up to `threads` threads of its own.
 #pragma once

@@ -1,8 +1,9 @@
-// pipeline/mosaic/instant_cache.h -- keeps the grids of sites for instants, in memory.
+// pipeline/mosaic/instant_cache.h -- keeps grids in memory that were made of one site's volumes for
+// one instant.
 //
 // A frame is made again for each volume of any of its sites, and making a site's grid for the
-// instant costs more than all merging. So this cache keeps the grids of sites whose volumes have
-// not changed. The least recently used grids are dropped first, within a limit of bytes.
+// instant costs more than all merging. So the grids of sites whose volumes have not changed are
+// taken from this cache. Beyond a limit of bytes, the least recently used grids are dropped.
 //
 // Threads   Many threads may use it. If two threads want the same grid at once, both may make it,
 //           and one of the two is kept.

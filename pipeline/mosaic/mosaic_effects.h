@@ -7,9 +7,8 @@
 //   sweeps    as one, each at its own time                   sweep_times
 //   overlap   the nearest site, the rule asked for           site_overlap
 //   codes     default steps, fine steps                      fine_codes
-// The user chooses the rule by which sites overlap, as with the averaging; if that rule is the
-// nearest site, the step has no effect. The exact rung of `time` uses the motion that the default
-// grids show.
+// The user chooses the rule by which sites overlap; if that rule is the nearest site, the step has
+// no effect. The exact rung of `time` uses the motion that the default grids show.
 //
 // Threads   Pure functions.
 #pragma once

@@ -88,7 +88,7 @@ struct Bracket {
     std::optional<std::size_t> before, after;
 };
 // Returns the brackets of all sites that have a partial within `greatest_gap` of the instant, by
-// ICAO. Of partials with the same middle, the last one counts.
+// ICAO. If several partials of a site have the same middle, the last one counts.
 [[nodiscard]] std::vector<Bracket> brackets_of(std::span<const PartialView> partials,
                                                UtcTime instant,
                                                std::chrono::milliseconds greatest_gap);

@@ -67,7 +67,7 @@ struct OthersPartial {
 
 struct Kept {
     std::vector<std::filesystem::path> partials, frames;
-    std::size_t updated = 0;            // frames of which unchanged bricks were copied
+    std::size_t updated = 0;            // frames into which unchanged bricks were copied
     std::vector<std::string> problems;  // partials, domains and frames that were left out, and why
     // Set if the cache had another partial of the same volume, and both volumes are complete: true
     // if this partial replaced the other, false if it did not.

@@ -3,7 +3,8 @@
 //
 // Takes the newest frame of a domain that is not provisional, and compares each pair of its sites
 // that may overlap by the frame's partials (pipeline/mosaic/pair_comparison.h). A pair is compared
-// again only for a frame that is at least an hour later, so not while older data are replayed.
+// again only for a frame that is at least an hour later. So pairs are not compared while older data
+// are replayed.
 //
 // Threads   One thread at a time.
 #pragma once

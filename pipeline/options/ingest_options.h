@@ -37,8 +37,8 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
     return (16 + 28 * moments) << 20;
 }
 
-// Options for gridding volumes while they grow: each sweep as it closes, with the last volume's
-// sweeps until their successors come.
+// Options for gridding volumes while they grow. A living grid shows the sweeps that have closed,
+// and sweeps of the site's last volume in the place of those that have not.
 struct LivingGrids {
     // The directory for sweeps on disk, in files without names. Empty: no living grids are made,
     // and a volume is finished with the chunks that exist.
@@ -48,11 +48,11 @@ struct LivingGrids {
     // there is more urgent work; then the next living grid shows the sweeps. Empty: there is always
     // time.
     std::function<bool()> has_time;
-    // for volumes in chunks (stormcellar/level2/live_volume.h)
+    // Times for volumes of chunks (stormcellar/level2/live_volume.h).
     std::chrono::seconds chunk_timeout{600};
     std::chrono::seconds chunk_grace{30};
-    // Limit of sweeps on disk, as above. Beyond it, growing volumes are given up
-    // (pipeline/ingest/growing_set.h) and read again from their files.
+    // Limit of sweeps on disk, applied like most_shelf_bytes. Beyond it, growing volumes are given
+    // up (pipeline/ingest/growing_set.h) and read again from their files.
     std::uint64_t shelf_bytes = most_shelf_bytes;
     // Limit of the number of followed files, of volumes of chunks, and of last volumes of sites,
     // separately. Each holds a descriptor.

@@ -26,7 +26,7 @@ enum class IngestResult {
     other_station,  // registered; its station's data are not accepted, so nothing is gridded
     // Not settled: the volume has not ended and finish_as_is is false, or the file changed while it
     // was read, or an archive has more members than one turn takes. Offer the file again when it
-    // was closed or is quiet, an archive with has_next_turn at once.
+    // was closed or is quiet, or at once if has_next_turn is true.
     incomplete,
     rejected,   // registered as rejected: no volume, or none that can be gridded
     unchanged,  // settled before; nothing was done

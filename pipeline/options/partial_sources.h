@@ -1,5 +1,5 @@
-// pipeline/options/partial_sources.h -- the machines that bring partials of mosaics, and those of
-// them that are late.
+// pipeline/options/partial_sources.h -- records which machines bring partials of mosaics, and tells
+// which of them are late.
 //
 // A machine is late for a frame if the newest of its volumes is older than the frame by more than
 // the allowed time. The frame then leaves out the machine's stations that no timely machine brings,

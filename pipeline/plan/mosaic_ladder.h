@@ -2,11 +2,11 @@
 // frame, rung by rung, for the steps of pipeline/mosaic/mosaic_effects.h that are not in
 // grid/plan/grid_ladder.h.
 //
-// Each of these steps has a row for each rung. A row has the difference between the frame with this
-// rung and every other step exact and the frame of the exact chain, over all cells with a value in
-// both. It also has the time of making a frame from kept partials, with the other steps at their
-// default. Rows of the step "chain" are whole chains; their time includes gridding every volume.
-// Times are processor time for one thread, wall time for several.
+// Each of these steps has a row for each rung. A row has the difference between two frames, over
+// all cells with a value in both: the frame with this rung and every other step exact, and the
+// frame of the exact chain. The row also has the time of making a frame from kept partials, with
+// the other steps at their default. Rows of the step "chain" are whole chains; their time includes
+// gridding every volume. Times are processor time for one thread, wall time for several.
 //
 // A position error is the distance that the fastest echo moves (pipeline/plan/mosaic_plan.h). Whole
 // chains have no position error, because the error of beams is of another kind.

@@ -40,7 +40,8 @@ struct MosaicOfVolumes {
 // make_partials(), make_frame() and plan_mosaic().
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request);
-// Does the same with geometries that several calls share; a plan uses its own geometries.
+// Grids the volumes and merges them, like the function above, with geometries that several calls
+// share. A plan uses its own geometries.
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request,
                                                   GeometryCache& geometries);
