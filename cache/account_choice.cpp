@@ -23,7 +23,7 @@ const Account::Item* Account::newest_of(const Group& group, const std::string& d
     return nullptr;
 }
 
-// Jumps from one domain and moment to the next, because there are few of them and many grids.
+// Jumps from one domain and moment to the next, because these are few and grids are many.
 template <class Visit>
 void Account::for_each_newest(const Group& group, Visit visit) const {
     for (auto item = group.grids.begin(); item != group.grids.end();) {
@@ -158,8 +158,8 @@ bool Account::fits(std::string_view group, std::uint64_t bytes, const Budgets& b
            (is_known(group) || within(used_by_others(), others_limit(budgets)));
 }
 
-// Returns the end of the grids that may be evicted for a grid of this name. A grid of others may
-// only replace other grids of others.
+// Returns the place in `order` where the grids end that may be evicted for a grid of this name. A
+// grid of others may only replace other grids of others.
 Account::Order::const_iterator Account::end_for(const Order& order, const GridName& name) const {
     if (is_to_stay(name)) return order.end();
     const bool known = is_known(group_of(name.domain));

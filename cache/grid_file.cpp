@@ -187,7 +187,8 @@ grid::BrickView view_of(const Metadata& metadata) {
     view.bricks_x = static_cast<int>(header.bricks_x);
     view.bricks_y = static_cast<int>(header.bricks_y);
     view.bricks_z = static_cast<int>(header.bricks_z);
-    // The table's offset is a multiple of 8 in memory from operator new.
+    // The entries are aligned, because operator new returned the memory, and the table's offset in
+    // it is a multiple of 8.
     view.bricks = {reinterpret_cast<const BrickEntry*>(metadata.bytes.data() + at.table_offset),
                    (at.states_offset - at.table_offset) / sizeof(BrickEntry)};
     view.states =

@@ -143,8 +143,8 @@ void Roller::limit_others(const OnStep& step) {
     });
 }
 
-// Enforces the budget of a group, or the total budget if the name is empty. `filling` counts the
-// space of grids that were evicted since it was read as free.
+// Enforces the budget of a group, or the total budget if the name is empty. The space of grids that
+// were evicted after `filling` was read counts as free in it.
 void Roller::keep_budget(const std::string& group, const std::optional<Filling>& filling,
                          RollReport& report, const OnStep& step) {
     const Budget budget = group.empty() ? budgets_.total : budgets_.of(group);

@@ -18,8 +18,8 @@ constexpr std::int64_t most_looked_through = 10'000;
 // A database in trouble is not tried again within this time for other stations.
 constexpr std::chrono::seconds between_tries{10};
 
-// If a try took longer than this, the database is not tried again within that time for its own
-// station, either.
+// If a try took longer than this, the database is not tried again within `between_tries` for its
+// own station, either.
 constexpr std::chrono::seconds longest_try{1};
 
 // The number of databases closed when descriptors run out. It leaves descriptors to open one
@@ -60,8 +60,8 @@ bool CatalogReader::Impl::knows(std::string_view station) const {
 
 Status CatalogReader::Impl::open(Slot& place, const std::string& name, bool create) {
     const fs::path path = path_of(name);
-    // Check this even if the database was closed to make room, because rows that were lost with a
-    // deleted database must be made again.
+    // Notice a deleted or replaced database even if it was closed to make room, because the rows
+    // that were lost with it must be made again.
     if (place.file != FileIdentity{} && place.file != FileIdentity::of(path)) {
         databases.close(place);  // readers would not see writes to the old file
         place.file = {};

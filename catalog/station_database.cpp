@@ -80,7 +80,7 @@ void StationDatabase::insert_part(std::int64_t file_id, int ordinal, std::int64_
     part->exec();
 }
 
-// Sets if later writes survive a power cut. Rows of settled files must survive, because the files
+// Sets whether later writes survive a power cut. Rows of settled files must survive, as the files
 // may be gone later. But a sync takes milliseconds, too long for a growing file, which is
 // registered with every chunk.
 void StationDatabase::set_durable(bool durable) {

@@ -28,7 +28,7 @@ constexpr int most_log_bytes = 512 << 10;
 // The KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200
 // stations would exceed all other memory, and the kernel caches the files anyway.
 constexpr int most_cached_kib = 128;
-// The same for a reader, which walks through lists.
+// The KiB for a reader's connection, which needs more because readers walk through lists.
 constexpr int most_cached_by_reader_kib = 256;
 
 // Returns a URI of the path, with special characters escaped. `query` is empty or begins with '?'.

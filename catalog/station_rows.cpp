@@ -54,7 +54,8 @@ std::uint64_t StationDatabase::used_bytes() {
 bool StationDatabase::make_room() {
     if (most_bytes_ == CatalogOptions::no_limit || used_bytes() < most_bytes_) return true;
     for (int batch = 0; batch < most_batches && may_have_gone_; ++batch) {
-        // This object sets the flag again when it marks rows as gone, and no other process does.
+        // This object sets the flag again when it marks rows as gone, and no other process marks
+        // rows.
         may_have_gone_ = delete_oldest_gone(rows_a_batch) == rows_a_batch;
         if (used_bytes() < most_bytes_) return true;
     }

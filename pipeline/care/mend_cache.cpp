@@ -53,7 +53,7 @@ std::string joined(const std::vector<std::string>& texts) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-// Checks that the catalog has the file as it is now.
+// Returns true if the file is settled with its present size and modification time.
 bool is_settled_as_it_is(const catalog::CatalogReader& catalog, const fs::path& path) {
     const auto stamp = stamp_of(path);
     if (!stamp || !stamp->regular) return false;
@@ -66,8 +66,9 @@ bool may_have_a_grid(const CatalogEntry& entry) {
            entry.volume.start_time && entry.volume.radial_count > 0;
 }
 
-// Returns the file from which the grid must be made, by the rule of pipeline/ingest/ingest.h. Two
-// complete files with the same end are distinguished by their contents, not by their age.
+// Returns the file from which the volume's grid must be made: a complete file before an incomplete
+// one, then the file with the later end, then the file with the larger hash, because the age of
+// files must not matter.
 std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
                                 std::span<const CatalogEntry> of_one_volume) {
     using Rank = std::tuple<bool, std::optional<UtcTime>, std::uint64_t>;

@@ -278,7 +278,7 @@ Result<level2::Decoded> FollowedFile::finish() {
         if (index < dropped_ && before->second.elevation_deg == sweep.mean_elevation_deg())
             continue;
         const auto place = kept_->shelf->put(sweep);
-        if (!place) break;  // it will only be missing in the next volume's living grids
+        if (!place) break;  // the next volume's living grids will lack these sweeps
         kept_->places.insert_or_assign(index, *place);
         kept_->sweeps.insert_or_assign(
             index, ShelvedVolume::Kept{moments_in(sweep, moments_), sweep.mean_elevation_deg()});

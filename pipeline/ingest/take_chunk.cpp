@@ -95,7 +95,7 @@ Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, Chun
     volume.close();
     auto finished =
         finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));
-    // This file need not be polled any more.
+    // The former representative need not be polled any more.
     if (finished) finished->former_representative = volume.take_former_representative();
     context_.chunks.forget(chunk_, shared);
     return finished;

@@ -164,7 +164,7 @@ Status SiteGrids::keep_living(const level2::Volume& volume, level2::Moment momen
     const auto commit_start = Clock::now();
     auto path = commit(*made, volume, source, Living::yes, outcome);
     outcome.commit_s += seconds_since(commit_start);
-    // The grid of the complete volume will report this.
+    // The grid of the complete volume will report the lack of room.
     if (!path && path.error().code == ErrorCode::over_budget) return {};
     if (!path) return of_storing(path.error());
     if (!path->empty()) outcome.living.push_back(std::move(*path));

@@ -24,10 +24,10 @@ grid::TimedView timed(const PartialView& partial) {
 // One site's share of a frame: a partial unchanged, or a grid made of two partials for the instant.
 struct SiteShare {
     const PartialView* nearest = nullptr;
-    const PartialView* before = nullptr;  // both, or none
+    const PartialView* before = nullptr;  // `before` and `after` are both set, or neither
     const PartialView* after = nullptr;
     bool nothing_after = false;  // its site has no volume after the instant yet
-    InstantCache::Key key;       // the key of that grid
+    InstantCache::Key key;       // the key of `made`
     std::shared_ptr<const grid::BrickGrid> made;
 
     [[nodiscard]] grid::BrickView view() const { return made ? made->view() : nearest->view; }
@@ -44,8 +44,8 @@ bool is_pair(const PartialView& before, const PartialView& after) {
            before.view.quantization == after.view.quantization;
 }
 
-// Returns a site's share. If the method uses the nearer partial unchanged, or only one exists, that
-// one is taken.
+// Returns a site's share. The share is the nearer partial, unchanged, if the method asks for that
+// or there is only one partial.
 SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime instant,
                    grid::TimeMethod method) {
     SiteShare share;

@@ -73,7 +73,7 @@ std::vector<Rung> rungs_of_chains(const MosaicScene& scene, const accuracy::Chai
     return rungs;
 }
 
-// Times all rungs in rounds, one after the other. Calls `one_done` after each.
+// Times all rungs in rounds, one rung after the other. Calls `one_done` after each rung.
 Status time_all(MosaicScene& scene, int rounds, const std::function<void()>& one_done,
                 std::vector<Rung>& rungs) {
     Status status;

@@ -11,8 +11,8 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Times of a site between two of its volumes, and of merging, in units of gridding one volume by
-// nearest gates (grid/plan/grid_effects.cpp; docs/accuracy.md).
+// Times of making a site's grid between two of its volumes, and of merging. The unit is the time of
+// gridding one volume by nearest gates (grid/plan/grid_effects.cpp; docs/accuracy.md).
 constexpr double blend_effort = 2.5;
 constexpr double motion_effort = 4.5;
 constexpr double sweep_times_effort = 3;

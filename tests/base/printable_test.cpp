@@ -49,8 +49,8 @@ TEST(Printable, EscapesWhatTurnsTextAroundOrIsNotSeen) {
     }
 }
 
-// The code points next to those characters are text: Hebrew and Arabic letters, dashes, signs,
-// emoji.
+// The code points next to the escaped ones are text, such as Hebrew and Arabic letters, dashes,
+// signs and emoji.
 TEST(Printable, LeavesTheirNeighborsAlone) {
     for (const std::string_view seen :
          {"\u00A0", "\u00AC", "\u00AE", "\u0350", "\u05D0", "\u061B",     "\u061D",

@@ -135,9 +135,9 @@ TEST(StationTable, AgreesWithLevelIIIProducts) {
 }
 
 // In September 2010, two sites converted their heights in meters from feet to meters once more:
-// message 31 had 4 + 9 m at KDOX and 171 + 9 m at KTYX. If the table differs by more than 30 m, it
-// is used instead, so it must differ by more. The reported heights are 0.3048 times those of the
-// table.
+// message 31 had 4 + 9 m at KDOX and 171 + 9 m at KTYX, which is 0.3048 times the heights of the
+// table. The table's height replaces a reported height that differs by more than 30 m, so the
+// difference must be larger.
 TEST(StationTable, ContradictsHeightsConvertedTwice) {
     const auto dover = find_station("KDOX");
     const auto drum = find_station("KTYX");

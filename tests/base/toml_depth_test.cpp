@@ -55,7 +55,7 @@ TEST(TomlDepth, StringsEndWhereTheParserEndsThem) {
     }
 }
 
-// 2026-11-25: such a file crashed the process, even if a mistake followed the key.
+// 2026-11-25: a file with a key of too many parts crashed the process, even if a mistake followed.
 TEST(TomlDepth, AKeyThatWouldEndTheProcessIsRefused) {
     const std::string deep = key_of(400'000);
     for (const std::string& text :

@@ -114,8 +114,8 @@ TEST_F(AccountProtectionTest, PinnedGridsAreNotCountedAmongTheProtected) {
     EXPECT_THAT(all_that_may_go(20), IsEmpty());
 }
 
-// This is the case if a grid is larger than half of the budget, or pinned grids leave too little
-// room.
+// Evicting protected grids is the last resort if a grid is larger than half of the budget, or
+// pinned grids leave too little room.
 TEST_F(AccountProtectionTest, TheNewestOfAKnownStationTakesProtectedOnesAsALastResort) {
     put("KTLX", 0, 10);
     put("KINX", 1, 10);
@@ -142,7 +142,7 @@ TEST_F(AccountProtectionTest, OthersGoBeforeAnyHistoryThatIsKnown) {
     EXPECT_THAT(account_.down_to("", 30, 100),
                 ElementsAre(name("XAAA", 100), name("XAAA", 101), name("XAAA", 102)));
     EXPECT_THAT(account_.down_to("", 0, 100, {}, Reach::others).size(), 3U);
-    // They give room even to an older grid.
+    // Grids of others give room even to an older grid of a known station.
     EXPECT_THAT(*room(name("KTLX", 1), 10), ElementsAre(name("XAAA", 100)));
     EXPECT_TRUE(room(name("KTLX", -1), 10)) << "the others would go before it";
 }
@@ -172,7 +172,7 @@ TEST_F(AccountProtectionTest, OthersHoldATenthOfTheBudgetTogether) {
     EXPECT_TRUE(account_.fits("KTLX", 900, budgets_));
     EXPECT_THAT(*room(name("XBBB", 20), 11), ElementsAre(name("XAAA", 0), name("XAAB", 1)));
     EXPECT_THAT(account_.others_down_to(80, 100), ElementsAre(name("XAAA", 0), name("XAAB", 1)));
-    // Files that are being written count.
+    // Files that are being written count in the tenth.
     account_.reserve("XCCC", 20);
     EXPECT_EQ(account_.used_by_others(), 120U);
     account_.release("XCCC", 20);

@@ -50,7 +50,7 @@ TEST_F(AccountTest, TakesTheOldestOfAllForTheTotalAndOfTheGroupForItsOwn) {
     EXPECT_FALSE(account_.fits("B", 10, budgets_));
     EXPECT_TRUE(account_.fits("B", 0, budgets_));
     // The group's own budget needs 5 bytes, and the total budget 10. A grid that is evicted for one
-    // counts for the other.
+    // of the two budgets also gives room in the other.
     EXPECT_THAT(*room(grid_named("B", 9), 10), ElementsAre(grid_named("B", 1)));
     EXPECT_THAT(*room(grid_named("B", 9), 20), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
     EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
@@ -68,7 +68,7 @@ TEST_F(AccountTest, NeverTakesTheNewestOfADomainAndMoment) {
     budgets_.total.bytes = 60;
     EXPECT_THAT(*room(grid_named("C", 3), 10), ElementsAre(grid_named("A", 0)));
     EXPECT_FALSE(room(grid_named("C", 3), 11)) << "nothing else may go";
-    // The newest stays until there is a newer one.
+    // The newest grid of a domain stays until there is a newer one.
     EXPECT_THAT(*room(grid_named("B", 3), 10), ElementsAre(grid_named("A", 0)));
 }
 
@@ -160,7 +160,7 @@ TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     account_.put(grid_named("A", 60 * 24 * 365), {10, noon + minutes{1}, false});
     EXPECT_EQ(account_.newest("A"), noon + minutes{10});
     EXPECT_THAT(account_.expired("A", budgets_, 100), IsEmpty());
-    // They count as old as their files, so they are evicted like the others.
+    // Grids in the future count as old as their files, so they are evicted like other grids.
     EXPECT_TRUE(account_.is_newest(grid_named("A", 10)));
     EXPECT_THAT(account_.down_to("A", 0, 100),
                 ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11),

@@ -92,7 +92,7 @@ TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     ASSERT_TRUE(commit(store, 9)) << "a known one takes the oldest's place";
 }
 
-// A file system that refuses to remove a temporary file, which is then counted, and removed later.
+// A file system that cannot finish or remove files while `broken` is set.
 class Unremovable final : public FileSystem {
   public:
     Result<int> create_exclusive(const fs::path& path) override {

@@ -26,10 +26,10 @@ inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 // 8) are stored, every second one first, so that runs and holes vary.
 [[nodiscard]] const grid::BrickGrid& sized_grid(int stored);
 
-// Describes such a grid; `number` goes into its notes, so that files can be told apart.
+// Describes a grid of sized_grid(). Its notes contain `number`, so that files can be told apart.
 [[nodiscard]] cache::GridDescription sized_description(UtcTime time, int number = 0);
 
-// Commits such a grid.
+// Commits a grid of sized_grid() with this description.
 [[nodiscard]] Result<std::filesystem::path> commit_sized(cache::StoreWriter& store,
                                                          const std::string& domain, UtcTime time,
                                                          int stored = 4, int number = 0);

@@ -1,4 +1,5 @@
-// Tests that grids of unknown stations displace no others and do not stay, with real files.
+// Tests with real files that grids of unknown stations displace no grids of known stations, and do
+// not stay.
 #include <algorithm>
 
 #include <gmock/gmock.h>

@@ -22,8 +22,8 @@ int open_for_reading_alone(const char* path, int flags, int mode) {
     return -1;
 }
 
-// 2026-11-22: a database that was opened in such a moment could not be written until the next
-// start.
+// 2026-11-22: a database that was opened while files could not be opened for writing could not be
+// written until the next start.
 TEST_F(CatalogTest, WhatCouldOnlyBeOpenedForReadingIsOpenedAgain) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
     CatalogWriter second = *CatalogWriter::open(directory_ / "catalog");

@@ -39,7 +39,7 @@ class PowerCutVfs {
     // operations succeed.
     void power_cut(Kept kept, unsigned seed);
 
-    // For the VFS itself.
+    // The VFS itself uses the following.
     struct Change {
         std::uint64_t offset = 0;
         std::vector<std::byte> bytes;

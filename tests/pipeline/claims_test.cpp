@@ -191,7 +191,8 @@ class LivingMemory : public Claims {
         {{level2::Moment::ref}, {}}, {level2::Moment::ref}, {}, directory_.path()};
 };
 
-// 2026-11-25: an open sweep did not count, and a hundred such files took 5 GiB.
+// 2026-11-25: the memory of an open sweep did not count, and a hundred files with open sweeps took
+// 5 GiB.
 TEST_F(LivingMemory, AnOpenSweepCounts) {
     FollowedFiles files(options_, GrowingLimits{.station_held_bytes = std::uint64_t{64} << 20});
     const fs::path path = put("KTLX_a", endless_sweep("KTLX", 25));

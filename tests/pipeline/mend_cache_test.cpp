@@ -209,7 +209,7 @@ TEST_F(MendCache, FilesThatWentOrChangedAreNotTried) {
     EXPECT_TRUE(mender_.missing(hours{6})->empty());
 }
 
-// Tests the same for a mosaic of one site, with partials and frames.
+// Tests that damaged partials and frames of a mosaic of one site are made again.
 class MendMosaic : public SmallHouse {
   protected:
     MendMosaic() : SmallHouse(with_domain()) {}

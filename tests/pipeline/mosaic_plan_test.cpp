@@ -1,8 +1,10 @@
 // Checks the promises of the planner for mosaics with real frames, of one site between its volumes
-// and of several sites, as tests/grid/honesty_test.cpp does for one volume: - An effect that the
-// planner left off changes the frame by less than the budget if it is forced on. - An effect that
-// it turned on changes the frame by more than a tenth of the budget if it is
-//   forced off, in at least one scene for each effect.
+// and of several sites, as tests/grid/honesty_test.cpp does for one volume:
+//
+// - An effect that the planner left off changes the frame by less than the budget if the effect is
+//   forced on.
+// - An effect that the planner turned on changes the frame by more than a tenth of the budget if
+//   the effect is forced off, in at least one scene for each effect.
 // - The chosen frame differs from the exact chain's frame by at most the budget.
 #include "pipeline/plan/mosaic_plan.h"
 

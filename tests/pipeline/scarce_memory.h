@@ -7,9 +7,9 @@
 namespace stormcellar::pipeline {
 
 // While the object exists, this thread gets `allocations` allocations of 1 KiB or more, and
-// std::bad_alloc for all later ones. Smaller ones always succeed: large ones are what a system
-// refuses first, and the C++ library itself ends the process if it gets none (directory_iterator's
-// constructor is noexcept).
+// std::bad_alloc for all later ones. Smaller allocations always succeed, because a system refuses
+// large ones first, and because the C++ library ends the process if a small one fails in a noexcept
+// function (directory_iterator's constructor).
 class WithMemoryFor {
   public:
     explicit WithMemoryFor(std::int64_t allocations);
