@@ -65,7 +65,8 @@ TEST_F(Beneath, NoLinkBelowTheRootIsFollowed) {
     fs::create_directory_symlink(outside(), root() / "away");
     fs::create_directory_symlink("site", root() / "day/near");
     EXPECT_EQ(read(root() / "day/link"), error(ErrorCode::not_a_file));
-    EXPECT_EQ(read(root() / "day/inner"), error(ErrorCode::not_a_file)) << "wherever it leads";
+    EXPECT_EQ(read(root() / "day/inner"), error(ErrorCode::not_a_file))
+        << "a link is refused even if its target is below the root";
     EXPECT_EQ(read(root() / "away/site/file"), error(ErrorCode::not_found));
     EXPECT_EQ(read(root() / "day/near/file"), error(ErrorCode::not_found));
     EXPECT_FALSE(look_beneath(root(), root() / "away/site/file"));
@@ -154,7 +155,7 @@ TEST_F(Beneath, LinksThatComeAndGoLeadNowhere) {
         const auto bytes = read_beneath(root(), root() / "day/site/file");
         if (!bytes) continue;
         ++inside;
-        EXPECT_EQ(bytes->size(), 6U) << "read what lies outside";
+        EXPECT_EQ(bytes->size(), 6U) << "read a file outside the root";
         if (bytes->size() != 6) break;
     }
     ::kill(child, SIGKILL);

@@ -25,7 +25,7 @@ TEST(ByteReader, ReadPastTheEndFailsAndStaysFailed) {
     ByteReader reader{std::span<const std::byte>(bytes).first(3)};
     EXPECT_EQ(reader.u32(), 0U);
     EXPECT_TRUE(reader.failed());
-    EXPECT_EQ(reader.u8(), 0U) << "a failed reader gives nothing more";
+    EXPECT_EQ(reader.u8(), 0U) << "after a failure, every read returns 0";
     EXPECT_EQ(reader.position(), 0U);
 }
 

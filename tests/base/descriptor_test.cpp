@@ -34,7 +34,7 @@ TEST(Descriptor, IsClosedByItsLastHolder) {
         EXPECT_EQ(given.release(), ends[1]);
         EXPECT_FALSE(given.is_open());
     }
-    EXPECT_TRUE(stands(ends[1])) << "it is somebody else's now";
+    EXPECT_TRUE(stands(ends[1])) << "a released descriptor stays open";
     ::close(ends[1]);
 }
 

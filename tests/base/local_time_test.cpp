@@ -72,7 +72,7 @@ TEST(LocalTime, TheMachinesZoneIsAZone) {
     ASSERT_EQ(setenv("TZ", ":Pacific/Honolulu", 1), 0);
     EXPECT_EQ(machine_time_zone(), "Pacific/Honolulu");
     ASSERT_EQ(setenv("TZ", "EST5EDT4,M3.2.0,M11.1.0", 1), 0);
-    EXPECT_EQ(machine_time_zone(), "") << "a rule has no name";
+    EXPECT_EQ(machine_time_zone(), "") << "a POSIX rule is not the name of a zone";
     ASSERT_EQ(unsetenv("TZ"), 0);
 }
 

@@ -31,7 +31,7 @@ long faults_of_a_volume() {
 
 TEST(KeepFreedMemory, TheSecondVolumeCostsNoFaults) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
-    GTEST_SKIP() << "another allocator";
+    GTEST_SKIP() << "needs glibc's malloc without a sanitizer";
 #endif
     keep_freed_memory();
     EXPECT_GT(faults_of_a_volume(), 2000);
@@ -41,7 +41,7 @@ TEST(KeepFreedMemory, TheSecondVolumeCostsNoFaults) {
 // Every tenth of many small blocks is kept, so that the freed memory is between blocks in use.
 TEST(GiveBackFreedMemory, WhatIsFreeBetweenOtherThingsGoesBackToTheSystem) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
-    GTEST_SKIP() << "another allocator";
+    GTEST_SKIP() << "needs glibc's malloc without a sanitizer";
 #endif
     constexpr std::size_t count = 2000, bytes = 50'000;
     constexpr std::size_t most_kept = count * bytes / 2;
@@ -79,7 +79,7 @@ TEST(LargePages, AnArrayIsAllZero) {
 // With large pages, touching 32 MiB causes few faults; without them, as many as usual.
 TEST(LargePages, AreAHintThatCostsNoMoreFaults) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
-    GTEST_SKIP() << "another allocator";
+    GTEST_SKIP() << "needs glibc's malloc without a sanitizer";
 #endif
     constexpr std::size_t size = std::size_t{32} << 20;
     const auto faults = [] {

@@ -52,7 +52,7 @@ TEST(Mutex, ALockLastsAsLongAsItsScope) {
 
 TEST(Mutex, TryLockHoldsTheMutex) {
     Mutex mutex;
-    if (!mutex.try_lock()) FAIL() << "nobody has it";
+    if (!mutex.try_lock()) FAIL() << "the mutex should be free";
     EXPECT_FALSE(is_free(mutex));
     mutex.unlock();
     EXPECT_TRUE(is_free(mutex));

@@ -17,7 +17,7 @@ TEST(Printable, LeavesOrdinaryTextAlone) {
 TEST(Printable, EscapesControlsAndBrokenUtf8) {
     EXPECT_EQ(printable("a\nb\x1B[2J"), "a\\x0ab\\x1b[2J");
     EXPECT_EQ(printable("\xFF\xC3"), "\\xff\\xc3");
-    EXPECT_EQ(printable("\xC2\x9B"), "\\xc2\\x9b") << "C1 controls are controls";
+    EXPECT_EQ(printable("\xC2\x9B"), "\\xc2\\x9b") << "C1 characters are control characters";
     EXPECT_EQ(printable("\x7F"), "\\x7f");
 }
 

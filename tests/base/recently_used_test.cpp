@@ -28,7 +28,7 @@ TYPED_TEST(RecentlyUsedTest, TheLeastRecentlyUsedGoesFirst) {
     kept.keep({2}, "two");
     ASSERT_NE(kept.find({1}), nullptr);
     kept.keep({3}, "three");
-    EXPECT_EQ(kept.find({2}), nullptr) << "1 was used after it";
+    EXPECT_EQ(kept.find({2}), nullptr) << "2 is the least recently used key";
     EXPECT_EQ(*kept.find({1}), "one");
     EXPECT_EQ(*kept.find({3}), "three");
     EXPECT_EQ(kept.size(), 2U);
@@ -43,7 +43,7 @@ TYPED_TEST(RecentlyUsedTest, WeightsCountAndTheNewestStays) {
     EXPECT_EQ(kept.find({1}), nullptr);
     EXPECT_EQ(kept.weight(), 7U);
     kept.keep({4}, 4, 11);
-    EXPECT_EQ(kept.size(), 1U) << "it alone is above the budget";
+    EXPECT_EQ(kept.size(), 1U) << "a value that exceeds the budget drops all others";
     EXPECT_NE(kept.find({4}), nullptr);
 }
 

@@ -7,9 +7,10 @@ namespace {
 
 TEST(Error, TheCodeSaysWhoHasToChangeSomething) {
     EXPECT_EQ(cause_of(ErrorCode::corrupt), Cause::data);
-    EXPECT_EQ(cause_of(ErrorCode::busy), Cause::system) << "the holder lets go of it";
-    EXPECT_EQ(cause_of(ErrorCode::unmet), Cause::configuration) << "another budget can be met";
-    EXPECT_FALSE(is_shortage(ErrorCode::busy)) << "whoever holds one lock holds up nobody else";
+    EXPECT_EQ(cause_of(ErrorCode::busy), Cause::system) << "another process will release the lock";
+    EXPECT_EQ(cause_of(ErrorCode::unmet), Cause::configuration)
+        << "the caller must ask for another budget";
+    EXPECT_FALSE(is_shortage(ErrorCode::busy)) << "one held lock does not affect other files";
 }
 
 TEST(Error, ACallerWhoKnowsTheCauseSaysSo) {

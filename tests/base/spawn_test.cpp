@@ -25,7 +25,8 @@ TEST(Spawn, WritesWhereItIsTold) {
         spawn("/bin/sh", {"-c", "cat; echo said; echo lost >&2; exit 7"}, {.out = out.number()});
     ASSERT_TRUE(child) << child.error().message;
     EXPECT_EQ(status_of(*child), 7);
-    EXPECT_EQ(testing::text_of(directory / "out"), "said\n") << "it has no input";
+    EXPECT_EQ(testing::text_of(directory / "out"), "said\n")
+        << "the program should read an empty input";
 }
 
 TEST(Spawn, TheProgramInheritsNothingElse) {
@@ -58,7 +59,8 @@ TEST(Spawn, SaysWhatIsNotThere) {
 
 TEST(FindProgram, LooksBesideThisProgramAndOnThePath) {
     EXPECT_EQ(find_program("sh").filename(), "sh");
-    EXPECT_EQ(find_program("base_test").filename(), "base_test") << "beside this program";
+    EXPECT_EQ(find_program("base_test").filename(), "base_test")
+        << "the program is in this program's directory";
     EXPECT_EQ(find_program("no-such-program"), "");
 }
 

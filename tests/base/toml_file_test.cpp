@@ -147,9 +147,9 @@ TEST(TomlFile, AMisspeltKeyIsNamedBeforeTheOneThatIsMissing) {
     EXPECT_EQ(read("[[loop]]\nnam = \"a\"\n"), "s.toml:2: unknown key [loop] nam");
     EXPECT_EQ(read("[[loop]]\n[[loop]]\nname = \"a\"\nnam = 1\n"),
               "s.toml:1: [loop] name: must be there")
-        << "the unknown key is another table's";
+        << "the unknown key is in another table";
     EXPECT_EQ(read("[[loop]]\ntitle = \"a\"\n"), "s.toml:1: [loop] name: must be there")
-        << "nobody misspells it so";
+        << "the unknown key is not similar";
     EXPECT_EQ(read("[[loop]]\ntitle = \"a\"\nmane = \"a\"\n"), "s.toml:3: unknown key [loop] mane");
     EXPECT_EQ(read("[[loop]]\nname = \"a\"\n"), "");
 }

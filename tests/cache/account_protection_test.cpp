@@ -91,7 +91,7 @@ TEST_F(AccountProtectionTest, WhatIsProtectedHoldsAtMostHalfAndTheLargestLapsesF
     EXPECT_THAT(all_that_may_go(139), ElementsAre(name("KTLX", 0)));
     EXPECT_THAT(all_that_may_go(60), ElementsAre(name("KTLX", 0)));
     EXPECT_THAT(all_that_may_go(59), ElementsAre(name("KTLX", 0), name("KINX", 1)))
-        << "of equals the oldest";
+        << "the oldest of equally large grids loses its protection first";
     EXPECT_EQ(all_that_may_go(0).size(), 4U);
 }
 
@@ -102,7 +102,7 @@ TEST_F(AccountProtectionTest, AGroupsOwnBudgetIsProtectedByHalfToo) {
     put("KTLX", 2, 10);
     budgets_.domains["northeast"].bytes = 50;
     EXPECT_THAT(*room(name("northeast", 10), 30), ElementsAre(name("northeast", 9)))
-        << "its parts hold 20 of the 25 that may be protected";
+        << "the parts hold 20 of the 25 bytes that may be protected";
     EXPECT_EQ(account_.down_to("northeast", 0, 10, {hours{168}, 50}).size(), 1U);
     EXPECT_EQ(account_.down_to("northeast", 0, 10, {hours{168}, 30}).size(), 2U);
     EXPECT_EQ(account_.down_to("northeast", 0, 10, {hours{168}, 10}).size(), 3U);
@@ -125,7 +125,7 @@ TEST_F(AccountProtectionTest, TheNewestOfAKnownStationTakesProtectedOnesAsALastR
     EXPECT_THAT(room(name("KOKX", 3), 10, Reach::all), Optional(ElementsAre(name("KTLX", 0))));
     EXPECT_THAT(room(name("KOKX", 3), 20, Reach::all),
                 Optional(ElementsAre(name("KTLX", 0), name("KINX", 1))));
-    EXPECT_FALSE(room(name("KOKX", 3), 21, Reach::all)) << "pinned is pinned";
+    EXPECT_FALSE(room(name("KOKX", 3), 21, Reach::all)) << "the pinned grid must stay";
 }
 
 TEST_F(AccountProtectionTest, OthersGoBeforeAnyHistoryThatIsKnown) {
@@ -144,7 +144,7 @@ TEST_F(AccountProtectionTest, OthersGoBeforeAnyHistoryThatIsKnown) {
     EXPECT_THAT(account_.down_to("", 0, 100, {}, Reach::others).size(), 3U);
     // Grids of others give room even to an older grid of a known station.
     EXPECT_THAT(*room(name("KTLX", 1), 10), ElementsAre(name("XAAA", 100)));
-    EXPECT_TRUE(room(name("KTLX", -1), 10)) << "the others would go before it";
+    EXPECT_TRUE(room(name("KTLX", -1), 10)) << "grids of others are evicted before this grid";
 }
 
 TEST_F(AccountProtectionTest, OthersMakeRoomOnlyForOneAnother) {
@@ -154,12 +154,12 @@ TEST_F(AccountProtectionTest, OthersMakeRoomOnlyForOneAnother) {
     EXPECT_TRUE(account_.fits("XAAA", 10, budgets_));
     put("XAAA", 100);
     EXPECT_THAT(*room(name("XBBB", 101), 10), ElementsAre(name("XAAA", 100)));
-    EXPECT_FALSE(room(name("XBBB", 99), 10)) << "it would be the first of theirs to go";
-    EXPECT_FALSE(room(name("XBBB", 101), 11)) << "more than all of their share";
+    EXPECT_FALSE(room(name("XBBB", 99), 10)) << "this grid would be the oldest grid of others";
+    EXPECT_FALSE(room(name("XBBB", 101), 11)) << "the grid exceeds the share of others";
     put("KTLX", 10);
     EXPECT_FALSE(room(name("XAAA", 101), 11, Reach::all));
     account_.erase(name("XAAA", 100));
-    EXPECT_FALSE(room(name("XBBB", 101), 10)) << "the known fill it";
+    EXPECT_FALSE(room(name("XBBB", 101), 10)) << "known grids fill the budget";
     EXPECT_THAT(account_.oldest(name("XBBB", 101), 10, budgets_), IsEmpty());
 }
 
@@ -180,12 +180,13 @@ TEST_F(AccountProtectionTest, OthersHoldATenthOfTheBudgetTogether) {
     budgets_.total.bytes.reset();
     EXPECT_EQ(account_.others_limit(budgets_), std::nullopt);
     budgets_.total.file_system_percent = 50;
-    EXPECT_EQ(account_.others_limit(budgets_), std::nullopt) << "nobody has looked yet";
+    EXPECT_EQ(account_.others_limit(budgets_), std::nullopt)
+        << "the size of the file system is unknown";
     account_.set_capacity(2000);
     EXPECT_FALSE(account_.fits("XBBB", 1, budgets_));
     EXPECT_EQ(account_.others_limit(budgets_), 100U);
     budgets_.total.bytes = 900;
-    EXPECT_EQ(account_.others_limit(budgets_), 90U) << "the smaller of the two";
+    EXPECT_EQ(account_.others_limit(budgets_), 90U) << "the smaller limit counts";
 }
 
 TEST_F(AccountProtectionTest, OthersOutliveNobodysProtection) {
@@ -212,7 +213,7 @@ TEST_F(AccountProtectionTest, WhoIsKnownMayChange) {
     account.reserve("XAAA", 5);
     EXPECT_EQ(account.used_by_others(), 25U);
     known = {"XAAA"};
-    EXPECT_FALSE(account.is_known("XAAA")) << "nobody has asked again";
+    EXPECT_FALSE(account.is_known("XAAA")) << "ask_who_is_known() was not called";
     account.ask_who_is_known("XAAA");
     EXPECT_TRUE(account.is_known("XAAA"));
     EXPECT_TRUE(account.is_known("KTLX"));

@@ -55,7 +55,7 @@ TEST_F(AccountTest, TakesTheOldestOfAllForTheTotalAndOfTheGroupForItsOwn) {
     EXPECT_THAT(*room(grid_named("B", 9), 20), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
     EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
     EXPECT_THAT(*room(grid_named("B", 9), 15), ElementsAre(grid_named("B", 1), grid_named("A", 0)));
-    EXPECT_FALSE(room(grid_named("B", 9), 46)) << "more than all of its budget";
+    EXPECT_FALSE(room(grid_named("B", 9), 46)) << "the grid exceeds the group's budget";
 }
 
 TEST_F(AccountTest, NeverTakesTheNewestOfADomainAndMoment) {
@@ -67,7 +67,7 @@ TEST_F(AccountTest, NeverTakesTheNewestOfADomainAndMoment) {
     account_.reserve("C", 20);
     budgets_.total.bytes = 60;
     EXPECT_THAT(*room(grid_named("C", 3), 10), ElementsAre(grid_named("A", 0)));
-    EXPECT_FALSE(room(grid_named("C", 3), 11)) << "nothing else may go";
+    EXPECT_FALSE(room(grid_named("C", 3), 11)) << "no other grid may be evicted";
     // The newest grid of a domain stays until there is a newer one.
     EXPECT_THAT(*room(grid_named("B", 3), 10), ElementsAre(grid_named("A", 0)));
 }
@@ -77,7 +77,7 @@ TEST_F(AccountTest, MakesRoomForOldGridsOnlyFromOlderOnes) {
     put("A", 20);
     put("A", 30);
     budgets_.total.bytes = 30;
-    EXPECT_FALSE(room(grid_named("A", 5), 10)) << "it would be the first to go";
+    EXPECT_FALSE(room(grid_named("A", 5), 10)) << "this grid would be the oldest";
     EXPECT_THAT(*room(grid_named("A", 15), 10), ElementsAre(grid_named("A", 10)));
     EXPECT_FALSE(room(grid_named("A", 15), 20));
     // But the only grid of a domain is its newest grid, even if it is old.
@@ -105,8 +105,8 @@ TEST_F(AccountTest, WhatIsLeavingIsCountedAndNotTakenTwice) {
     budgets_.total.bytes = 40;
     account_.set_leaving(grid_named("A", 0));
     EXPECT_EQ(account_.used(), 40U);
-    EXPECT_FALSE(account_.fits("A", 10, budgets_)) << "not gone yet";
-    EXPECT_THAT(*room(grid_named("A", 9), 10), IsEmpty()) << "enough is on its way";
+    EXPECT_FALSE(account_.fits("A", 10, budgets_)) << "the leaving grid still counts";
+    EXPECT_THAT(*room(grid_named("A", 9), 10), IsEmpty()) << "the leaving grid makes enough room";
     EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 1)));
     EXPECT_THAT(account_.down_to("", 20, 100), ElementsAre(grid_named("A", 1)));
     account_.erase(grid_named("A", 0));
@@ -212,7 +212,7 @@ TEST_F(AccountTest, AFullDiskTakesTheOldestWhereABudgetLimitsSpace) {
     EXPECT_THAT(account_.oldest(grid_named("B", 9), 11, budgets_),
                 ElementsAre(grid_named("A", 0), grid_named("B", 5)));
     EXPECT_THAT(account_.oldest(grid_named("B", 3), 11, budgets_), ElementsAre(grid_named("A", 0)))
-        << "only what is older";
+        << "only older grids may be evicted";
 }
 
 // A pinned grid that is written again may take the room of newer grids, because it stays anyway.

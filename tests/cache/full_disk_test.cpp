@@ -89,7 +89,7 @@ TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     EXPECT_EQ(testing::allocated_bytes(cache_), before);
     EXPECT_EQ(store.usage().bytes, before);
     EXPECT_EQ(store.usage().not_kept, 1U);
-    ASSERT_TRUE(commit(store, 9)) << "a known one takes the oldest's place";
+    ASSERT_TRUE(commit(store, 9)) << "a known grid replaces the oldest grid";
 }
 
 // A file system that cannot finish or remove files while `broken` is set.

@@ -30,7 +30,7 @@ TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     EXPECT_EQ(back.status, grid.status);
     for (std::size_t i = 0; i < grid.values.size(); ++i) {
         if (grid.status[i] == grid::CellStatus::value) {
-            EXPECT_NEAR(back.values[i], grid.values[i], 0.25) << "half a step";
+            EXPECT_NEAR(back.values[i], grid.values[i], 0.25) << "the error is at most half a step";
         }
     }
     const GridDescription& about = file->description();
@@ -135,7 +135,7 @@ TEST_F(GridFileTest, AWindowThatContradictsItselfIsRefused) {
     EXPECT_EQ(opened_with(1, 2.5), ErrorCode::empty);
     EXPECT_EQ(opened_with(0, 2.5), ErrorCode::corrupt);
     EXPECT_EQ(opened_with(1, 0), ErrorCode::corrupt);
-    EXPECT_EQ(opened_with(1, 0.3), ErrorCode::corrupt) << "not a half";
+    EXPECT_EQ(opened_with(1, 0.3), ErrorCode::corrupt) << "an offset must be a multiple of a half";
     EXPECT_EQ(opened_with(1, std::nan("")), ErrorCode::corrupt);
     EXPECT_EQ(opened_with(4, 0), ErrorCode::unsupported);
     EXPECT_EQ(opened_with(5, 2.5), ErrorCode::unsupported);
@@ -226,7 +226,7 @@ TEST_F(GridFileTest, EveryFlippedByteBeforeTheCodesIsRefused) {
         file.open(path_, std::ios::in | std::ios::out | std::ios::binary);
         file.seekp(static_cast<std::streamoff>(i)).put(static_cast<char>(bytes[i]));
     }
-    EXPECT_TRUE(GridFile::open(path_)) << "put back as it was";
+    EXPECT_TRUE(GridFile::open(path_)) << "the restored file can be opened";
 }
 
 TEST_F(GridFileTest, EveryTruncationIsRefused) {

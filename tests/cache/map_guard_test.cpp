@@ -53,7 +53,7 @@ TEST_F(MapGuard, AFileCutUnderTheMapIsAnErrorAfterUse) {
     const std::size_t whole = values_in(*other);
     ASSERT_GT(whole, 0U);
     cut(path);
-    EXPECT_EQ(values_in(*file), 0U) << "what is gone reads as not seen";
+    EXPECT_EQ(values_in(*file), 0U) << "missing codes read as not seen";
     EXPECT_EQ(file->check_whole().error().code, ErrorCode::truncated);
     EXPECT_TRUE(other->check_whole());
     EXPECT_EQ(values_in(*other), whole);
@@ -95,7 +95,7 @@ TEST_F(MapGuard, EachOfManyMapsIsGuarded) {
     const auto again = GridFile::open(kept);
     ASSERT_TRUE(again);
     EXPECT_GT(values_in(*again), 0U);
-    EXPECT_TRUE(again->check_whole()) << "a place that was cut is used again";
+    EXPECT_TRUE(again->check_whole()) << "the registry reuses the place of a cut map";
 }
 
 TEST_F(MapGuard, ManyThreadsMeetCutFilesAtOnce) {

@@ -137,7 +137,8 @@ TEST_F(OthersGridsTest, WhatAnAttackLeftGoesWhenItIsOld) {
     leave_behind(40);
     budgets_.total.bytes = 1'000'000'000;
     RollingStore store = open(cache_, budgets_);
-    EXPECT_EQ(grids_of(store, false).size(), 40U) << "they fit, and are young";
+    EXPECT_EQ(grids_of(store, false).size(), 40U)
+        << "the grids are within the share of others, and young";
     const StoreEntry kept = testing::all_grids(store).front();
     ASSERT_TRUE(pin_grid(real_file_system(), kept.path));
     ASSERT_TRUE(commit(store, "KTLX", 0));
@@ -145,7 +146,8 @@ TEST_F(OthersGridsTest, WhatAnAttackLeftGoesWhenItIsOld) {
     EXPECT_EQ(store.roll().evicted, 0U);
     later_ = hours{169};
     EXPECT_EQ(store.roll().evicted, 39U);
-    EXPECT_EQ(testing::all_grids(store).size(), 2U) << "one that is pinned, and the known one";
+    EXPECT_EQ(testing::all_grids(store).size(), 2U)
+        << "the pinned grid and the known station's grid stay";
     EXPECT_FALSE(fs::exists(cache_ / invented(1))) << "empty directories go";
 }
 
@@ -164,7 +166,8 @@ TEST_F(OthersGridsTest, WhatAnAttackLeftIsBroughtDownToItsShareAtTheStart) {
     EXPECT_LE(bytes_of_others(store), left / 10);
     EXPECT_GT(bytes_of_others(store), 0U);
     EXPECT_FALSE(grids_of(store, false).empty());
-    EXPECT_EQ(grids_of(store, false).back().substr(0, 4), invented(49)) << "the oldest went";
+    EXPECT_EQ(grids_of(store, false).back().substr(0, 4), invented(49))
+        << "the oldest grids of others were evicted";
 }
 
 TEST_F(OthersGridsTest, AFullFileSystemTakesTheirsFirst) {
@@ -180,7 +183,8 @@ TEST_F(OthersGridsTest, AFullFileSystemTakesTheirsFirst) {
     // down to the low mark, too.
     beside_ = capacity_ * 8 / 10 - testing::allocated_bytes(cache_) + 4096;
     EXPECT_EQ(store.roll().evicted, 5U);
-    EXPECT_EQ(testing::allocated_bytes(cache_), of_known) << "no known history went for theirs";
+    EXPECT_EQ(testing::allocated_bytes(cache_), of_known)
+        << "no known grid was evicted for grids of others";
     // If known grids alone exceed the limit, at most half of the space is protected.
     ASSERT_TRUE(commit(store, "KINX", 0));
     beside_ = 0;

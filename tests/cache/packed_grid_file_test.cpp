@@ -32,7 +32,8 @@ TEST_P(PackedGridFile, HoldsTheSameCellsInLessSpace) {
     EXPECT_EQ(packed->packing(), Packing::lz4);
     EXPECT_TRUE(packed->verify());
     EXPECT_LT(fs::file_size(path_), plain_size);
-    EXPECT_TRUE(std::ranges::equal(packed->view().codes, plain->view().codes)) << "places too";
+    EXPECT_TRUE(std::ranges::equal(packed->view().codes, plain->view().codes))
+        << "absent bricks are equal, too";
     EXPECT_EQ(grid::to_dense(packed->view()).status, grid::to_dense(plain->view()).status);
     const auto first = bytes_of(path_);
     ASSERT_TRUE(pack(real_file_system(), GetParam()));

@@ -130,7 +130,7 @@ TEST(CacheProcesses, AKilledWriterLeavesWholeGridsWithinTheBudget) {
         }
         testing::pass_time(milliseconds{random() % 50});
         kill(writer, SIGKILL);
-        ASSERT_EQ(wait_for(writer), -SIGKILL) << "it had ended by itself";
+        ASSERT_EQ(wait_for(writer), -SIGKILL) << "the writer ended before it was killed";
         if (!fs::exists(cache)) continue;
         EXPECT_LE(testing::allocated_bytes(cache), budget);
         for (const StoreEntry& entry : testing::all_grids(*StoreReader::open(cache))) {

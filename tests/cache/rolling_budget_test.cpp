@@ -89,7 +89,7 @@ class RollingBudgetTest : public ::testing::TestWithParam<int> {
     }
     void check(RollingStore& store) {
         EXPECT_LE(disk_.most(), total);
-        EXPECT_GT(disk_.most(), total / 2) << "the budget was never put to the test";
+        EXPECT_GT(disk_.most(), total / 2) << "the cache never came near its budget";
         EXPECT_GT(disk_.removals(), 0U);
         EXPECT_GT(counts_.committed, 0);
         for (const StoreEntry& entry : testing::all_grids(store))

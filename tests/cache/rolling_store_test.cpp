@@ -69,14 +69,14 @@ TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheL
     RollingStore store = open(budgets_);
     for (int minute = 0; minute < 10; ++minute)
         ASSERT_TRUE(commit(store, "A", minute));
-    EXPECT_EQ(store.roll().evicted, 0U) << "nothing is over";
+    EXPECT_EQ(store.roll().evicted, 0U) << "no limit is exceeded";
     ASSERT_TRUE(commit(store, "A", 10));
     EXPECT_EQ(grids(store).size(), 10U);
     EXPECT_EQ(grids(store).front(), "A+1");
     const RollReport report = store.roll();
     EXPECT_THAT(report.problems, IsEmpty());
     EXPECT_THAT(grids(store), ElementsAre("A+6", "A+7", "A+8", "A+9", "A+10"));
-    EXPECT_EQ(report.evicted, 6U) << "that of the commit is among them";
+    EXPECT_EQ(report.evicted, 6U) << "the eviction by the commit counts, too";
     EXPECT_EQ(report.evicted_bytes, 6 * grid_bytes_);
     EXPECT_EQ(store.roll().evicted, 0U);
     EXPECT_EQ(store.usage().grids, 5U);
@@ -94,7 +94,7 @@ TEST_F(RollingStoreTest, ARollSaysThatItMovesOn) {
         ASSERT_TRUE(commit(store, domain, 0));
     int steps = 0;
     EXPECT_EQ(store.roll([&] { ++steps; }).evicted, 0U);
-    EXPECT_GE(steps, 3) << "a directory of each domain was looked at";
+    EXPECT_GE(steps, 3) << "step is called for each directory";
 }
 
 TEST_F(RollingStoreTest, EachDomainHasItsOwnBudgetAndAllHaveOne) {
@@ -151,7 +151,7 @@ TEST_F(RollingStoreTest, InABudgetOfOneGridTheNewestGivesWayToANewerOne) {
     for (const int minute : {1, 2, 3})
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_THAT(grids(store), ElementsAre("A+3"));
-    EXPECT_TRUE(commit(store, "A", 2)->empty()) << "what is older gives no reason for it";
+    EXPECT_TRUE(commit(store, "A", 2)->empty()) << "an older grid must not replace the newest";
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
@@ -179,7 +179,7 @@ TEST_F(RollingStoreTest, OldAndNewOfAReplacedGridAreBothCounted) {
     RollingStore store = open(budgets_);
     ASSERT_TRUE(commit(store, "A", 1));
     ASSERT_TRUE(commit(store, "A", 2));
-    ASSERT_TRUE(commit(store, "A", 2)) << "the other one went for it";
+    ASSERT_TRUE(commit(store, "A", 2)) << "replacing a grid evicts the other grid";
     EXPECT_THAT(grids(store), ElementsAre("A+2"));
     EXPECT_EQ(store.usage().bytes, grid_bytes_);
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
@@ -216,7 +216,7 @@ TEST_F(RollingStoreTest, AgeCountsFromTheNewestVolumeAndNotFromTheClock) {
     ASSERT_TRUE(commit(store, "A", 91));
     EXPECT_EQ(store.roll().evicted, 2U);
     EXPECT_THAT(grids(store), ElementsAre("A+60", "A+91", "B+0"));
-    EXPECT_TRUE(commit(store, "A", 30)->empty()) << "too old already";
+    EXPECT_TRUE(commit(store, "A", 30)->empty()) << "the grid is older than the limit of age";
     EXPECT_FALSE(store.would_keep("A", level2::Moment::ref, noon + minutes{30}));
 }
 
@@ -228,7 +228,8 @@ TEST_F(RollingStoreTest, AStampInTheFutureDoesNotEmptyTheCache) {
         ASSERT_TRUE(testing::commit_sized(store, "A", now_ + minutes{minute}));
     store.roll();
     const auto all = testing::all_grids(store);
-    ASSERT_EQ(all.size(), 3U) << "one is more than an hour before the newest that counts";
+    ASSERT_EQ(all.size(), 3U)
+        << "one grid is more than an hour older than the newest believable one";
     EXPECT_EQ(all.front().time, now_ - minutes{50});
 }
 
@@ -250,7 +251,7 @@ TEST_F(RollingStoreTest, GivesWayWhenOthersFillTheDisk) {
     const RollReport last = store.roll();
     EXPECT_THAT(grids(store), ElementsAre("A+9"));
     EXPECT_THAT(last.problems, ElementsAre(HasSubstr("more than 80 % full")));
-    ASSERT_TRUE(commit(store, "A", 10)) << "what is new is always taken";
+    ASSERT_TRUE(commit(store, "A", 10)) << "a new grid is always committed";
     store.roll();
     EXPECT_THAT(grids(store), ElementsAre("A+10"));
     others_ = 0;
@@ -266,7 +267,8 @@ TEST_F(RollingStoreTest, TheLowMarkOfThePercentageIsAShareOfWhatTheCacheMayHold)
         ASSERT_TRUE(commit(store, "A", minute));
     others_ = capacity_ / 2 - 8 * grid_bytes_;
     store.roll();
-    EXPECT_EQ(grids(store).size(), 4U) << "half of the 8 that would fit, not half of the disk";
+    EXPECT_EQ(grids(store).size(), 4U)
+        << "the low mark is half of the room for 8 grids, not half of the disk";
 }
 
 TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
@@ -282,14 +284,14 @@ TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+3", "A+4"));
     EXPECT_EQ(store.usage().pinned, 1U);
-    ASSERT_TRUE(commit(store, "A", 0)) << "replaced, it stays pinned";
+    ASSERT_TRUE(commit(store, "A", 0)) << "the pinned grid can be replaced";
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+4"));
     ASSERT_TRUE(commit(store, "A", 5));
 
     ASSERT_TRUE(*unpin_grid(real_file_system(), path("A", 0)));
     EXPECT_FALSE(*unpin_grid(real_file_system(), path("A", 0)));
     store.roll();
-    EXPECT_EQ(store.usage().pinned, 0U) << "a roll sees that a pin went";
+    EXPECT_EQ(store.usage().pinned, 0U) << "a roll notices a removed pin";
     ASSERT_TRUE(commit(store, "A", 6));
     EXPECT_THAT(grids(store), ElementsAre("A+4", "A+5", "A+6"));
 }
@@ -300,7 +302,7 @@ TEST_F(RollingStoreTest, APinNeedsAGrid) {
     ASSERT_TRUE(commit(store, "A", 1));
     EXPECT_EQ(pin_grid(real_file_system(), path("A", 0)).error().code, ErrorCode::not_found);
     EXPECT_TRUE(pin_grid(real_file_system(), path("A", 1)));
-    EXPECT_TRUE(pin_grid(real_file_system(), path("A", 1))) << "pinned is pinned";
+    EXPECT_TRUE(pin_grid(real_file_system(), path("A", 1))) << "pinning a pinned grid succeeds";
     EXPECT_EQ(*evict_grid(real_file_system(), path("A", 1)), Evicted::pinned);
     EXPECT_EQ(*evict_grid(real_file_system(), path("A", 0)), Evicted::missing);
 }
@@ -343,7 +345,7 @@ TEST_F(RollingStoreTest, CountsWhatOthersRemovedAndAdded) {
     ASSERT_TRUE(commit(store, "A", 6)) << "directories are made again";
     fs::copy_file(path("A", 6), directory_ / "copy");
     fs::remove_all(cache_);
-    ASSERT_TRUE(commit(store, "A", 6)) << "the cache itself, too";
+    ASSERT_TRUE(commit(store, "A", 6)) << "the cache's directory is made again, too";
     EXPECT_THAT(grids(store), ElementsAre("A+6"));
 }
 

@@ -63,7 +63,7 @@ TEST_F(StoreTest, WhatNeedNotSurviveAPowerCutIsNotWaitedFor) {
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_TRUE(file->verify());
     files.power_cut();
-    EXPECT_FALSE(GridFile::open(*path)) << "it was synced all the same";
+    EXPECT_FALSE(GridFile::open(*path)) << "the file survived a power cut, so it was synced";
     EXPECT_EQ(
         store.list("KBGM", level2::Moment::ref, std::nullopt, about.time - std::chrono::minutes{1})
             ->size(),

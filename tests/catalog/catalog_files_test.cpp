@@ -79,11 +79,12 @@ TEST_F(CatalogTest, RowsOfFilesThatWentLongAgoAreDeletedWithWhatNoOtherFileHolds
     for (const char* path : {"/d/gone", "/d/gone-with-a-copy", "/d/unknown"})
         ASSERT_EQ(*catalog_.mark_gone(path), 1);
     const UtcTime now = now_utc();
-    EXPECT_EQ(*catalog_.forget_gone(now - std::chrono::hours{1}), 0) << "not so long ago";
+    EXPECT_EQ(*catalog_.forget_gone(now - std::chrono::hours{1}), 0)
+        << "no row is older than an hour";
     EXPECT_EQ(catalog_.list("KTLX", {})->size(), 3U);
     int steps = 0;
     EXPECT_EQ(*catalog_.forget_gone(now + std::chrono::hours{1}, [&] { ++steps; }), 3);
-    EXPECT_GE(steps, 2) << "one a database";
+    EXPECT_GE(steps, 2) << "step is called for each database";
     const auto left = *catalog_.list("KTLX", {});
     ASSERT_EQ(left.size(), 1U);
     EXPECT_EQ(left[0].path, "/d/copy");
@@ -92,11 +93,11 @@ TEST_F(CatalogTest, RowsOfFilesThatWentLongAgoAreDeletedWithWhatNoOtherFileHolds
     const auto ktlx = std::find_if(stations.begin(), stations.end(),
                                    [](const StationSummary& one) { return one.station == "KTLX"; });
     ASSERT_NE(ktlx, stations.end());
-    EXPECT_EQ(ktlx->volume_count, 1) << "and none without a file";
+    EXPECT_EQ(ktlx->volume_count, 1) << "volumes without a file are deleted";
     EXPECT_FALSE(*catalog_.is_known("/d/gone"));
     EXPECT_FALSE(*catalog_.is_known("/d/unknown"));
     EXPECT_TRUE(catalog_.examine_all());
-    EXPECT_TRUE(catalog_.take_repairs().empty()) << "sound";
+    EXPECT_TRUE(catalog_.take_repairs().empty()) << "the databases should be sound";
     // A file that comes again gets a new row.
     EXPECT_EQ(*catalog_.register_file(file("/d/gone", {first})), Registered::added);
 }
@@ -156,7 +157,7 @@ TEST_F(CatalogTest, LaterSchemaAndForeignDatabaseAreRefused) {
     auto fresh = *CatalogWriter::open(directory_ / "catalog");
     EXPECT_EQ(fresh.list("KTLX", {}).error().code, ErrorCode::unsupported);
     EXPECT_EQ(fresh.list("KOKX", {}).error().code, ErrorCode::unsupported);
-    EXPECT_TRUE(fresh.take_repairs().empty()) << "they are not ours to mend";
+    EXPECT_TRUE(fresh.take_repairs().empty()) << "unsupported databases are not repaired";
 }
 
 // Many threads register the same files through two catalogs in one directory, as two processes

@@ -20,9 +20,10 @@ TEST_F(CatalogTest, SeveralFilesAreRegisteredTogether) {
     ASSERT_TRUE(catalog_.register_files("KTLX", {first, second}));
     for (const char* path : {"/d/a", "/d/b"})
         EXPECT_TRUE(*catalog_.is_settled(path, 1000, 42)) << path;
-    EXPECT_TRUE(catalog_.list("KTLX", {})->empty()) << "there is no volume in them";
+    EXPECT_TRUE(catalog_.list("KTLX", {})->empty()) << "the files have no volume";
     EXPECT_EQ(catalog_.list("KTLX", {std::nullopt, std::nullopt, true})->size(), 2U);
-    ASSERT_TRUE(catalog_.register_files("KTLX", {first, second})) << "and again";
+    ASSERT_TRUE(catalog_.register_files("KTLX", {first, second}))
+        << "registering again should succeed";
     ASSERT_TRUE(catalog_.register_files("KTLX", {}));
 }
 
@@ -186,7 +187,7 @@ TEST_F(CatalogTest, ANoteGivesWayToWhatIsKnown) {
     EXPECT_TRUE(*catalog_.is_known("/d/b"));
     ASSERT_TRUE(catalog_.register_file(file("/d/b", {})));
     const auto unknown = catalog_.list("", {std::nullopt, std::nullopt, true}).value();
-    ASSERT_EQ(unknown.size(), 1U) << "the note of b went when it was read";
+    ASSERT_EQ(unknown.size(), 1U) << "reading b deletes its row among unknown files";
     EXPECT_EQ(unknown[0].path, "/d/a");
 }
 

@@ -112,10 +112,11 @@ TEST_F(CheckCatalog, DatabasesOfUnknownStationsAreNamedAndCleared) {
     ASSERT_EQ(check->stations.size(), 5U);
     for (const StationCheck& one : check->stations)
         EXPECT_EQ(one.is_known, !one.station.starts_with('X')) << one.station;
-    ASSERT_EQ(check->troubles.size(), 1U) << "it does not keep us from the others";
+    ASSERT_EQ(check->troubles.size(), 1U) << "one bad database does not stop the check of others";
     EXPECT_EQ(check->troubles[0].station, "XDDD");
     EXPECT_FALSE(check->is_sound());
-    EXPECT_TRUE(check_catalog(catalog_, "XAAA")->stations[0].is_known) << "without a rule";
+    EXPECT_TRUE(check_catalog(catalog_, "XAAA")->stations[0].is_known)
+        << "without a rule, every station is known";
 
     const auto cleared = clear_unknown(catalog_, known);
     ASSERT_TRUE(cleared) << cleared.error().message;
@@ -132,7 +133,7 @@ TEST_F(CheckCatalog, DatabasesOfUnknownStationsAreNamedAndCleared) {
         EXPECT_FALSE(fs::exists(catalog_ / name)) << name;
     for (const char* name : {"KTLX.sqlite", "_unknown.sqlite", "XCCC.sqlite", "XDDD.sqlite"})
         EXPECT_TRUE(fs::exists(catalog_ / name)) << name;
-    EXPECT_TRUE(fs::exists(there)) << "a raw file is never touched";
+    EXPECT_TRUE(fs::exists(there)) << "raw files must stay";
     EXPECT_TRUE(fs::exists(real));
     EXPECT_TRUE(clear_unknown(catalog_, known)->cleared.empty());
 }

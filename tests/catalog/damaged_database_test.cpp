@@ -108,7 +108,8 @@ TEST_F(DamagedDatabase, NoiseInItsPlaceIsSetAsideAndTheStationGoesOn) {
     EXPECT_NE(repairs[0].damage.find("not a database"), std::string::npos) << repairs[0].damage;
     ASSERT_EQ(set_aside().size(), 1U);
     EXPECT_EQ(repairs[0].set_aside, set_aside()[0]);
-    EXPECT_EQ(read_file(set_aside()[0])->size(), noise.size()) << "as it was found";
+    EXPECT_EQ(read_file(set_aside()[0])->size(), noise.size())
+        << "the damaged file must stay unchanged";
     EXPECT_TRUE(catalog.take_repairs().empty());
 }
 
@@ -120,7 +121,7 @@ TEST_F(DamagedDatabase, RowsOfGoneFilesAreKeptButForThoseOfTheDamagedPage) {
     const auto repairs = catalog.take_repairs();
     ASSERT_EQ(repairs.size(), 1U);
     EXPECT_GT(repairs[0].lost, 0);
-    EXPECT_LT(repairs[0].lost, 80) << "a page or two";
+    EXPECT_LT(repairs[0].lost, 80) << "only rows on one or two pages should be lost";
     EXPECT_EQ(repairs[0].kept_gone + repairs[0].lost, 400);
     EXPECT_EQ(expect_true_rows(catalog), static_cast<std::size_t>(repairs[0].kept_gone));
     EXPECT_TRUE(examine_database(database_)->damage.empty());
@@ -187,7 +188,8 @@ TEST_F(DamagedDatabase, DamageOfAnyPageIsMended) {
         }
     }
     EXPECT_GT(mended, 8);
-    EXPECT_EQ(set_aside().size(), static_cast<std::size_t>(mended)) << "each under its own name";
+    EXPECT_EQ(set_aside().size(), static_cast<std::size_t>(mended))
+        << "each damaged database gets its own name";
 }
 
 TEST_F(DamagedDatabase, LostIndicesAndTablesAreDamage) {
@@ -225,7 +227,7 @@ TEST_F(DamagedDatabase, ADatabaseThatIsDeletedUnderTheWriterIsMadeAgain) {
     fs::remove(database_);
     EXPECT_EQ(*catalog.register_file(facts_of(2)), Registered::added);
     const auto repairs = catalog.take_repairs();
-    ASSERT_EQ(repairs.size(), 1U) << "so that its files are offered again";
+    ASSERT_EQ(repairs.size(), 1U) << "a repair must be reported, so that files are offered again";
     EXPECT_TRUE(repairs[0].set_aside.empty());
     auto reader = *CatalogReader::open(catalog_);
     EXPECT_EQ(reader.list("KTLX", {})->size(), 1U);

@@ -97,7 +97,7 @@ void expect_sound(const fs::path& directory, const Progress& progress) {
     auto rows = rows_in(*catalog);
     EXPECT_TRUE(catalog->take_repairs().empty());
     for (const auto& [path, state] : progress.answered) {
-        ASSERT_TRUE(rows.contains(path)) << path << " was answered and is lost";
+        ASSERT_TRUE(rows.contains(path)) << path << " is lost, although its registration succeeded";
         const bool may_differ = progress.asked && progress.asked->first == path;
         EXPECT_TRUE(rows[path] == state || (may_differ && rows[path] == progress.asked->second))
             << path << ": " << file_state_name(rows[path]) << " instead of "
@@ -124,7 +124,8 @@ bool cut_at(std::uint64_t operation, Kept kept, unsigned seed) {
     expect_sound(directory / "catalog", progress);
     EXPECT_TRUE(finished || !ran_through);
     Progress again;
-    EXPECT_TRUE(write_all(directory / "catalog", again)) << "it cannot go on";
+    EXPECT_TRUE(write_all(directory / "catalog", again))
+        << "work cannot continue after the power cut";
     expect_sound(directory / "catalog", again);
     return !ran_through;
 }

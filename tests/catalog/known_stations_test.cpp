@@ -70,7 +70,7 @@ TEST_F(KnownStations, DatabasesOfOtherStationsAreLeftAlone) {
     EXPECT_FALSE(*catalog.is_known("/d/X001_a"));
     EXPECT_EQ(catalog.stations()->size(), 1U);
     EXPECT_TRUE(catalog.examine_all());
-    EXPECT_EQ(*catalog.mark_missing("/d"), 1) << "that of KTLX";
+    EXPECT_EQ(*catalog.mark_missing("/d"), 1) << "only the row of KTLX is marked";
     EXPECT_EQ(*catalog.forget_gone(now_utc() + std::chrono::hours{1}), 1);
     EXPECT_TRUE(catalog.roll());
     EXPECT_TRUE(catalog.take_repairs().empty());
@@ -80,7 +80,7 @@ TEST_F(KnownStations, DatabasesOfOtherStationsAreLeftAlone) {
     ASSERT_TRUE(left);
     EXPECT_EQ(left->count, 10U);
     EXPECT_EQ(left->some, (std::vector<std::string>{"X000", "X001", "X002", "X003", "X004"}));
-    EXPECT_EQ(databases().size(), 11U) << "they are there as before";
+    EXPECT_EQ(databases().size(), 11U) << "the databases must stay";
     EXPECT_EQ(open(StationRule::listed({"X001"})).left_alone()->count, 10U);
     // A reader without a rule sees all stations.
     EXPECT_EQ(CatalogReader::open(catalog_)->stations()->size(), 10U);

@@ -39,7 +39,7 @@ class Neighbors : public ::testing::Test {
         EXPECT_FALSE(catalog.is_settled("/d/KTLX_b", 1, 1));
         EXPECT_FALSE(catalog.examine("KTLX"));
         const auto troubles = catalog.troubles();
-        ASSERT_EQ(troubles.size(), 1U) << "once, however often it was met";
+        ASSERT_EQ(troubles.size(), 1U) << "the trouble is listed once";
         EXPECT_EQ(troubles[0].station, "KTLX");
         EXPECT_EQ(troubles[0].error.code, code);
         EXPECT_NE(troubles[0].error.message.find("KTLX.sqlite"), std::string::npos);
@@ -113,7 +113,7 @@ TEST_F(Neighbors, ADatabaseWithoutPermissionHoldsNobodyUp) {
     }
     int status = 0;
     ::waitpid(child, &status, 0);
-    EXPECT_EQ(status, 0) << "see above";
+    EXPECT_EQ(status, 0) << "an expectation failed in the child process";
 }
 
 // Another program's database cannot be repaired, either.

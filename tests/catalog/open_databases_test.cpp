@@ -75,7 +75,7 @@ TEST_F(OpenDatabasesTest, TheLeastRecentlyUsedIsClosedFirst) {
     EXPECT_FALSE(use("KAAA"));
     EXPECT_FALSE(use("KBBB"));
     EXPECT_TRUE(use("KAAA"));
-    EXPECT_FALSE(use("KCCC")) << "closes KBBB";
+    EXPECT_FALSE(use("KCCC")) << "opening KCCC closes KBBB";
     EXPECT_TRUE(use("KAAA"));
     EXPECT_FALSE(use("KBBB"));
     EXPECT_EQ(all.open_count(), 2U);
@@ -83,11 +83,11 @@ TEST_F(OpenDatabasesTest, TheLeastRecentlyUsedIsClosedFirst) {
         const auto one = all.lease("KAAA");
         const auto other = all.lease("KBBB");
         EXPECT_FALSE(use("KCCC"));
-        EXPECT_EQ(all.open_count(), 3U) << "those that somebody has leased stay open";
+        EXPECT_EQ(all.open_count(), 3U) << "leased databases stay open";
         EXPECT_TRUE(use("KAAA"));
     }
     EXPECT_EQ(all.close_idle(9), 3U);
-    EXPECT_EQ(all.slot_count(), 0U) << "nothing is remembered of them";
+    EXPECT_EQ(all.slot_count(), 0U) << "slots of closed databases without information are dropped";
 }
 
 TEST_F(OpenDatabasesTest, NamesThatAreAskedForLeaveNothingBehind) {
@@ -133,8 +133,7 @@ TEST_F(OpenDatabasesTest, ManyThreadsUseMoreDatabasesThanMayBeOpen) {
 // 2026-11-24: when no descriptors were left, no station could register files any more.
 TEST_F(OpenDatabasesTest, WhereDescriptorsRunOutDatabasesAreClosed) {
 #if defined(STORMCELLAR_SANITIZED)
-    GTEST_SKIP()
-        << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
+    GTEST_SKIP() << "the sanitizer needs descriptors to check memory";
 #endif
     auto catalog = open(256);
     for (int k = 0; k < 10; ++k)
@@ -163,7 +162,8 @@ TEST_F(OpenDatabasesTest, ADatabaseThatIsDeletedWhileItIsClosedIsMadeAgainAndSai
     ASSERT_TRUE(catalog.register_file(file("/d/KOUN_a", {}, "KOUN")));
     fs::remove(catalog_ / "KTLX.sqlite");
     EXPECT_EQ(*catalog.register_file(file("/d/KTLX_b", {}, "KTLX")), Registered::added);
-    EXPECT_EQ(catalog.take_repairs().size(), 1U) << "so that its files are offered again";
+    EXPECT_EQ(catalog.take_repairs().size(), 1U)
+        << "a repair must be reported, so that files are offered again";
     EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
 }
 
@@ -178,7 +178,7 @@ TEST(OpenDatabases, GivingBackALeaseReadsNothingThatAnotherThreadWrites) {
         place->file = {1, 1};
         other.join();
     }
-    EXPECT_EQ(databases.slot_count(), 1U) << "the slot remembers the file";
+    EXPECT_EQ(databases.slot_count(), 1U) << "the slot stays, because it has the file's identity";
 }
 
 }  // namespace

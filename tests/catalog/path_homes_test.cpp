@@ -29,7 +29,7 @@ void forget_homes(const CatalogReader& catalog) {
 TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KOUN")));
     ASSERT_TRUE(catalog_.register_file(file("/d/KTLX_a", {}, "KTLX")));
-    EXPECT_FALSE(*catalog_.is_known("/d/b")) << "by now no database has a stray";
+    EXPECT_FALSE(*catalog_.is_known("/d/b")) << "all databases were searched, and none has a stray";
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
     ASSERT_TRUE(catalog_.register_files("KTLX", {file("/d/KOUN_c", {}, "KTLX")}));
     forget_homes(catalog_);

@@ -120,11 +120,11 @@ TEST_F(ReaderRights, AReaderFollowsAWriterThatStopsAndStarts) {
         register_one(writer);
         EXPECT_EQ(early.count(), 1);
     }
-    EXPECT_EQ(early.count(), 1) << "stopped: there is no WAL any more";
+    EXPECT_EQ(early.count(), 1) << "after the writer ended, the file alone is read";
     EXPECT_EQ(late.count(), 1);
     auto writer = *CatalogWriter::open(directory_ / "catalog");
     register_one(writer);
-    EXPECT_EQ(late.count(), 2) << "opened while nobody wrote";
+    EXPECT_EQ(late.count(), 2) << "a reader opened without a writer sees later rows";
     EXPECT_EQ(early.count(), 2);
 }
 
@@ -154,7 +154,8 @@ TEST_F(ReaderRights, AWalWithoutItsIndexIsAnErrorUntilAWriterCame) {
     }
     ::waitpid(writer, nullptr, 0);
     fs::remove(directory_ / "catalog/KTLX.sqlite-shm");
-    EXPECT_EQ(reader.count(), -1) << "a clear error; the next writer mends it";
+    EXPECT_EQ(reader.count(), -1)
+        << "a WAL without an index is an error until a writer opens the database";
     auto next = *CatalogWriter::open(directory_ / "catalog");
     EXPECT_EQ(next.list("KTLX", {})->size(), 1U);
     EXPECT_EQ(reader.count(), 1);

@@ -44,8 +44,10 @@ TEST_F(RowsBound, AtItsBoundTheDatabaseOfUnknownFilesLeavesNewOnesOut) {
     EXPECT_EQ(catalog.list("", {{}, {}, true})->size(), static_cast<std::size_t>(added));
     FileFacts changed = unknown(7);
     changed.size_bytes = 7;
-    EXPECT_EQ(*catalog.register_file(changed), Registered::updated) << "what has a row keeps it";
-    EXPECT_EQ(*catalog.register_file(file("/d/KTLX", {})), Registered::added) << "others go on";
+    EXPECT_EQ(*catalog.register_file(changed), Registered::updated)
+        << "existing rows can be updated beyond the limit";
+    EXPECT_EQ(*catalog.register_file(file("/d/KTLX", {})), Registered::added)
+        << "other databases are not affected";
     EXPECT_TRUE(catalog.troubles().empty());
     catalog = open();
     EXPECT_LT(bytes_of("_unknown"), 220'000U);
@@ -97,7 +99,7 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
         ASSERT_EQ(*catalog.mark_missing("/d"), 6100);
         const auto all = catalog.roll();
         ASSERT_TRUE(all);
-        EXPECT_EQ(all->rows, 0) << "there is no bound";
+        EXPECT_EQ(all->rows, 0) << "without a limit, no rows are deleted";
         EXPECT_GT(all->used_bytes, 500'000U);
         options_.most_bytes = all->used_bytes / 2;
     }
@@ -111,7 +113,8 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
     EXPECT_GE(steps, 4);
     EXPECT_FALSE(*catalog.is_known(path(0)));
     EXPECT_TRUE(*catalog.is_known(path(5999)));
-    EXPECT_EQ(catalog.list("KOUN", {{}, {}, true})->size(), 100U) << "it is not the largest";
+    EXPECT_EQ(catalog.list("KOUN", {{}, {}, true})->size(), 100U)
+        << "rows of smaller databases stay";
     EXPECT_EQ(catalog.roll()->rows, 0);
     EXPECT_TRUE(catalog.examine_all());
     EXPECT_TRUE(catalog.take_repairs().empty());

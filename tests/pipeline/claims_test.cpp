@@ -242,13 +242,13 @@ TEST_F(LivingMemory, BeyondItsStationsBoundAFileIsGivenUpAndNotFollowedAgain) {
     const fs::path c = put("KTLX_c", endless_sweep("KTLX", 20));
     (void)read(files, c, "KTLX");
     EXPECT_LE(files.held_bytes(), 30'000'000U);
-    EXPECT_FALSE(files.find(a)) << "the largest";
+    EXPECT_FALSE(files.find(a)) << "the largest file should be given up";
     EXPECT_TRUE(files.find(b));
     EXPECT_TRUE(files.find(c));
     EXPECT_EQ(files.take_given_up(), 1U);
     EXPECT_FALSE(files.begin(a, "KTLX", "KTLX"));
     files.forget(a);
-    EXPECT_TRUE(files.begin(a, "KTLX", "KTLX")) << "another file of this name";
+    EXPECT_TRUE(files.begin(a, "KTLX", "KTLX")) << "a new file of this name may be followed";
 }
 
 TEST_F(LivingMemory, BeyondTheBoundOfAllWhatNoStationClaimsGoesFirst) {
@@ -260,7 +260,8 @@ TEST_F(LivingMemory, BeyondTheBoundOfAllWhatNoStationClaimsGoesFirst) {
     ASSERT_TRUE(read(files, a, "KTLX")->is_whole());
     ASSERT_TRUE(read(files, b, "")->is_whole());
     ASSERT_TRUE(read(files, c, "KOKX")->is_whole());
-    EXPECT_FALSE(files.find(b)) << "smaller, and nobody's";
+    EXPECT_FALSE(files.find(b))
+        << "the file of an unknown station is given up first, although it is smaller";
     EXPECT_TRUE(files.find(a) && files.find(c));
 }
 

@@ -25,8 +25,9 @@ TEST(StationOfAPath, IsThatOfTheNameElseOfADirectory) {
     EXPECT_EQ(station_of_path("/d/KFDR/KTLX20220317_000842_V06"), "KTLX");
     EXPECT_EQ(station_of_file_name("/d/KTLX/494/20220317-000842-001-S"), "");
     EXPECT_EQ(station_of_path("/d/KTLX/494/20220317-000842-001-S"), "KTLX");
-    EXPECT_EQ(station_of_path("/KTLX/d/494/20220317-000842-001-S"), "") << "too far above";
-    EXPECT_EQ(station_of_path("/d/QQQQ/a"), "") << "no station of the table";
+    EXPECT_EQ(station_of_path("/KTLX/d/494/20220317-000842-001-S"), "")
+        << "the station's directory is too far above";
+    EXPECT_EQ(station_of_path("/d/QQQQ/a"), "") << "the table does not have this station";
 }
 
 }  // namespace

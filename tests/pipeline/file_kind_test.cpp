@@ -67,10 +67,10 @@ TEST_F(FileKindTest, AChunkIsToldByItsName) {
     EXPECT_EQ(std::get<Chunk>(kind(file)).name.path, file.path);
     const FileStamp stamp = stamp_of(file.path).value();
     EXPECT_TRUE(std::holds_alternative<Growing>(kind_by_itself(*context_, file, stamp)))
-        << "where it turns out to be none";
+        << "a file that is not a chunk is classified without its name";
     fs::remove(file.path);
     fs::create_directory(file.path);
-    EXPECT_TRUE(is<Whole>(file)) << "a directory is rejected as a whole file is";
+    EXPECT_TRUE(is<Whole>(file)) << "a directory counts as Whole, whose handler rejects it";
 }
 
 TEST_F(FileKindTest, AFileWithoutItsEndGrowsUntilItIsToBeTakenAsItIs) {
@@ -88,8 +88,8 @@ TEST_F(FileKindTest, AFileWithoutItsEndGrowsUntilItIsToBeTakenAsItIs) {
 }
 
 TEST_F(FileKindTest, EverythingElseIsWhole) {
-    EXPECT_TRUE(is<Whole>({put("KTLX_other", 100)})) << "behind the header stand no LDM records";
-    EXPECT_TRUE(is<Whole>({put("KTLX_large", 1000)})) << "whatever it may be, it is too large";
+    EXPECT_TRUE(is<Whole>({put("KTLX_other", 100)})) << "no LDM records follow the header";
+    EXPECT_TRUE(is<Whole>({put("KTLX_large", 1000)})) << "the file is too large to be followed";
     EXPECT_TRUE(is<Whole>({put(chunk_name, 1000)}));
 }
 

@@ -22,11 +22,11 @@ TEST_F(FollowedTest, WhatIsGivenUpIsRememberedUntilItIsForgotten) {
     EXPECT_EQ(set_.find("a"), nullptr);
     EXPECT_TRUE(set_.was_given_up("a"));
     EXPECT_EQ(set_.take_given_up(), 1U);
-    EXPECT_EQ(set_.take_given_up(), 0U) << "it counts once";
+    EXPECT_EQ(set_.take_given_up(), 0U) << "each key counts once";
     set_.forget("a");
     EXPECT_FALSE(set_.was_given_up("a"));
     set_.give_up("a");
-    EXPECT_EQ(set_.take_given_up(), 0U) << "what is not followed cannot be given up";
+    EXPECT_EQ(set_.take_given_up(), 0U) << "a key that is not followed cannot be given up";
 }
 
 TEST_F(FollowedTest, WhatGrowsBeyondItsBoundIsRememberedToo) {
@@ -39,7 +39,7 @@ TEST_F(FollowedTest, WhatGrowsBeyondItsBoundIsRememberedToo) {
 }
 
 TEST_F(FollowedTest, ASecondTryIsGivenOnceHoweverOftenItIsGivenUp) {
-    EXPECT_FALSE(set_.take_second_try("a")) << "it was never given up";
+    EXPECT_FALSE(set_.take_second_try("a")) << "the key was never given up";
     add("a");
     set_.give_up("a");
     EXPECT_TRUE(set_.take_second_try("a"));
@@ -50,7 +50,7 @@ TEST_F(FollowedTest, ASecondTryIsGivenOnceHoweverOftenItIsGivenUp) {
     set_.forget("a");
     add("a");
     set_.give_up("a");
-    EXPECT_TRUE(set_.take_second_try("a")) << "as if it came for the first time";
+    EXPECT_TRUE(set_.take_second_try("a")) << "a forgotten key gets its second try again";
 }
 
 TEST_F(FollowedTest, TooManyAreForgottenTogether) {

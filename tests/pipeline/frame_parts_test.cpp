@@ -151,7 +151,7 @@ TEST_F(FrameParts, AFrameBroughtUpToDateHasTheBytesOfOneMadeWhole) {
         ++orders;
     } while (std::next_permutation(order.begin(), order.end()));
     EXPECT_EQ(updated, 120 * 4);
-    EXPECT_EQ(whole.size(), 31U) << "every set of volumes was seen";
+    EXPECT_EQ(whole.size(), 31U) << "every set of volumes should occur";
 }
 
 // The test alters codes without changing the table. If the frames stay the same, the codes were not
@@ -175,7 +175,8 @@ TEST_F(FrameParts, ASitesGridForAnInstantIsMadeOnce) {
     const auto other =
         make_frame(domain(), altered, instant, options, *geometries_, {nullptr, &instants});
     ASSERT_TRUE(other);
-    EXPECT_NE(bytes(*other), bytes(frame({0, 1, 2, 3, 4}, nullptr, options))) << "another recipe";
+    EXPECT_NE(bytes(*other), bytes(frame({0, 1, 2, 3, 4}, nullptr, options)))
+        << "a frame by another recipe must not reuse the grid";
 }
 
 TEST_F(FrameParts, OnlyWindowsOfSitesThatChangedAreMerged) {
@@ -185,8 +186,9 @@ TEST_F(FrameParts, OnlyWindowsOfSitesThatChangedAreMerged) {
     ASSERT_TRUE(now.merged);
     for (const GridWindow& window : *now.merged)
         EXPECT_EQ(window, kbgm);
-    EXPECT_LT(kbgm.nx * kbgm.ny, 0.5 * domain().nx * domain().ny) << "most is copied";
-    EXPECT_TRUE(frame({0, 1, 2, 3, 4}, &now).merged->empty()) << "the same again";
+    EXPECT_LT(kbgm.nx * kbgm.ny, 0.5 * domain().nx * domain().ny) << "most bricks should be copied";
+    EXPECT_TRUE(frame({0, 1, 2, 3, 4}, &now).merged->empty())
+        << "unchanged partials need no merging";
 }
 
 TEST_F(FrameParts, WhatASiteThatIsGoneShowedGoes) {
@@ -210,7 +212,8 @@ TEST_F(FrameParts, AFrameByOtherRulesIsNotCopiedFrom) {
     EXPECT_FALSE(frame({0, 1, 2, 3}, &older).merged);
     MosaicFrame unknown = frame({0, 1, 2});
     unknown.description.provenance.parts.clear();
-    EXPECT_FALSE(frame({0, 1, 2, 3}, &unknown).merged) << "as of before parts were recorded";
+    EXPECT_FALSE(frame({0, 1, 2, 3}, &unknown).merged)
+        << "a frame without recorded parts cannot be updated";
 }
 
 TEST_F(FrameParts, AFingerprintIsOfAllThatCountsAndOfNothingElse) {
@@ -238,7 +241,8 @@ TEST_F(FrameParts, AFingerprintIsOfAllThatCountsAndOfNothingElse) {
     });
     ASSERT_NE(stored, bricks.end());
     stored->packed_bytes = 77;
-    EXPECT_EQ(fingerprint_of({stands.description, altered}), fingerprint) << "of the file alone";
+    EXPECT_EQ(fingerprint_of({stands.description, altered}), fingerprint)
+        << "packed sizes are facts of the file, not of the cells";
     stored->checksum ^= 1;
     EXPECT_NE(fingerprint_of({stands.description, altered}), fingerprint);
 }
@@ -273,7 +277,8 @@ TEST(ShareBricks, IsByBricksNotByCells) {
     EXPECT_TRUE(share_bricks({0, 0, 16, 16}, {0, 0, 16, 16}));
     EXPECT_FALSE(share_bricks({0, 0, 16, 16}, {16, 0, 16, 16}));
     EXPECT_FALSE(share_bricks({0, 0, 16, 16}, {0, 16, 16, 16}));
-    EXPECT_TRUE(share_bricks({0, 0, 17, 16}, {31, 0, 1, 16})) << "both in the second brick";
+    EXPECT_TRUE(share_bricks({0, 0, 17, 16}, {31, 0, 1, 16}))
+        << "both windows use the second brick";
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(GeometryCache, VolumesOfOneSiteOnOneGridShareIt) {
     ASSERT_TRUE(first) << first.error().message;
     EXPECT_EQ(*cache.get(renamed, spec), *first);
     ASSERT_TRUE(cache.get(near_site, spec, grid::FrameKind::sphere));
-    EXPECT_NE(*cache.get(near_site, spec), *first) << "the capacity is one";
+    EXPECT_NE(*cache.get(near_site, spec), *first) << "the cache should keep only one geometry";
 }
 
 TEST(GeometryCache, AnErrorIsNotKept) {

@@ -52,7 +52,7 @@ TEST_F(GrowingSetTest, ANewcomerFindsNoPlaceOfItsStationWhileAllAreAlive) {
     for (const char* key : {"a", "b", "c"})
         ASSERT_TRUE(add(key, "KTLX"));
     EXPECT_FALSE(add("d", "KTLX"));
-    EXPECT_TRUE(add("e", "KFWS")) << "another station has its own places";
+    EXPECT_TRUE(add("e", "KFWS")) << "each station has places of its own";
     now_ += Set::most_idle_at_first - milliseconds{1};
     EXPECT_FALSE(add("d", "KTLX"));
     now_ += milliseconds{1};
@@ -69,7 +69,8 @@ TEST_F(GrowingSetTest, WhatGoesOnKeepsItsPlaceForAMinute) {
     ASSERT_TRUE(add("d", "KTLX"));
     ASSERT_TRUE(add("e", "KTLX"));
     EXPECT_THAT(set_.take_given_up(), ElementsAre("b", "c"));
-    EXPECT_FALSE(add("f", "KTLX")) << "a goes on, the others have just begun";
+    EXPECT_FALSE(add("f", "KTLX"))
+        << "all members are active: a continues, and the others have just begun";
     now_ += Set::most_idle - Set::most_idle_at_first;
     ASSERT_TRUE(grow("d", "KTLX", {}));
     ASSERT_TRUE(grow("e", "KTLX", {}));
@@ -95,7 +96,8 @@ TEST_F(GrowingSetTest, OfMemoryTheLargestOfTheStationGivesWay) {
     ASSERT_TRUE(add("small", "KTLX"));
     ASSERT_TRUE(add("large", "KTLX"));
     ASSERT_TRUE(grow("small", "KTLX", {.held_bytes = 2 * mib}));
-    ASSERT_TRUE(grow("large", "KTLX", {.held_bytes = 4 * mib})) << "just within its bound";
+    ASSERT_TRUE(grow("large", "KTLX", {.held_bytes = 4 * mib}))
+        << "the size is just within the limit";
     EXPECT_EQ(set_.held_bytes(), 6 * mib);
     EXPECT_FALSE(grow("large", "KTLX", {.held_bytes = 4 * mib + 1}));
     EXPECT_THAT(set_.take_given_up(), ElementsAre("large"));
@@ -135,7 +137,8 @@ TEST_F(GrowingSetTest, WhatHasClosedNoSweepHasABoundOfItsOwn) {
     ASSERT_TRUE(put("KFWS", {.held_bytes = 2 * mib}));
     EXPECT_FALSE(put("KINX", {.held_bytes = 2 * mib + 1}));
     EXPECT_THAT(set.take_given_up(), ElementsAre("KINX"));
-    EXPECT_TRUE(put("KFWS", {.held_bytes = 4 * mib, .has_sweeps = true})) << "its sweep closed";
+    EXPECT_TRUE(put("KFWS", {.held_bytes = 4 * mib, .has_sweeps = true}))
+        << "the limit does not apply after a sweep has closed";
     EXPECT_EQ(set.held_bytes(), 9 * mib);
 }
 

@@ -119,7 +119,7 @@ TEST_F(Hostile, LinksAmongChunksAreNotRead) {
     put(outside() / "chunk", last);
     fs::create_symlink(outside() / "chunk", drop() / "KTLX/1/20220317-000842-002-E");
     EXPECT_EQ(take(drop() / "KTLX/1/20220317-000842-001-S", false), "incomplete")
-        << "with the second it would have ended";
+        << "the linked second chunk would end the volume";
     EXPECT_EQ(take(drop() / "KTLX/1/20220317-000842-002-E"), "rejected: is a symbolic link");
 }
 
@@ -167,7 +167,7 @@ TEST_F(Hostile, AStationHasNoMoreGridsOfAnHourThanARadarMakes) {
     ASSERT_TRUE(grids);
     EXPECT_EQ(grids->size(), 120U);
     EXPECT_EQ(grids->back().time - grids->front().time, std::chrono::seconds{1190})
-        << "those that were written first have gone";
+        << "the grids that were written first should be removed";
 }
 
 // 2026-11-25: when a followed file had grown to 1 GiB of zeros, all of it was read at once, twice.

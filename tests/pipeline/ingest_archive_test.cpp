@@ -130,7 +130,7 @@ TEST_F(IngestArchiveTest, RowsOfMembersThatWereLostAreMadeAgain) {
     const fs::path path = put_two_volumes();
     ASSERT_TRUE(ingestor_.ingest(path, false));
     fs::remove(directory_ / "catalog" / "KBGM.sqlite");
-    EXPECT_FALSE(catalog_.list("KBGM", {})) << "this is when the loss is noticed";
+    EXPECT_FALSE(catalog_.list("KBGM", {})) << "this query notices the lost database";
     EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::unchanged);
     ASSERT_EQ(catalog_.take_repairs().size(), 1U);
     const auto again = ingestor_.ingest(path, false);
@@ -181,7 +181,7 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     int turns = 1;
     while (by_turns.ingest(path, true)->result() == IngestResult::incomplete && turns < 10)
         ++turns;
-    EXPECT_EQ(turns, 3) << "a file that is no volume has one, too";
+    EXPECT_EQ(turns, 3) << "a member without a volume takes a turn, too";
     EXPECT_EQ(grid_count(), 2U);
     EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::unchanged);
 }
@@ -236,7 +236,7 @@ TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
             if (outcome->result() != IngestResult::incomplete) break;
             EXPECT_TRUE(std::get<ended::Incomplete>(outcome->ending).has_next_turn);
         }
-        EXPECT_EQ(turns, 4) << "three members, and the end";
+        EXPECT_EQ(turns, 4) << "three members and the end take a turn each";
         EXPECT_EQ(grid_count(), 2U);
         fs::remove(path);
     }

@@ -75,7 +75,8 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     EXPECT_EQ(only_entry("KBGM").state, FileState::complete);
     EXPECT_EQ(only_entry("KBGM").generation, 0);
     ASSERT_TRUE(ingestor_.note(path));
-    EXPECT_EQ(only_entry("KBGM").state, FileState::complete) << "what is known stays";
+    EXPECT_EQ(only_entry("KBGM").state, FileState::complete)
+        << "a note must not change an existing row";
     fs::create_symlink(path, directory_ / "KBGM-link");
     ASSERT_TRUE(ingestor_.note(directory_ / "KBGM-link"));
     EXPECT_EQ(only_entry("KBGM").path, path);
@@ -234,7 +235,7 @@ TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheSameOneCountsInAnyOrder) {
 
     const auto [kept, left] = counts == 2 ? std::pair{one, other} : std::pair{other, one};
     fs::remove(kept);
-    EXPECT_NE(again(left), counts) << "the other file is gone";
+    EXPECT_NE(again(left), counts) << "without the other file, this one counts";
     write_file(kept.filename(), counts == 2 ? 2 : 3);
     EXPECT_EQ(again(kept), counts);
 }
@@ -267,11 +268,11 @@ TEST_F(IngestTest, ImpossibleDatesAreNoReasonToTryForEver) {
     ASSERT_TRUE(by_radials) << by_radials.error().message;
     EXPECT_EQ(by_radials->result(), IngestResult::gridded);
     EXPECT_EQ(format_utc(*by_radials->volume_time).substr(0, 10), "2022-03-17");
-    EXPECT_NE(by_radials->reason, "") << "it is said";
+    EXPECT_NE(by_radials->reason, "") << "the outcome must give a reason";
 }
 
 TEST_F(IngestTest, AFileThatCouldNotBeReadIsReadWhenItCan) {
-    if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+    if (::geteuid() == 0) GTEST_SKIP() << "root can read every file";
     const fs::path path = put("KTLX_a", level2::wire::ldm_volume(2, 360));
     fs::permissions(path, fs::perms::none);
     const auto refused = ingestor_.ingest(path, false);

@@ -22,7 +22,7 @@ TEST(InstanceLock, ASecondDaemonIsToldWhoHasIt) {
                   std::string::npos)
             << second.error().message;
     }
-    EXPECT_TRUE(InstanceLock::acquire(state.path())) << "the first has ended";
+    EXPECT_TRUE(InstanceLock::acquire(state.path())) << "the first lock was released";
 }
 
 TEST(InstanceLock, NeverFollowsALink) {

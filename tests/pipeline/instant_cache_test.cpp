@@ -26,7 +26,7 @@ TEST(InstantCache, TheLeastRecentlyUsedGoesFirst) {
     const auto grid = one_brick();
     cache.keep(a, grid);
     cache.keep(a, one_brick());
-    EXPECT_EQ(cache.find(a), grid) << "the first stays";
+    EXPECT_EQ(cache.find(a), grid) << "the first grid should be kept";
     EXPECT_EQ(cache.bytes(), one);
     cache.keep(b, one_brick());
     EXPECT_EQ(cache.find(a), grid);

@@ -27,7 +27,8 @@ TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
         shown += outcome.living.size();
     }
     EXPECT_GT(shown, 5U);
-    EXPECT_EQ(take(house_, 0, true).result(), IngestResult::registered) << "not in the name of all";
+    EXPECT_EQ(take(house_, 0, true).result(), IngestResult::registered)
+        << "this chunk does not represent the volume";
     EXPECT_EQ(take(house_, names_.size() - 2, true).result(), IngestResult::incomplete);
     const IngestOutcome last = take(house_, names_.size() - 1);
     EXPECT_EQ(last.result(), IngestResult::gridded);
@@ -42,7 +43,7 @@ TEST_F(LivingChunks, TheRowOfTheFirstDescribesTheVolumeWhileItGrows) {
     const auto rows = [&] { return *house_.catalog->list("KLOT", {}); };
     const auto whole = whole_.catalog->list("KLOT", {})->at(0).volume;
     take(house_, 0);
-    EXPECT_TRUE(rows().empty()) << "nothing but metadata has come";
+    EXPECT_TRUE(rows().empty()) << "only metadata have come";
     std::size_t sweeps = 0, radials = 0;
     for (std::size_t i = 1; i + 1 < names_.size(); ++i) {
         take(house_, i);
@@ -157,9 +158,10 @@ TEST_F(LivingChunks, ALateOneThatDoesNotMakeItWholeIsGriddedToo) {
         if (i != 20 && i != 30) take(house_, i);
     }
     ASSERT_EQ(take(house_, names_.size() - 1, true).result(), IngestResult::gridded);
-    EXPECT_TRUE(notes().empty()) << "the end of it, not a living grid";
-    EXPECT_EQ(take(house_, 20).result(), IngestResult::incomplete) << "it waits in the name of all";
-    EXPECT_TRUE(notes().empty()) << "a living grid is no better than an ended one";
+    EXPECT_TRUE(notes().empty()) << "the grid should be final, not living";
+    EXPECT_EQ(take(house_, 20).result(), IngestResult::incomplete)
+        << "this chunk represents the volume";
+    EXPECT_TRUE(notes().empty()) << "a living grid must not replace a final one";
     const IngestOutcome again = take(house_, 20, true);
     EXPECT_EQ(again.result(), IngestResult::gridded);
     EXPECT_NE(again.reason.find("missing chunks: 31"), std::string::npos) << again.reason;
@@ -196,7 +198,8 @@ TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_TRUE(outcome->partial);
-    EXPECT_EQ(outcome->missing_chunks, std::vector<int>{21}) << "what was deleted was read before";
+    EXPECT_EQ(outcome->missing_chunks, std::vector<int>{21})
+        << "deleted chunks were read before, so they are not missing";
     EXPECT_NE(outcome->reason.find("was deleted"), std::string::npos) << outcome->reason;
     const auto rows = house_.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
     ASSERT_EQ(rows->size(), names_.size() - 1);
@@ -205,7 +208,7 @@ TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
         EXPECT_NE(row.state, catalog::FileState::seen) << row.path;
     }
     EXPECT_EQ(house_.ingestor->ingest(representative, true)->result(), IngestResult::vanished)
-        << "once";
+        << "the deleted representative should be polled no more";
 }
 
 TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
@@ -214,7 +217,7 @@ TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
     const fs::path representative = drop_ / names_[9];
     fs::remove(representative);
     EXPECT_EQ(house_.ingestor->ingest(representative, true)->result(), IngestResult::incomplete)
-        << "not due: its end has not come";
+        << "the volume is not due, because its end has not come";
     const IngestOutcome next = take(house_, 10);
     EXPECT_EQ(next.result(), IngestResult::incomplete);
     EXPECT_EQ(next.former_representative, representative);
@@ -241,15 +244,16 @@ TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
     const auto first = ChunkPath::of(directory / names_[0]).value();
     const auto volume = volumes.find(first, "A")->lock();
     ASSERT_TRUE(volume->add_with_siblings(first, stamp_of(first.path).value()));
-    EXPECT_EQ(volume->files().size(), 1U) << "after four that are none the rest is left";
+    EXPECT_EQ(volume->files().size(), 1U)
+        << "after four files that are no chunks, the job should stop";
     const auto later = ChunkPath::of(directory / names_[11]).value();
     EXPECT_EQ(volume->add(later, stamp_of(later.path).value()).value(), ChunkVolume::Added::added)
-        << "it comes in its own name";
+        << "the chunk should be added by its own job";
     const auto refused = ChunkPath::of(directory / names_[1]).value();
     fs::permissions(refused.path, fs::perms::none);  // has no effect for root
     EXPECT_EQ(volume->add(refused, stamp_of(refused.path).value()).value(),
               ChunkVolume::Added::not_ours)
-        << "without reading it again";
+        << "a refused file should not be read again";
 }
 
 // 2026-11-22: the shelved sweeps of chunks had no limit on disk.
@@ -285,7 +289,7 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     grow(scarce, "B");
     EXPECT_EQ(scarce.count(), 2U);
     grow(scarce, "C");
-    EXPECT_EQ(scarce.count(), 2U) << "of three that are as large one had to go";
+    EXPECT_EQ(scarce.count(), 2U) << "one of three equally large volumes should be given up";
     EXPECT_EQ(scarce.take_given_up(), 1U);
     EXPECT_EQ(scarce.take_given_up(), 0U);
 
@@ -294,15 +298,17 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     const auto [has_its_share, given_up] = grow(each, "A");
     EXPECT_FALSE(has_its_share);
     EXPECT_EQ(each.take_given_up(), 1U);
-    EXPECT_EQ(each.find(given_up, "A"), nullptr) << "it would be read again with each chunk";
+    EXPECT_EQ(each.find(given_up, "A"), nullptr)
+        << "a volume that was given up should not be read with each chunk";
     const auto at_its_end = each.find(given_up, "A", ChunkVolumes::Expected::its_end_is_there);
-    ASSERT_TRUE(at_its_end) << "its grid waits for nothing else";
+    ASSERT_TRUE(at_its_end) << "a volume that was given up gets one more try at its end";
     const auto held = at_its_end->lock();
     EXPECT_TRUE(held->add_with_siblings(given_up, stamp_of(given_up.path).value()));
     EXPECT_FALSE(each.grew(given_up, at_its_end, held->growth(), "A"));
     EXPECT_EQ(each.find(given_up, "A", ChunkVolumes::Expected::its_end_is_there), nullptr)
-        << "whoever sends one end after the other would have it read each time";
-    EXPECT_TRUE(each.find(given_up, "A", ChunkVolumes::Expected::nothing)) << "it is quiet";
+        << "a second end should not cause another try";
+    EXPECT_TRUE(each.find(given_up, "A", ChunkVolumes::Expected::nothing))
+        << "a quiet volume is read again";
 }
 
 // 2026-11-25: such a volume was only gridded after it had been quiet.
@@ -322,7 +328,7 @@ TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
     std::size_t next = 0;
     for (; next < 20; ++next)
         given_up += take(house_, next).given_up;
-    EXPECT_EQ(given_up, 1U) << "once: after that nothing of it is read until it is quiet";
+    EXPECT_EQ(given_up, 1U) << "the volume should be given up once and not read until it is quiet";
     begin_again_with(most_shelf_bytes);
     for (; next < names_.size(); ++next)
         EXPECT_EQ(take(house_, next).given_up, 0U);
@@ -367,8 +373,7 @@ TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
 // directory as missing, so the volume was finished without them.
 TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
 #if defined(STORMCELLAR_SANITIZED)
-    GTEST_SKIP()
-        << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
+    GTEST_SKIP() << "the sanitizer needs descriptors to check memory";
 #endif
     take(house_, 0);  // opens the database
     begin_again_with(most_shelf_bytes);
@@ -446,8 +451,9 @@ TEST_F(LivingChunks, OneThatIsNoneIsRejectedByItself) {
     append_to(path, std::vector<std::byte>(5000, std::byte{7}));
     const auto rejected = house_.ingestor->ingest(path, true);
     EXPECT_EQ(rejected->result(), IngestResult::rejected);
-    EXPECT_EQ(rejected->station, "KLOT") << "by its directory";
-    EXPECT_EQ(take(house_, 9, true).result(), IngestResult::incomplete) << "the volume goes on";
+    EXPECT_EQ(rejected->station, "KLOT") << "the directory names the station";
+    EXPECT_EQ(take(house_, 9, true).result(), IngestResult::incomplete)
+        << "the volume should continue";
 }
 
 }  // namespace

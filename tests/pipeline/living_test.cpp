@@ -84,7 +84,7 @@ TEST_F(Living, RecordsInTheWrongOrderGiveTheGridsOfTheRightOrder) {
     std::size_t shown = 0;
     for (const IngestOutcome& outcome : outcomes)
         shown += outcome.living.size();
-    EXPECT_GE(shown, sweeps - 1) << "each sweep, some without a record that comes late";
+    EXPECT_GE(shown, sweeps - 1) << "each sweep but the last should be shown";
 
     House whole(directory_ / "whole", false);
     const fs::path right_path = directory_ / "right" / path.filename();
@@ -147,7 +147,8 @@ TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
         }
     }
     EXPECT_GT(shown_together, 20U);
-    EXPECT_EQ(shown_together, shown_alone) << "a moment is shown only when it has news";
+    EXPECT_EQ(shown_together, shown_alone)
+        << "a moment should be shown only when it has new sweeps";
     for (const Moment moment : moments)
         EXPECT_EQ(together.grids("KLOT", moment).size(), 2U);
 }
@@ -233,7 +234,8 @@ TEST_F(Living, WithoutTimeLowSweepsAreShownAndTheOthersTogetherLater) {
     // (SAILS).
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), shown), 0);
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), left_out), 0);
-    ASSERT_TRUE(outcomes.back().living_left_out) << "a high sweep was the last";
+    ASSERT_TRUE(outcomes.back().living_left_out)
+        << "the last sweep is a high one, for which there is no time";
     EXPECT_TRUE(outcomes.back().living.empty());
     has_time = true;
     append_to(path, std::span{bytes}.subspan(fs::file_size(path), 1000));
@@ -284,12 +286,13 @@ TEST_F(Living, WhereNoPlaceIsLeftANewcomerIsNotFollowed) {
     const auto a = files.begin("/drop/a", "KTLX", "KTLX");
     const auto b = files.begin("/drop/b", "KTLX", "KTLX");
     ASSERT_TRUE(a && b);
-    EXPECT_FALSE(files.begin("/drop/c", "KTLX", "KTLX")) << "the station has its two";
+    EXPECT_FALSE(files.begin("/drop/c", "KTLX", "KTLX")) << "a station may have two files";
     EXPECT_TRUE(files.begin("/drop/d", "KOKX", "KOKX"));
-    EXPECT_FALSE(files.begin("/drop/e", "KOKX", "KOKX")) << "all have their three";
+    EXPECT_FALSE(files.begin("/drop/e", "KOKX", "KOKX")) << "there may be three files in total";
     EXPECT_EQ(files.find("/drop/a"), a);
-    EXPECT_EQ(files.take_given_up(), 0U) << "what is alive stays";
-    EXPECT_TRUE(files.begin("/drop/f", "KBGM", "KBGM")) << "in the place of one of the other's two";
+    EXPECT_EQ(files.take_given_up(), 0U) << "active files must not be given up";
+    EXPECT_TRUE(files.begin("/drop/f", "KBGM", "KBGM"))
+        << "the new station should take a place from the station with two files";
     EXPECT_EQ(files.take_given_up(), 1U);
     EXPECT_EQ(files.find("/drop/a"), nullptr);
     files.forget("/drop/b");

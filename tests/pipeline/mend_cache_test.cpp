@@ -54,7 +54,7 @@ TEST_F(MendCache, AGridThatWasCutIsMadeAgainFromItsFile) {
     EXPECT_EQ(mended->condition, GridCondition::made_again);
     EXPECT_TRUE(mended->reason.starts_with(grid.path.native())) << mended->reason;
     EXPECT_EQ(mended->from, directory_ / "KBGM20050822_024414.gz");
-    EXPECT_EQ(*read_file(grid.path), good) << "to the byte";
+    EXPECT_EQ(*read_file(grid.path), good) << "the grid should have the same bytes";
     EXPECT_EQ(catalog_.list("KBGM", {})->at(0).state, catalog::FileState::complete);
 }
 
@@ -133,9 +133,11 @@ TEST_F(MendCache, AnotherFileOfTheSameSizeAndTimeIsNotTheOneThatWasCataloged) {
     ASSERT_EQ(missing->size(), 2U);
     EXPECT_EQ(mender_.make(missing->at(0)).error().code, ErrorCode::corrupt);
     EXPECT_TRUE(grids("KBGM").empty());
-    EXPECT_EQ(mender_.missing(hours{6})->size(), 1U) << "it is not tried again";
+    EXPECT_EQ(mender_.missing(hours{6})->size(), 1U)
+        << "a grid that could not be made should not be tried again";
     for (const auto& row : *catalog_.list("KBGM", {}))
-        EXPECT_EQ(row.state, catalog::FileState::complete) << "of the file that was cataloged";
+        EXPECT_EQ(row.state, catalog::FileState::complete)
+            << "the rows of the cataloged files must not change";
 }
 
 TEST_F(MendCache, ADatabaseThatCannotBeReadIsItsOwnStationsTrouble) {
@@ -154,7 +156,7 @@ TEST_F(MendCache, AGridThatWasEvictedMeanwhileIsNoDamage) {
     const auto grid = grids("KBGM").at(0);
     fs::remove(grid.path);
     EXPECT_EQ(mender_.mend(grid, MendDepth::all)->condition, GridCondition::sound);
-    EXPECT_TRUE(grids("KBGM").empty()) << "that is for missing() to decide";
+    EXPECT_TRUE(grids("KBGM").empty()) << "mend() should not make a missing grid";
 }
 
 TEST_F(MendCache, WhatIsOfALaterVersionIsLeftAlone) {
@@ -174,7 +176,7 @@ TEST_F(MendCache, AWipedCacheIsFilledNewestFirst) {
     const auto missing = mender_.missing(hours{6}, [&] { ++steps; });
     ASSERT_TRUE(missing);
     ASSERT_EQ(missing->size(), 3U);
-    EXPECT_EQ(steps, 1) << "for each station";
+    EXPECT_EQ(steps, 1) << "step is called for each station";
     EXPECT_GT(missing->at(0).time, missing->at(1).time);
     for (const MissingGrid& grid : *missing)
         EXPECT_EQ(mender_.make(grid)->result(), IngestResult::gridded);
@@ -194,7 +196,8 @@ TEST_F(MendCache, WhatWasEvictedIsNotFilledInAgainAndAGapIs) {
     take_in(3);
     const auto all = grids("KBGM");
     fs::remove(all[0].path);
-    EXPECT_TRUE(mender_.missing(hours{6})->empty()) << "older than the oldest that stands";
+    EXPECT_TRUE(mender_.missing(hours{6})->empty())
+        << "a grid older than all others counts as evicted";
     fs::remove(all[2].path);
     const auto missing = mender_.missing(hours{6});
     ASSERT_EQ(missing->size(), 1U);
@@ -309,7 +312,8 @@ TEST_F(MendMosaic, DeletedPartialsAndFramesAreMissing) {
     ASSERT_TRUE(missing);
     ASSERT_EQ(missing->size(), 1U);
     EXPECT_EQ(missing->at(0).raw, directory_ / "KBGM20050822_025001.gz");
-    ASSERT_EQ(missing->at(0).names.size(), 1U) << "the site's own grid stands";
+    ASSERT_EQ(missing->at(0).names.size(), 1U)
+        << "the site's own grid exists, so only the partial is missing";
     EXPECT_EQ(missing->at(0).names[0].domain, "north.KBGM");
     ASSERT_TRUE(mender_.make(missing->at(0)));
     expect_all_as_before();  // frames are made with the partial

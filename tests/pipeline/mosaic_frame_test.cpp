@@ -82,7 +82,8 @@ TEST_F(RealFrames, OrderOfArrivalAndThreadsChangeNoBit) {
     const UtcTime instant = *parse_utc("2010-09-11T01:22:00Z", UtcTime{});
     const auto one = frame(instant);
     ASSERT_TRUE(one) << one.error().message;
-    EXPECT_TRUE(one->description.provenance.provisional) << "no site has a later volume";
+    EXPECT_TRUE(one->description.provenance.provisional)
+        << "the frame is provisional, because no site has a later volume";
     EXPECT_EQ(one->description.sites.size(), 4U);
     EXPECT_EQ(one->description.time, instant);
     std::reverse(partials_.begin(), partials_.end());

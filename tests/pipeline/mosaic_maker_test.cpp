@@ -180,7 +180,7 @@ TEST_F(MosaicKeeperTest, AFrameIsWhatTheSameVolumesMakeWithoutTheStore) {
 // With a single site, all bricks are merged again, but the frame still counts as updated.
 TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     take(load_volume(sequence[0]));
-    EXPECT_EQ(take(load_volume(sequence[2])).updated, 0U) << "no frame stood";
+    EXPECT_EQ(take(load_volume(sequence[2])).updated, 0U) << "there was no frame to update";
     EXPECT_EQ(take(load_volume(sequence[1])).updated, 2U);
     const auto updated = open(frames()[0].path);
     const auto bytes_of_updated = *read_file(frames()[0].path);
@@ -191,7 +191,8 @@ TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     ASSERT_TRUE(whole) << whole.error().message;
     EXPECT_FALSE(whole->merged);
     EXPECT_EQ(whole->stations, std::vector<std::string>{"KBGM"});
-    EXPECT_EQ(*read_file(whole->path), bytes_of_updated) << "however often it was made";
+    EXPECT_EQ(*read_file(whole->path), bytes_of_updated)
+        << "the bytes must not depend on how often the frame was made";
 }
 
 // An altered code would be copied with a new checksum, and the damage would never be noticed.
@@ -232,12 +233,12 @@ TEST_F(MosaicKeeperTest, MissingFramesAreThoseBetweenPartialsThatStand) {
     fs::remove(all[0].path);
     const auto both = missing_frames(store_, keeper_.domains(), std::chrono::hours{6});
     ASSERT_EQ(both->size(), 2U);
-    EXPECT_EQ(both->at(1).time, all[0].time) << "newest first";
+    EXPECT_EQ(both->at(1).time, all[0].time) << "the newest frame should come first";
     EXPECT_EQ(missing_frames(store_, keeper_.domains(), std::chrono::minutes{1})->size(), 1U);
     std::vector<std::string> problems;
     ASSERT_TRUE(keeper_.make_again(both->at(0), 1, problems));
     EXPECT_TRUE(missing_frames(store_, keeper_.domains(), std::chrono::hours{6})->empty())
-        << "older than the oldest that stands: evicted";
+        << "a frame older than all others counts as evicted";
 }
 
 TEST_F(MosaicKeeperTest, WhatCannotBeMadeAgainSaysWhy) {

@@ -151,9 +151,10 @@ TEST_P(MosaicHonesty, WhatIsLeftOffIsLessThanTheBudget) {
     }
     EXPECT_LE(position_m, *prepared->budget.position_m);
     EXPECT_LE(difference(chosen, frame_of(*prepared, all)), *prepared->budget.value)
-        << "all that was left off";
+        << "with all effects that were left off";
     const MosaicFrame exact = frame_of(*prepared, grid::reference_choice(prepared->chain));
-    EXPECT_LE(difference(chosen, exact), *prepared->budget.value) << "the exact chain";
+    EXPECT_LE(difference(chosen, exact), *prepared->budget.value)
+        << "compared with the exact chain";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MosaicHonesty, ::testing::Range<std::size_t>(0, scenes().size()));
@@ -180,7 +181,7 @@ TEST(MosaicHonesty, EveryEffectOfMosaicsMattersInSomeScene) {
     }
     for (const char* effect :
          {"time_blend", "echo_motion", "sweep_times", "site_overlap", "fine_codes"}) {
-        ASSERT_TRUE(greatest_part.contains(effect)) << effect << " is never called for";
+        ASSERT_TRUE(greatest_part.contains(effect)) << effect << " is never turned on";
         EXPECT_GT(greatest_part[effect], stated_part) << effect;
     }
 }
@@ -205,7 +206,7 @@ TEST(MosaicPlan, EchoMotionIsAsFarAsEchoMoves) {
         EXPECT_LT(decision.predicted.position_m, 30 * 348);
         return;
     }
-    FAIL() << "no echo_motion";
+    FAIL() << "the chain has no echo_motion";
 }
 
 TEST(MosaicPlan, WithoutABudgetIsTheDefault) {

@@ -108,7 +108,8 @@ TEST_F(OthersPartials, WhatTheCacheHasIsTakenOnce) {
     const auto one = node("one");
     EXPECT_EQ(take(*one, "north", first).partials.size(), 1U);
     EXPECT_THAT(take(*one, "north", first).partials, IsEmpty());
-    EXPECT_THAT(take(*one, "buddy", first).partials, IsEmpty()) << "the same, made elsewhere";
+    EXPECT_THAT(take(*one, "buddy", first).partials, IsEmpty())
+        << "the same partial from another machine changes nothing";
     EXPECT_EQ(one->sources->newest_of("buddy"), minute(46));
 }
 
@@ -140,7 +141,8 @@ TEST_F(OthersPartials, AMachineThatIsLateIsLeftOutNamedAndComesBack) {
     EXPECT_THAT(frame_of(*late, 55).left_out, IsEmpty());
     for (const auto& partial : {first, other_first, second, other_second, other_third})
         take(*all, "x", partial);
-    EXPECT_TRUE(cache_of("late") == cache_of("all")) << "nothing tells that it was late";
+    EXPECT_TRUE(cache_of("late") == cache_of("all"))
+        << "the frames should not show that a machine was late";
 }
 
 TEST_F(OthersPartials, AStationThatAnotherMachineBringsIsNotLeftOut) {
@@ -196,7 +198,7 @@ TEST_F(OthersPartials, FramesThatAKilledDaemonDidNotMakeAreMade) {
     EXPECT_TRUE(cache_of("killed") == cache_of("whole"));
     for (const auto& partial : {other_third, third, second, first})
         take(*again, "all", partial);
-    EXPECT_EQ(mended(*again), 0) << "what is as it should be stays";
+    EXPECT_EQ(mended(*again), 0) << "current frames should not be made again";
 }
 
 // 2026-11-28: forged partials kept the thread busy for three minutes without a heartbeat.
@@ -256,7 +258,8 @@ TEST_F(OthersPartials, PartsThatSayWhatNoneSaysAreRefused) {
         const Error error = refused(
             *one, {file, {"north.KBGM", level2::Moment::ref, minute(first.minute)}, "evil"});
         EXPECT_THAT(error.message, HasSubstr(why));
-        EXPECT_THAT(error.message, HasSubstr(file.native())) << "the part is to blame";
+        EXPECT_THAT(error.message, HasSubstr(file.native()))
+            << "the message should name the partial";
     }
     grid::Grid future = grid_of(first);
     future.time = future.start_time = now_utc() + std::chrono::hours{1};
@@ -266,7 +269,8 @@ TEST_F(OthersPartials, PartsThatSayWhatNoneSaysAreRefused) {
         refused(*one, {file, {"north.KBGM", level2::Moment::ref, future.time}, "evil"}).message,
         HasSubstr("of the future"));
     EXPECT_FALSE(one->sources->newest_of("evil"));
-    EXPECT_FALSE(fs::exists(directory_ / "one" / "north.KBGM")) << "made for what is kept";
+    EXPECT_FALSE(fs::exists(directory_ / "one" / "north.KBGM"))
+        << "the directory should be made only for a partial that is kept";
 }
 
 TEST_F(OthersPartials, AFrameOfPartsWithManyNotesIsMade) {
@@ -309,7 +313,7 @@ TEST_F(OthersPartials, AStationHasNoMorePartsOfAnHourThanARadarMakes) {
     const auto open = MappedPartials::open(one->store, domain, level2::Moment::ref, minute(31),
                                            minute(61), problems);
     ASSERT_TRUE(open);
-    EXPECT_LE(open->views().size(), 25U) << "each has a descriptor";
+    EXPECT_LE(open->views().size(), 25U) << "each open partial takes a descriptor";
 }
 
 TEST_F(OthersPartials, WhatIsDamagedOrCutIsRefused) {
@@ -327,9 +331,9 @@ TEST_F(OthersPartials, WhatIsDamagedOrCutIsRefused) {
         EXPECT_EQ(refused(*one, good).cause(), Cause::data) << size;
     }
     write(bytes.size(), bytes.size() - 1);
-    EXPECT_EQ(refused(*one, good).code, ErrorCode::corrupt) << "a code";
+    EXPECT_EQ(refused(*one, good).code, ErrorCode::corrupt) << "a code was changed";
     write(bytes.size(), 300);
-    EXPECT_EQ(refused(*one, good).code, ErrorCode::corrupt) << "the description";
+    EXPECT_EQ(refused(*one, good).code, ErrorCode::corrupt) << "the description was changed";
     EXPECT_THAT(cache_of("one"), IsEmpty());
     write(bytes.size(), bytes.size());
     EXPECT_TRUE(one->mosaics.take_partial(good, 1));

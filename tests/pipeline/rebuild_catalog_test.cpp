@@ -61,7 +61,8 @@ TEST_F(RebuildCatalog, ADeletedCatalogComesBackFromTheDropDirectory) {
     EXPECT_EQ(rows("KBGM")[0].volume.sweep_count > 0, true);
     EXPECT_EQ(rows("").at(0).state, FileState::rejected);
     EXPECT_TRUE(catalog::check_catalog(catalog_, "")->is_sound());
-    EXPECT_EQ(rebuild_catalog(options_)->unchanged, 3U) << "a sound one stays as it is";
+    EXPECT_EQ(rebuild_catalog(options_)->unchanged, 3U)
+        << "rebuilding a sound catalog should change nothing";
 }
 
 TEST_F(RebuildCatalog, ADamagedCatalogKeepsItsGoneRows) {
@@ -91,7 +92,7 @@ TEST_F(RebuildCatalog, OfOneStationOnlyFilesThatMayBeItsAreRead) {
     options_.station = "KOKX";
     const auto report = rebuild_catalog(options_);
     ASSERT_TRUE(report);
-    EXPECT_EQ(report->files, 1U) << "noise may be anybody's";
+    EXPECT_EQ(report->files, 1U) << "a file without a station may belong to any station";
     options_.station = "KBGM";
     EXPECT_EQ(rebuild_catalog(options_)->registered, 2U);
 }
@@ -106,11 +107,12 @@ TEST_F(RebuildCatalog, ADatabaseThatCannotBeUsedIsNamedAndTheOthersAreRebuilt) {
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->registered, 2U);
     EXPECT_EQ(report->rejected, 1U);
-    ASSERT_EQ(report->problems.size(), 2U) << "one for each database";
+    ASSERT_EQ(report->problems.size(), 2U) << "there should be one problem for each database";
     EXPECT_NE(report->problems[0].message.find("KAAA.sqlite"), std::string::npos);
     EXPECT_NE(report->problems[1].message.find("KOKX.sqlite"), std::string::npos);
     options_.station = "KAAA";
-    EXPECT_FALSE(rebuild_catalog(options_)) << "asked for alone it is an error";
+    EXPECT_FALSE(rebuild_catalog(options_))
+        << "a bad database is an error if only its station is requested";
 }
 
 TEST_F(RebuildCatalog, OnlyStationsThatAreKnownGetADatabaseAndTheDropDirectoryIsToldToReaders) {

@@ -85,7 +85,7 @@ TEST(SameBytes, OfTheSameVolumesWhateverIsLocal) {
         EXPECT_TRUE(bytes == theirs.at(path)) << path;
     }
     EXPECT_EQ(ours.size(), theirs.size());
-    EXPECT_EQ(ours.size(), 11U) << "three volumes of two moments, their partials of one, 2 frames";
+    EXPECT_EQ(ours.size(), 11U) << "6 grids of three volumes, 3 partials and 2 frames";
     EXPECT_EQ(frames, 2U);
 }
 

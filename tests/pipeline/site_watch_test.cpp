@@ -98,10 +98,10 @@ class SiteWatchTest : public ::testing::Test {
 };
 
 TEST_F(SiteWatchTest, SitesAreComparedOnceAFrameIsComplete) {
-    EXPECT_FALSE(next()) << "an empty cache";
+    EXPECT_FALSE(next()) << "the cache is empty";
     take(*a_, 0);
     take(*b_, 0);
-    EXPECT_FALSE(next()) << "later volumes are to come";
+    EXPECT_FALSE(next()) << "the frame is still provisional";
     take(*a_, 1);
     EXPECT_FALSE(next());
     take(*b_, 1);
@@ -113,7 +113,7 @@ TEST_F(SiteWatchTest, SitesAreComparedOnceAFrameIsComplete) {
     EXPECT_EQ(report->found.b, "XSYB");
     expect(report->found, 0, 0, 0);
     EXPECT_THAT(report->faults, IsEmpty());
-    EXPECT_FALSE(next()) << "once in an hour";
+    EXPECT_FALSE(next()) << "a pair should be compared once an hour";
 }
 
 TEST_F(SiteWatchTest, AFaultIsNamed) {
