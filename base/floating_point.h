@@ -1,7 +1,7 @@
 // base/floating_point.h -- arithmetic for programs that enable floating-point traps.
 //
 // A program may enable traps on invalid operations, division by zero and overflow (feenableexcept,
-// glibc). The rooms never divide by zero or compare NaN on purpose, so such a program works as
+// glibc). Our libraries never divide by zero or compare NaN on purpose, so such a program works as
 // usual. is_within() tests a number that may be NaN. MaskedTraps disables the traps during a call
 // that may overflow or divide by zero, for example a call of GeographicLib.
 //

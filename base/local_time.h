@@ -19,8 +19,8 @@ namespace stormcellar {
 // unsupported if the database is missing.
 [[nodiscard]] Result<std::string> format_local(UtcTime time, std::string_view zone);
 
-// Returns the zone in TZ or, if TZ is not set, the zone of /etc/localtime. Returns an empty text if
-// the zone has no name in the database.
+// Returns the zone in TZ or, if TZ is not set or empty, the zone of /etc/localtime. Returns an
+// empty text if the database has no zone of this name.
 [[nodiscard]] std::string machine_time_zone();
 
 }  // namespace stormcellar

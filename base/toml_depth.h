@@ -2,8 +2,8 @@
 //
 // The parser makes a table for each part of a dotted key, and destroys the tables by recursion. So
 // a key with a few hundred thousand parts, which fits into a file of 1 MiB, would crash the
-// process. The parser itself limits the depth of arrays and inline tables. This is used only inside
-// the base room, by toml_file.cpp.
+// process. The parser itself limits the depth of arrays and inline tables. Used only inside the
+// base room, by toml_file.cpp.
 //
 // Threads   Pure functions.
 #pragma once

@@ -92,8 +92,8 @@ class Account {
     // Returns true if a grid of this name is or would be the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
     // Returns true if a grid of this name must be kept, even if protected grids must be evicted for
-    // it. This is so if its group is known, and the grid is pinned or is or would be the newest of
-    // its domain and moment.
+    // it. A grid must be kept if its group is known, and it is pinned or is or would be the newest
+    // grid of its domain and moment.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
     // Returns true if a grid of this name, written now, is older than its group's limit of age. A
     // pinned grid does not expire; nor does the newest grid of a domain and moment in a known

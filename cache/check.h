@@ -24,9 +24,9 @@ namespace stormcellar::cache {
 [[nodiscard]] Status check_description(const GridDescription& description,
                                        const grid::Quantization& quantization);
 
-// Checks that every entry is one of the three kinds in its only form: unused fields are zero;
-// counts, codes and packed sizes are in range; entries refer to all status blocks, once each and in
-// order; and no cell of a status block has the status `value`.
+// Checks that every entry is of one of the three kinds and in the only allowed form: unused fields
+// are zero; counts, codes and packed sizes are in range; entries refer to all status blocks, once
+// each and in order; and no cell of a status block has the status `value`.
 [[nodiscard]] Status check_bricks(std::span<const grid::BrickEntry> bricks,
                                   std::span<const std::byte> states,
                                   const grid::Quantization& quantization, Packing packing);

@@ -22,8 +22,9 @@ struct EvictionOrder {
     std::string domain;  // a domain with its parts, or a single part; empty: all
     // A grid is chosen if any of these members chooses it. `to` also chooses the newest grids.
     // `bytes` and `older_than` keep the newest grid of each domain and moment in a group that
-    // is_known_group() knows (stormcellar/cache/budget.h), however old or large it is, but
-    // `older_than` keeps no part (NAME.ICAO). `bytes` chooses grids of others first.
+    // is_known_group() knows (stormcellar/cache/budget.h), however old or large it is. But
+    // `older_than` may choose the newest grid of a part (NAME.ICAO). `bytes` chooses grids of
+    // others first.
     std::optional<UtcTime> to;           // up to and including this time
     std::optional<std::uint64_t> bytes;  // the oldest, until the remaining grids take at most this
     // Grids that are older than the newest grid of their group by more than this.

@@ -16,8 +16,8 @@ namespace stormcellar::cache::format {
 
 static_assert(std::endian::native == std::endian::little, "grid files are mapped as they stand");
 
-// The bytes tell the file from text, and show damage by a 7-bit transfer or a conversion of line
-// ends.
+// The first bytes of a file. They distinguish it from text, and show damage by a 7-bit transfer or
+// a conversion of line ends.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'S', 'C', 'G', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
 inline constexpr std::uint32_t version = 2;

@@ -45,8 +45,8 @@ class MapRegistration {
 struct MapRange {
     std::uintptr_t begin = 0, end = 0;
 };
-// Marks the registered map that has the address as cut, and returns its range; none if no map has
-// it.
+// Marks the registered map that contains the address as cut, and returns the map's range. Returns
+// none if no registered map contains the address.
 [[nodiscard]] std::optional<MapRange> cut_map_at(std::uintptr_t address);
 
 }  // namespace stormcellar::cache

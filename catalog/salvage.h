@@ -1,7 +1,7 @@
 // catalog/salvage.h -- reads the readable rows of a damaged database. Used only inside the catalog
 // room.
 //
-// It reads the rows before and after the damage, and tries each row in between separately. Rows on
+// salvage() reads the rows before and after the damage, and tries each row in between. Rows on
 // a damaged page are lost. The gaps in the numbers of file rows give an upper bound of the loss,
 // because rows that were moved to another station leave gaps, too.
 //

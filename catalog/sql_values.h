@@ -1,6 +1,5 @@
-// catalog/sql_values.h -- converts between SQLite's values and the types of the catalog.
-//
-// This is used only inside the catalog room.
+// catalog/sql_values.h -- converts between SQLite's values and the types of the catalog. Used only
+// inside the catalog room.
 //
 // Threads   Functions without state.
 #pragma once

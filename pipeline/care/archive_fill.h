@@ -94,8 +94,8 @@ class ArchiveFill {
     }
 
     // Grids the volumes and reports the files that were left out. When `stop` is set, no further
-    // volume begins. Errors are not about the data: the cache or the scratch directory cannot be
-    // written, or the disk is full.
+    // volume begins. Errors: the cache or the scratch directory cannot be written, or the disk is
+    // full. Faults of the data are not errors.
     [[nodiscard]] Status fill(const std::vector<ArchiveVolume>& missing,
                               const FillProgress& progress, const std::atomic<bool>& stop,
                               FillReport& report);

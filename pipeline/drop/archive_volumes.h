@@ -3,7 +3,7 @@
 // For each station these are the volumes that overlap the range and, on request, its neighbors: the
 // last volume before the range and the first volume after it, if they are close enough for a frame
 // between volumes. If several files have a volume, one is used. Existing files are preferred, among
-// them complete ones, and among these the latest.
+// them complete ones, and among these the one with the highest generation.
 //
 // Threads   Functions without state; the catalog is only read.
 #pragma once

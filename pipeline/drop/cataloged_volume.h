@@ -50,8 +50,8 @@ struct CatalogedVolume {
                                                          const catalog::CatalogEntry& entry);
 
 // Reads a volume. Joins the chunks that are in the entry's directory in the order of their numbers,
-// one for each number. Takes a chunk that its file holds twice only once. Leaves out chunks without
-// a row. Errors: those of the catalog, of read_cataloged() and of chunks_beside().
+// one for each number. If a file holds its chunk twice, takes the chunk once. Leaves out chunks
+// without a row. Errors: those of the catalog, of read_cataloged() and of chunks_beside().
 [[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(const catalog::CatalogReader& catalog,
                                                             const catalog::CatalogEntry& entry);
 

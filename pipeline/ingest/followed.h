@@ -28,8 +28,8 @@ class Followed {
 
     // Returns null if nothing is followed under this key.
     [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const { return things_.find(key); }
-    // Makes a place for one more file or volume of the station. This may give up others, by the
-    // rules of GrowingSet::has_place(). Returns false if there is no place.
+    // Makes a place for one more file or volume of the station. May give up other files or volumes,
+    // by the rules of GrowingSet::has_place(). Returns false if there is no place.
     [[nodiscard]] bool make_place(const std::string& station) {
         const bool has_place = things_.has_place(station, Clock::now());
         remember_given_up();

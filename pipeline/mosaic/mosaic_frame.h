@@ -8,8 +8,8 @@
 // come from.
 //
 // If a frame for the same instant was made before, only the bricks that changed partials touch are
-// merged, and the others are copied. This gives the same bytes at lower cost. A frame is
-// provisional while a site has nothing after the instant, because a later volume will change it.
+// merged, and the other bricks are copied, which gives the same bytes at lower cost. A frame is
+// provisional while a site has no volume after the instant, because a later volume will change it.
 //
 // Threads   Functions without state, except for the caches, which many threads may share.
 #pragma once

@@ -66,7 +66,7 @@ using ReadCheck = std::function<Status(const std::filesystem::path& path, std::u
 
 struct IngestOptions {
     // The stations whose data are accepted; null: all with a valid name. Files of other stations
-    // are cataloged among those of unknown stations, and neither followed nor gridded.
+    // are cataloged among the files of unknown stations, and neither followed nor gridded.
     std::shared_ptr<StationRule> stations;
     // Moments of each site's own grids; one decoding and one geometry serve all. Not empty.
     std::vector<level2::Moment> moments = {level2::Moment::ref};

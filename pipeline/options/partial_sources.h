@@ -3,7 +3,7 @@
 //
 // A machine is late for a frame if the newest of its volumes is older than the frame by more than
 // the allowed time. The frame then leaves out the machine's stations that no timely machine brings,
-// and says so. This depends only on the times of volumes, not on a clock, so a frame does not
+// and says so. Lateness depends only on the times of volumes, not on a clock, so a frame does not
 // depend on who makes it or when.
 //
 // Threads   Many threads may use it.

@@ -93,8 +93,8 @@ void expect_agreement(const Reported& reported, double position_tolerance_deg) {
     EXPECT_NEAR(station->antenna_altitude_m, reported.antenna_altitude_m, 1.3) << reported.icao;
 }
 
-// These are positions that radars have reported in message 31 since 2013. The altitude is the sum
-// of site and tower, each rounded down to meters; for a TDWR it is the site height alone.
+// Radars have reported these positions in message 31 since 2013. The altitude is the sum of site
+// and tower, each rounded down to meters; for a TDWR the altitude is the site height alone.
 TEST(StationTable, AgreesWithMessage31) {
     const Reported volumes[] = {
         {"KATX", 48.19461, -122.4957, 161 + 34},

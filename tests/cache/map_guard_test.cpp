@@ -75,7 +75,7 @@ TEST_F(MapGuard, AFileThatHasItsSizeAgainWasCutAllTheSame) {
     EXPECT_FALSE(file->verify());
 }
 
-// These are more maps than fit into the registry's first block.
+// The test opens more maps than fit into the registry's first block.
 TEST_F(MapGuard, EachOfManyMapsIsGuarded) {
     install_map_guard();
     const fs::path kept = write("kept.scg");

@@ -221,7 +221,7 @@ TEST(MosaicPlan, WithoutABudgetIsTheDefault) {
     EXPECT_FALSE(plan->choice.fine_codes);
 }
 
-// These are the largest values that radars send (docs/level2.md).
+// The test uses the largest values that radars send (docs/level2.md).
 TEST(MosaicPlan, FineCodesHoldAllThatRadarsSend) {
     const std::map<level2::Moment, float> largest = {{level2::Moment::ref, 94.5F},
                                                      {level2::Moment::sw, 63.5F},

@@ -39,7 +39,8 @@ class StationRule {
     ~StationRule() = default;
 
     [[nodiscard]] Kind kind() const { return kind_; }
-    // Returns true if data of this station are accepted. Does not admit a new name.
+    // Returns true if data of this station are accepted without admitting a new name. Does not
+    // change the rule.
     [[nodiscard]] bool knows(std::string_view station) const;
     // Returns true if data of this station are accepted. The rule `any` admits a new name for good,
     // as long as it has admitted fewer than `most_further`.

@@ -108,8 +108,8 @@ class StoreReader {
     // Returns the names of the domains, sorted. A directory is a domain if it contains the
     // directory of a moment.
     [[nodiscard]] Result<std::vector<std::string>> domains() const;
-    // Returns the domain's grids of the moment, sorted by time. `from` and `to` are inclusive;
-    // none: no limit. The result is empty if there are none.
+    // Returns the domain's grids of the moment, sorted by time; an empty list if it has none.
+    // `from` and `to` are inclusive. If one of the two is none, there is no limit on that side.
     [[nodiscard]] Result<std::vector<StoreEntry>> list(const std::string& domain,
                                                        level2::Moment moment,
                                                        std::optional<UtcTime> from,

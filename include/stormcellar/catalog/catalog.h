@@ -15,10 +15,10 @@
 //           which has the rows of files that are gone (repair.h). take_repairs() reports the
 //           repair, and its caller must then offer the files again. If a database was deleted while
 //           it was open, a new one is made and reported likewise.
-// Stations  A rule tells a writer which stations it knows. Only these have databases; files of all
-//           other stations are recorded among those of unknown stations. Databases of other
-//           stations, which an attack or an older configuration left, are neither opened nor
-//           changed.
+// Stations  A rule tells a writer which stations are known. Only known stations have databases;
+//           files of all other stations are recorded among the files of unknown stations. Databases
+//           of other stations, which an attack or an older configuration left, are neither opened
+//           nor changed.
 // Bounds    The number of open databases, and the bytes of the rows of each database and of all,
 //           are limited.
 // Threads   Many threads may use one catalog (each database has a mutex). Many processes may read
