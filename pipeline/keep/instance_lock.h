@@ -17,7 +17,7 @@ class InstanceLock {
   public:
     static constexpr const char* file_name = "stormcellard.lock";
 
-    // Takes the lock. Errors: busy, with the process id, if another daemon holds it; io, permission.
+    // Takes the lock. Errors: busy, with the process id, if another daemon has it; io, permission.
     static Result<InstanceLock> acquire(const std::filesystem::path& state);
 
   private:

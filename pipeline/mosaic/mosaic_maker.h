@@ -101,12 +101,12 @@ class MosaicMaker {
     // system refuses a write; the other domains have the volume nevertheless. Lasting ones are
     // among the problems.
     Result<Kept> take_in(const VolumeSource& source, int threads);
-    // Takes in a partial that another machine made: copies it into the store and makes the frames
-    // that it changes. If the store has the partial already, only notes its frames for
-    // make_stale(); does nothing if the store keeps another grid of the volume. Errors: those of
-    // the file (corrupt, truncated and others), bad_argument if no domain has such a partial, and
-    // those of the store. A frame that can never be made is named in the problems, but the partial
-    // is accepted.
+    // Copies a partial that another machine made into the store, and makes the frames that the
+    // partial changes. If the store has the partial already, only notes its frames for
+    // make_stale(). If the store keeps another grid of the volume, makes nothing. Errors: those of
+    // the file (corrupt, truncated and others); bad_argument if no domain has such a partial, its
+    // columns or codes are not the domain's, or its radials are in the future; those of the store.
+    // A frame that can never be made is named in the problems, but the partial is accepted.
     Result<Kept> take_partial(const OthersPartial& partial, int threads);
     // Checks one of the frames around the partials that the store already had when take_partial()
     // was called, newest first. Makes it again if it lacks one of the partials or describes an

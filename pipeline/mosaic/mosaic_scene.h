@@ -61,7 +61,8 @@ class MosaicScene {
     };
 
     // Grids all volumes by the default method. The volumes must outlive the scene. Errors: those of
-    // make_partials(); not_found if no volume is near the instant.
+    // make_partials(); bad_argument if there are no volumes; not_found if no volume is near the
+    // instant.
     [[nodiscard]] static Result<MosaicScene> make(std::vector<SceneVolume> volumes,
                                                   const grid::GridSpec& domain,
                                                   const accuracy::Chain& chain,

@@ -41,8 +41,9 @@ struct GridDescription {
 // Writes the file and returns its size on disk in bytes, without holes. The same cells and
 // description give the same bytes. Errors: io, no_space and others of the file system, after which
 // the path has the old file (or the new one, whole, if only the sync of the directory failed);
-// bad_argument for names and notes of more than 1 MiB, more than 4,194,304 bricks, a time outside
-// the years 1970 to 9999, or a view that does not fit its spec.
+// bad_argument for a description or view that a file cannot hold, for example with names and notes
+// of more than 1 MiB, more than 4,194,304 bricks, a time outside the years 1970 to 9999, or bricks
+// that do not fit the spec.
 [[nodiscard]] Result<std::uint64_t> write_grid_file(FileSystem& file_system,
                                                     const std::filesystem::path& path,
                                                     const GridDescription& description,
