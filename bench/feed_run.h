@@ -8,7 +8,7 @@
 //            catches up; after a pause of `most_drain_s` it ends.
 // A file is deleted when its own volume and a later volume of its station have grids.
 //
-// Threads    One thread at a time; run() starts another that watches.
+// Threads    One thread at a time; run() starts another thread, which watches the cache.
 #pragma once
 
 #include <atomic>
@@ -52,7 +52,7 @@ struct Stretch {
     double sustained = 0;
     std::vector<double> latencies_s;
     std::size_t volumes = 0;    // volumes whose last chunk was sent
-    std::size_t ungridded = 0;  // of these, without a grid at the end of the drain
+    std::size_t ungridded = 0;  // of `volumes`, those without a grid at the end
     double daemon_cpu_s = 0, player_cpu_s = 0;
     double bytes = 0;
     DaemonMemory memory;  // the maximum of each
@@ -63,7 +63,7 @@ struct Stretch {
     std::vector<int> volumes_sent;  // by site
 };
 
-// Maps the name of a grid to the times at which a grid was renamed to it.
+// Maps the name of a grid to the times at which a file was renamed to this name.
 using Renames = std::map<std::string, std::vector<std::chrono::steady_clock::time_point>>;
 
 class FeedRun {
@@ -113,7 +113,7 @@ class FeedRun {
 };
 
 // Returns the slope of a least-squares line through the samples after the first tenth, in MiB an
-// hour. NaN for fewer than two.
+// hour. Returns NaN for fewer than two samples.
 [[nodiscard]] double memory_slope_mib_h(std::span<const MemorySample> samples);
 
 // A comparison of files, catalog rows and grids, which must agree after a long run.
@@ -126,7 +126,7 @@ struct SoakCheck {
     std::size_t missing_grids = 0;  // stations whose newest whole volume has no grid
     [[nodiscard]] bool agrees() const { return missing_rows + wrong_rows + missing_grids == 0; }
 };
-// Call it after the daemon has ended. Errors: those of the catalog and the cache.
+// Checks a run after its daemon has ended. Errors: those of the catalog and the cache.
 [[nodiscard]] Result<SoakCheck> check_soak(const NationalFeed& feed,
                                            const std::vector<int>& volumes_sent,
                                            const DaemonProcess& daemon);

@@ -45,12 +45,12 @@ struct RecordFile {
     Bytes peeled;
     std::vector<std::span<const std::byte>> records;
 };
-// Returns none, after a message on stderr, if the file cannot be read.
+// Reads a file. Returns none, after a message on stderr, if that fails.
 [[nodiscard]] std::optional<RecordFile> read_records(const std::filesystem::path& path);
 
 // Decompresses all records with libbz2 alone, one stream each, part by part into one buffer.
 void decompress_all(std::span<const std::span<const std::byte>> records);
-// Does the same with this project's bunzip, as level2 does.
+// Decompresses all records with this project's bunzip, as level2 does.
 void bunzip_all(std::span<const std::span<const std::byte>> records);
 
 // Decodes reflectivity. If the volume does not name its station, `name` must begin with it.
@@ -72,10 +72,10 @@ struct ProgramRun {
 // Runs a program to its end. Returns none, after a message on stderr, if it failed.
 [[nodiscard]] std::optional<ProgramRun> run_program(const std::string& program,
                                                     std::vector<std::string> arguments);
-// Runs this program with these arguments in a process of its own. Returns what it prints.
+// Runs this program again, as a child with these arguments. Returns the output of the child.
 [[nodiscard]] std::optional<std::string> run_self(std::vector<std::string> arguments);
-// Does the same for arguments that make this program print high_water_kib(). Returns that in MiB,
-// or NaN if the run failed.
+// Runs this program again, with arguments that make it print high_water_kib(). Returns the printed
+// number in MiB, or NaN if the run failed.
 [[nodiscard]] double peak_mib(std::vector<std::string> arguments);
 // Returns the peak memory of this process in KiB, as the kernel counts it (proc(5)).
 [[nodiscard]] long high_water_kib();

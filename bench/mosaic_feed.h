@@ -43,8 +43,8 @@ struct FeedVolume {
     std::chrono::hours moved{0};  // relative to the times in the file
 };
 
-// Returns the volume before it is re-stamped: the real one of this name below `data`, or a
-// simulated one ("simulated-3").
+// Returns a volume that is not re-stamped yet. A name such as "simulated-3" means a simulated
+// volume; any other name is a real volume below `data`.
 [[nodiscard]] Result<level2::Volume> feed_volume(const std::string& name,
                                                  const std::filesystem::path& data);
 

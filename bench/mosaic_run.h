@@ -3,15 +3,15 @@
 //
 // Each file is read, decompressed, decoded (REF alone, in memory) and gridded on its site's window
 // (pipeline::make_partial, by the default method for such cells: area). Then pipeline::make_frame()
-// makes a frame for each multiple of 5 minutes: it moves the volumes before and after the instant
-// of each site to the instant, and merges them. The frame is committed to a cache. Nothing else is
-// written. The daemon makes a frame again when a volume changes it; this benchmark makes each frame
-// once, as soon as all of its volumes exist.
+// makes a frame for each multiple of 5 minutes: for each site, it moves the echo of the volumes
+// just before and just after the instant to the instant, and merges the sites. The frame is
+// committed to a cache. Nothing else is written. The daemon makes a frame again when a volume
+// changes it; this benchmark makes each frame once, as soon as all of its volumes exist.
 //
 // The run takes half an hour of data at a time: first libbz2 alone decompresses the files, then the
-// work above is done. Each of the two has its own clock, so both run under the same conditions.
-// Threads share the volumes, each of which is decoded and gridded by one thread, and the sites of a
-// frame.
+// work above is done. The two parts have separate clocks, so both run under the same conditions.
+// Volumes are spread over the threads; one thread decodes and grids a volume. The sites of a frame
+// are spread over the threads as well.
 //
 // Memory    Holds the partials of at most an hour, and one volume for each thread.
 #pragma once

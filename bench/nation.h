@@ -6,7 +6,7 @@
 // Partials are grid files of the cache, made once (some 1 GiB) and mapped, as in the daemon. The
 // new volume is a real one, KLOT 2022-03-17, moved to Des Moines.
 //
-// Threads   One thread at a time, because the clocks are those of the whole process.
+// Threads   One thread at a time, because the clocks measure the whole process.
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@
 //           storm with 94 chunks and 11.6 MB (KLOT, 2021, with MRLE), one sends KLBB 2016 (46
 //           chunks, 4.0 MB), and one sends KLOT 2026 in clear air (55 chunks, 3.1 MB). Every volume
 //           takes `period_s`, which is chosen to give the rate. The starts of the sites are spread
-//           evenly over it.
+//           evenly over this period.
 // On disk   A file for each site and hour: the records of the real volume with the site's name,
 //           position and times, compressed again (bench/restamp.h). Within the hour, volumes of a
 //           site differ only in the time in their headers: the times of the radials are up to 40

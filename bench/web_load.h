@@ -20,7 +20,7 @@ namespace stormcellar::bench {
 
 inline constexpr int processor_of_servers = 0;
 
-// A running server. It is ended by SIGTERM, so that it can remove its files.
+// A running server. The destructor ends it by SIGTERM, so that the server can remove its files.
 struct WebServer {
     ChildProcess process;
     int port = 0;
@@ -37,8 +37,8 @@ struct WebServer {
 [[nodiscard]] Result<WebServer> serve(const std::vector<std::string>& words,
                                       const std::filesystem::path& scratch,
                                       std::optional<int> processor = std::nullopt);
-// Starts `stormcellar-web` with this configuration, whose [web] listen must be 127.0.0.1:`port`. It
-// may run on any processor.
+// Starts `stormcellar-web` with this configuration, whose [web] listen must be 127.0.0.1:`port`.
+// The server may run on any processor.
 [[nodiscard]] Result<WebServer> serve_configured(const std::filesystem::path& configuration,
                                                  int port, const std::filesystem::path& scratch);
 // Starts nginx as one process that serves the files of a directory with sendfile, without a log.
@@ -51,8 +51,8 @@ struct Fetched {
     double ms = 0;  // from the request to the last byte
 };
 // Requests the paths one after another on one connection, which is opened again if the server
-// closes it. Drops the bodies, or keeps only the last one. Errors: also internal for any status but
-// 200.
+// closes it. Drops the bodies, or keeps only the last body. Errors: also internal for any status
+// but 200.
 [[nodiscard]] Result<std::vector<Fetched>> get_all(const WebServer& server,
                                                    const std::vector<std::string>& paths,
                                                    const std::vector<std::string>& headers,

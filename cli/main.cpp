@@ -34,8 +34,8 @@ void refuse_empty(CLI::App& command) {
         refuse_empty(*inner);
 }
 
-// Returns the first subcommand typed, if it can run or explain itself without the others. Setting
-// up all commands takes ten times as long as setting up one.
+// Returns the first subcommand typed, if it can run or explain itself without the others. To set up
+// all commands takes ten times as long as to set up one of them.
 const Subcommand* only_command(int argc, char** argv) {
     const Subcommand* const typed = argc < 2 ? nullptr : find_subcommand(argv[1]);
     return typed != find_subcommand("help") ? typed : nullptr;

@@ -26,8 +26,8 @@ Run set_up_view(CLI::App& command);
 
 namespace {
 
-// stormcellar-first, which scripts/demo uses for its first picture, has only frame, replay and
-// synth.
+// The program stormcellar-first, which scripts/demo uses for its first picture, has only frame,
+// replay and synth.
 constexpr std::array registry{
 #ifndef STORMCELLAR_FIRST
     Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",

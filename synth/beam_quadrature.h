@@ -59,7 +59,8 @@ struct FinestLengths {
                                                   double turn_deg, double per_deviation);
 [[nodiscard]] std::vector<BeamNode> range_nodes(double pulse_length_m);
 
-// Splits the weather into its features. The sum of their reflectivities is that of the weather.
+// Splits the weather into its features. The reflectivities of the features add up to the
+// reflectivity of the weather.
 [[nodiscard]] std::vector<Weather> single_features(const Weather& weather);
 
 // Returns the number of points for each deviation that a feature needs at a range: 0.75 times a

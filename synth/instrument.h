@@ -32,7 +32,7 @@ struct Instrument {
     double beam_width_deg = 0;      // half power, one way; 0: a line
     double pulse_length_m = 0;      // in space, c tau; 0: a point in range
     double noise_db = 0;            // deviation of a reflectivity far above the noise; 0: exact
-    double velocity_noise_mps = 0;  // the same for a velocity
+    double velocity_noise_mps = 0;  // deviation of a velocity, likewise
     // if off, velocities beyond the Nyquist velocity stay unchanged
     bool velocity_folding = false;
     bool range_folding = false;     // if off, echo beyond the unambiguous range does not fold back

@@ -30,7 +30,7 @@ class RadialObserver {
     // Fills a row. `number` counts the radials of the full turn, lost ones included.
     void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
 
-    // Returns the observed moments. Do not observe anything after that.
+    // Returns the observed moments. Do not call observe() after take().
     [[nodiscard]] std::vector<level2::SweepMoment> take();
 
   private:

@@ -5,8 +5,8 @@
 //            chunk of a volume.
 //   growing  Each file is opened, one piece is appended, and the file is closed, again and again,
 //            like pqact's `FILE -close`.
-//   open     The same without closing, like pqact's `FILE`: each file stays open until
-//            `most_open_files` others were written after it, or to the end.
+//   open     Each file is opened, and pieces are appended without closing it, like pqact's `FILE`.
+//            A file stays open until `most_open_files` others were written after it, or to the end.
 //   chunks   There is one file for each piece, DROP/KTLX/494/20220317-000842-001-S, like pqact's
 //            `FILE -close` with the number of the chunk in the name. It is written in place and
 //            closed, as by pqact, never under another name first. Station and time come from the
@@ -17,11 +17,12 @@
 // synth/replay_pieces.h defines the pieces, synth/replay_faults.h the faults. Gzipped files are
 // unpacked for chunks only.
 //
-// The first piece of a file comes at the time in its header. The others are spread evenly until the
-// same station's next volume begins, over at most `longest_volume_s`. The last volume of a station
-// takes as long as its previous one, and the only volume of a station takes `usual_volume_s`. So
-// volumes of several stations overlap, as in a feed. Whole files come at the time in their header.
-// Files without a readable header come last, in order of their names, without a wait.
+// The first piece of a file comes at the time in its header. Its other pieces are spread evenly
+// until the same station's next volume begins, over at most `longest_volume_s`. The last volume of
+// a station takes as long as its previous one, and the only volume of a station takes
+// `usual_volume_s`. So volumes of several stations overlap, as in a feed. Whole files come at the
+// time in their header. Files without a readable header come last, in order of their names, without
+// a wait.
 //
 // Sources are only read. Files that were already in the drop directory are never overwritten.
 //
@@ -60,7 +61,7 @@ struct ReplayItem {
 // Finds the files to play, in the order of replay. Files keep their own names. Archives (tar, zip)
 // give their members under their names. Directories give all regular files in them under their
 // relative names, but no dot-files, which may still be written. Errors: not_found if there is
-// nothing at all; bad_argument if two would get the same name.
+// nothing at all; bad_argument if two files would get the same name.
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
 
@@ -71,15 +72,17 @@ enum class Delivery : std::uint8_t { whole, growing, open, chunks };
 
 struct ReplayOptions {
     Delivery delivery = Delivery::whole;
-    // Seconds from one file to the next. If empty, the times above are used, divided by `speed`.
+    // Seconds from one file to the next. If empty, files come at the times in their headers,
+    // divided by `speed`.
     std::optional<double> interval_s;
     double speed = 1;
     FaultRates faults;
     const std::atomic<bool>* stop = nullptr;         // when set, the replay ends between two pieces
     std::function<void(std::size_t done)> replayed;  // called after each file
-    // Called after each file, too, with the file.
+    // Called after each file, with its item.
     std::function<void(const ReplayItem& item)> ended;
-    // Called with a file's bytes before they are written. It may change them, but not their pieces.
+    // Called with a file's bytes before they are written. It may change the bytes, but not the ends
+    // of the pieces.
     std::function<void(const ReplayItem& item, std::span<std::byte> bytes)> stamp;
     // Pieces that are due in the first `past_s` seconds are written at once, as if the replay had
     // begun that long ago. Then `begun` is called, and the clock continues from `past_s`.

@@ -1,15 +1,15 @@
 // synth/replay_faults.h -- makes deliberate faults on the way to a drop directory.
 //
-// A fault affects an element of a row: a piece in the row of a file's pieces if files come piece by
-// piece, else a file in the row of all files.
+// A fault affects one element of a row. If files come piece by piece, each file is a row, and its
+// pieces are the elements. Otherwise the files together are one row.
 //   drop      The element never comes. In a file that grows, its bytes are missing in the middle.
-//   repeat    It comes a second time after itself: it is appended again, or its file is written
-//             again with the same bytes.
+//   repeat    It comes twice in succession. A piece is appended again; a file is written again with
+//             the same bytes.
 //   reorder   It comes after the next element of its row.
 //   truncate  Its last bytes are missing: a random number, at least one and not all.
-// Each element has at most one fault. An element after which a reordered one comes has no fault.
-// The last element of a row is not reordered, and an element of less than two bytes is not
-// truncated. Random numbers depend only on the seed and on the place in the row, so the same
+// Each element has at most one fault. The element that follows a reordered element in the row has
+// no fault. The last element of a row is not reordered, and an element of less than two bytes is
+// not truncated. Random numbers depend only on the seed and on the place in the row, so the same
 // sources give the same faults at any speed.
 //
 // Threads   Pure functions.

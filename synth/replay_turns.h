@@ -14,7 +14,7 @@ namespace stormcellar::synth {
 // Times in seconds of the replay.
 struct ReplayTurn {
     double start_s = 0;
-    double span_s = 0;  // from the first piece to the end of the last one's turn
+    double span_s = 0;  // from the first piece to the end of the last piece's turn
 };
 [[nodiscard]] std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
                                                const ReplayOptions& options);

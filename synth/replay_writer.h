@@ -34,7 +34,7 @@ class PieceWriter {
     [[nodiscard]] Status close_oldest();
 
     std::size_t most_open_;
-    std::list<std::pair<std::filesystem::path, int>> open_;  // the last written one at the end
+    std::list<std::pair<std::filesystem::path, int>> open_;  // the file written last is at the end
 };
 
 }  // namespace stormcellar::synth

@@ -51,7 +51,7 @@ class SampledTruth {
     // `place`, without aliasing, or none if there is no echo. `site` has the height of its antenna.
     [[nodiscard]] std::optional<double> radial_velocity_mps(const Place& place, const Place& site,
                                                             UtcTime time) const;
-    // Does the same for the scene's radar.
+    // Returns the velocity that the scene's radar would measure at `place` in the same way.
     [[nodiscard]] std::optional<double> radial_velocity_mps(const PolarPlace& place,
                                                             UtcTime time) const;
 

@@ -40,9 +40,9 @@ struct GateEcho {
 
 // Returns which gates are folded because echo of several trips overlaps. The gates belong to one
 // radial and are equally spaced; `power` is Z over the square of the range. A gate is folded if its
-// own power is less than `threshold_db` above the sum of the powers that arrive with it. These come
-// from all gates whole multiples of the unambiguous range away, to the nearest gate. Echo beyond
-// the last gate does not come back.
+// own power is less than `threshold_db` above the sum of the powers that arrive with it. Those
+// powers come from all gates that are a whole multiple of the unambiguous range away, rounded to
+// the nearest gate. Echo beyond the last gate does not come back.
 [[nodiscard]] std::vector<bool> overlaid_gates(std::span<const double> power, double gates_a_trip,
                                                double threshold_db);
 

@@ -43,7 +43,7 @@ struct Scene {
 };
 
 // Returns the place of a radar in the plane of weather whose origin is at the given position. With
-// it, two scenes with the same origin describe two radars that see the same weather.
+// this place, two scenes of the same origin describe two radars that see the same weather.
 [[nodiscard]] Stand stand_of(const Site& site, double latitude_deg, double longitude_deg);
 
 // Parses a scene. `name` stands for the file in messages.

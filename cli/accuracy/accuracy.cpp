@@ -43,7 +43,7 @@ struct AccuracyOptions {
     bool picture = false;
 };
 
-// The volume of a file, or the first one of a simulated scene.
+// The volume of a file, or the first volume of a simulated scene.
 struct Subject {
     SourceVolume source;
     std::optional<synth::Scene> scene;
@@ -95,8 +95,8 @@ nlohmann::ordered_json to_json(const std::vector<accuracy::LadderRow>& rows,
     return list;
 }
 
-// Returns false for a step without any error: its points would all be in one place and show
-// nothing.
+// Returns false for a step without any error. Its points would be in one place, and a plot of them
+// would show nothing.
 bool has_error(const std::vector<accuracy::LadderRow>& rows, const std::string& step) {
     return std::ranges::any_of(rows, [&](const accuracy::LadderRow& row) {
         const double error = row.value ? row.value->p99 : row.image_p99_de.value_or(0);

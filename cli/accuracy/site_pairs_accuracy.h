@@ -22,8 +22,8 @@ struct SitePairs {
 
 // Compares files of two or more sites. Clocks can be compared only if a site has two volumes, which
 // show how the weather moves. Errors: bad_argument for another moment than REF or files of one
-// site; those of load_mosaic() and grid_sources(). Shows a progress bar for the pairs if it is
-// wanted.
+// site; those of load_mosaic() and grid_sources(). With `shows_progress`, shows a progress bar for
+// the pairs.
 [[nodiscard]] Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                                    const GridRequest& request,
                                                    const EffectRequest& effects,
@@ -33,7 +33,7 @@ struct SitePairs {
 [[nodiscard]] std::string format_site_pairs(const SitePairs& compared, bool markdown);
 [[nodiscard]] nlohmann::ordered_json site_pairs_json(const SitePairs& compared);
 
-// Compares and prints. Returns the exit status.
+// Compares the sites, prints the results, and returns the exit status.
 int run_site_pairs(const GridOptions& options, const GridRequest& request,
                    const EffectRequest& effects, bool markdown);
 

@@ -24,10 +24,10 @@ struct PoolJob {
     int threads = 1;
 };
 
-// Runs the tasks in their order. Once `stop` is set, no further task begins; the signal that sets
-// it also sends SIGTERM to the running ones. Calls `done` with the number of ended tasks after each
-// task that is not tried again. Returns the tasks that failed, without those that did not begin.
-// After an error, running tasks go on.
+// Runs the tasks in their order. Once `stop` is set, no further task begins; when a signal has set
+// it, run_pool() also sends SIGTERM to the running tasks. Calls `done` with the number of ended
+// tasks after each task that is not tried again. Returns the tasks that failed, without those that
+// did not begin. After an error, running tasks go on.
 [[nodiscard]] Result<std::vector<std::size_t>> run_pool(
     const PoolJob& job, const std::vector<std::size_t>& tasks, const std::atomic<bool>& stop,
     const std::function<void(std::size_t done)>& done);

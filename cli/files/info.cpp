@@ -29,7 +29,7 @@ struct InfoOptions {
     bool json = false;
     int threads = 0;  // 0: as many as the machine has
     std::string to;   // CfRadial file to write; empty: none
-    int volume = 0;   // number in the file, from 1; 0: its only one
+    int volume = 0;   // number in the file, from 1; 0: its only volume
     bool own_ranges = false;
     SiteOptions site;
 };
@@ -71,7 +71,7 @@ void print_times(const level2::Volume& volume) {
     }
 }
 
-// Returns each moment once with its gates, as "REF 1832 x 250 m".
+// Returns each moment once, with the number and length of its gates, as "REF 1832 x 250 m".
 std::string moments_text(const level2::Sweep& sweep) {
     std::string text;
     for (const level2::Moment name : level2::all_moments) {

@@ -16,7 +16,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// one table of the site frame, and one for the exact geometry
+// a table of the site frame, and a table of the exact geometry
 constexpr std::size_t most_geometries = 2;
 
 grid::GridderOptions gridder_options(const GridRequest& request, const MomentRequest& of,
@@ -39,7 +39,7 @@ struct FileScene {
     pipeline::GeometryCache geometries{most_geometries};
 };
 
-// Grids without a plan: by the default chain with the typed settings of effects.
+// Grids without a plan, by the default chain with the typed settings of effects.
 Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, const MomentRequest& of,
                               GridTimings& timings) {
     Stopwatch watch;
@@ -89,8 +89,8 @@ Result<MadeGrid> grid_by_plan(FileScene& scene, const GridRequest& request, cons
     return made;
 }
 
-// Returns true if the moment must be gridded. A named moment always is; with "all", only moments
-// that one of the volumes has.
+// Returns true if the moment must be gridded. A named moment is always gridded. With "all", a
+// moment is gridded if one of the volumes has it.
 bool is_gridded(const GridRequest& request, level2::Moment moment,
                 const std::vector<const level2::Volume*>& volumes) {
     const auto has = [&](const level2::Volume* volume) { return level2::holds(*volume, moment); };
@@ -127,7 +127,8 @@ Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridReque
     return all;
 }
 
-// Merges the files for one instant: the requested time, or the instant chosen for the first moment.
+// Merges the files for one instant, which is the requested time or else the instant chosen for the
+// first moment.
 Result<std::vector<MadeGrid>> grid_files(const std::vector<std::string>& files, GridRequest request,
                                          const std::vector<MomentRequest>& moments,
                                          GridTimings& timings, std::vector<SourceVolume>* kept) {

@@ -30,7 +30,7 @@ struct MomentRequest {
     const GridOptions& options, const GridRequest& request, const EffectOptions& effect_options,
     const MosaicOptions& mosaic_options);
 
-// A grid, and its plan, if one was requested.
+// A grid, and its plan if a plan was requested.
 struct MadeGrid {
     grid::Grid grid;
     std::optional<accuracy::Plan> plan;
@@ -40,7 +40,7 @@ struct MadeGrid {
 };
 
 // Returns a grid of each moment. Stops after the first grid that does not meet its budget. Adds to
-// the timings. Moves the decoded volumes into `kept`, unless that is null. Errors name the file.
+// the timings. Moves the decoded volumes into `kept` unless `kept` is null. Errors name the file.
 [[nodiscard]] Result<std::vector<MadeGrid>> grid_inputs(const std::vector<std::string>& files,
                                                         const GridRequest& request,
                                                         const std::vector<MomentRequest>& moments,

@@ -23,16 +23,17 @@ struct MosaicOptions {
 };
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
-// Parses the options for one moment. Errors: bad_argument, naming the option, also if it needs
-// several files and there is one. Averaging keeps its default here, because it is set by --effect.
+// Parses the options for one moment. Errors: bad_argument, naming the option, also for an option
+// that needs several files if there is only one. Averaging keeps its default here, because --effect
+// sets it.
 [[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
                                                        const EffectOptions& effects,
                                                        std::size_t files,
                                                        const GridRequest& request,
                                                        level2::Moment moment);
 
-// Returns a grid about the requested center, or about the middle of the sites. Without an extent it
-// reaches 230 km beyond the sites. Errors: those of spec_about().
+// Returns a grid about the requested center, or about the middle of the sites. Without an extent
+// the grid reaches 230 km beyond the sites. Errors: those of spec_about().
 [[nodiscard]] Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                                  GridRequest request);
 
@@ -51,10 +52,10 @@ struct MosaicSources {
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
 
-// Returns the request for the moment of `overlap`, on the grid of the sources. Without --time it
-// has no instant, so the instant will be the middle between the earliest and the latest of the
-// sites' newest volumes; if one of these is more than 15 minutes from there, the middle of the
-// newest volume.
+// Returns the request for the moment of `overlap`, on the grid of the sources. Without --time the
+// request has no instant. The mosaic's instant is then the middle between the earliest and the
+// latest of the sites' newest volumes. If one of these volumes is more than 15 minutes from there,
+// the instant is the middle of the newest volume.
 [[nodiscard]] pipeline::MosaicRequest mosaic_request(const MosaicSources& sources,
                                                      const GridRequest& request,
                                                      const grid::MosaicOptions& overlap,

@@ -24,7 +24,7 @@ struct GridTimings {
                                               const std::vector<grid::Grid>& grids,
                                               const GridTimings& timings);
 
-// Prints the same facts as text, to standard error if the grid goes to standard output.
+// Prints the facts of describe() as text, to standard error if the grid goes to standard output.
 void print_facts(const GridOptions& options, const std::vector<grid::Grid>& grids,
                  const GridTimings& timings);
 

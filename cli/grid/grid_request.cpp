@@ -49,7 +49,8 @@ Result<std::array<double, 2>> parse_pair(std::string_view option, std::string_vi
     return std::array<double, 2>{(*given)[0], (*given)[1]};
 }
 
-// Returns "azimuthal_equidistant (aeqd), latitude_longitude (lat-lon, latlon)" and so on.
+// Returns the known projections: "azimuthal_equidistant (aeqd), latitude_longitude (lat-lon,
+// latlon)" and so on.
 std::string known_projections(std::string_view before_last) {
     struct Named {
         std::string name;
@@ -92,7 +93,7 @@ Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit)
         extent, spacing, unit_name(unit), most, most * spacing);
 }
 
-// Returns how many cells an extent has; it must be a whole number.
+// Returns how many cells an extent has. Errors: bad_argument if they do not fill it exactly.
 Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     const double cells = std::round(extent / spacing);
     const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;
@@ -104,7 +105,8 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     return count_of(cells, extent, spacing, unit);
 }
 
-// Returns how many cells cover the extent; a millionth of a cell counts as rounding.
+// Returns how many cells cover the extent. Up to a millionth of a cell is taken for a rounding
+// error.
 Result<int> cells_over(double extent_deg, double spacing_deg) {
     const double cells = std::ceil(extent_deg / spacing_deg - 1e-6);
     if (!(cells >= 1)) {
@@ -172,7 +174,7 @@ Result<level2::Moment> parse_moment(const std::string& name) {
 
 constexpr std::string_view every_moment = "all";
 
-// Reads one moment, or, where several are allowed, a list of them or "all".
+// Reads one moment. Where several are allowed, also reads a list of moments or "all".
 Status parse_moments(const GridOptions& options, GridRequest& request) {
     const std::string& text = options.moment;
     request.any_moment = options.takes_moments && text == every_moment;
@@ -202,7 +204,7 @@ Status parse_moments(const GridOptions& options, GridRequest& request) {
 constexpr std::string_view counts_field = "counts";
 constexpr std::string_view weights_field = "weights";
 
-// Adds one of --fields. Returns false if there is none of this name.
+// Adds a field of --fields. Returns false if no field has this name.
 bool add_field(std::string_view name, bool mosaic, GridRequest& request) {
     const bool all = name == "all";
     request.site_counts = request.site_counts || name == counts_field || (all && mosaic);

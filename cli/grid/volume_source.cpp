@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view how_to_place =
     "; name the radar with --station ICAO, or give its position with --position LAT,LON,HEIGHT";
 
-// Returns the wish. The request must outlive the wish.
+// Returns what to decode for a request. The request must outlive the result.
 grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cuts) {
     return {
         .moments = request.moments(),

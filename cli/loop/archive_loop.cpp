@@ -193,8 +193,8 @@ void warn(const std::vector<pipeline::LeftOut>& files, std::string_view what) {
     }
 }
 
-// Reports the files that were left out, and adds to the reason if a grid of the file exists from an
-// earlier run.
+// Reports the files that were left out, with the reasons. If a grid of such a file exists from an
+// earlier run, the reason says so.
 void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& missing,
                   ArchiveGrids& grids) {
     for (pipeline::LeftOut& file : grids.report.left_out) {
@@ -344,7 +344,7 @@ Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids) {
         }
         return {};
     }
-    // Remove it while its lock is held, so that no other loop opens it meanwhile.
+    // Remove the cache while its lock is held, so that no other loop opens it meanwhile.
     std::error_code error;
     fs::remove_all(grids.directory, error);
     grids.store.reset();

@@ -51,14 +51,14 @@ struct ArchiveGrids {
     std::uint64_t bytes = 0;          // in the cache; leave_cache() sets it
 };
 
-// Fills the cache, with progress on stderr. Names the files that it leaves out on stderr. Returns
+// Fills the cache, with progress on stderr. Prints to stderr which files it leaves out. Returns
 // none if nothing in the catalog matches; `nothing` then says why. An interrupt ends the process at
 // once; committed grids stay.
 [[nodiscard]] Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
                                                                     Interrupt& interrupt,
                                                                     std::string& nothing);
 
-// Prints where the cache is and its size; removes it if it is private and not to be kept.
+// Prints the path and the size of the cache. Removes a private cache unless it must be kept.
 [[nodiscard]] Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids);
 
 }  // namespace stormcellar::cli

@@ -45,12 +45,13 @@ struct ArchiveRequest {
     double overlap_length_m = 250'000;
 };
 
-// Parses the options. Errors: bad_argument, naming the option, also for one that needs --catalog.
+// Parses the options. Errors: bad_argument, naming the option, also for an option that needs
+// --catalog.
 [[nodiscard]] Result<ArchiveRequest> parse_archive(const ArchiveOptions& options);
 
-// Returns the requested grid. It holds the bounds; without bounds it has the typed extent, else it
-// holds the sites and 230 km around them. If neither extent nor spacing was typed, the spacing is
-// the smallest of 1, 2 and 4 km with which no side has more than 1024 cells, else 8 km.
+// Returns the requested grid, which holds the bounds. Without bounds, it has the typed extent, or
+// else holds the sites and 230 km around them. If neither extent nor spacing was typed, the spacing
+// is the smallest of 1, 2 and 4 km with which no side has more than 1024 cells, else 8 km.
 [[nodiscard]] Result<grid::GridSpec> archive_spec(const ArchiveRequest& request,
                                                   const std::vector<grid::SitePosition>& sites);
 

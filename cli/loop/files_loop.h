@@ -20,11 +20,11 @@
 
 namespace stormcellar::cli {
 
-// Catalogs options.files, and sets in `options` the catalog and, where the options leave them open,
-// the stations of the files and the times that their volumes span. Names on stderr the files that
-// are left out. An interrupt ends the process at once. Errors: bad_argument for standard input;
-// those of InputFiles::find() and of rebuild_catalog(); busy if another loop catalogs the same
-// directory; not_found if no file holds a volume.
+// Catalogs options.files and sets the catalog in `options`. If the options name no stations or no
+// times, also sets those of the volumes in the files. Prints to stderr which files are left out. An
+// interrupt ends the process at once. Errors: bad_argument for standard input; those of
+// InputFiles::find() and of rebuild_catalog(); busy if another loop catalogs the same directory;
+// not_found if no file holds a volume.
 [[nodiscard]] Status catalog_files(LoopOptions& options, Interrupt& interrupt);
 
 // Returns, by station, the files and members of archives that hold no volume or cannot be read.

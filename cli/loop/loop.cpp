@@ -107,8 +107,8 @@ std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& repor
     return first;
 }
 
-// Fits the view to the echo of all grids. For frames that are made when drawn, it uses the first
-// grid only.
+// Fits the view to the echo of all grids. If frames are made when they are drawn, fits it to the
+// first grid only.
 Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const LoopOptions& options,
                 LoopScene& shown) {
     render::Scene& scene = shown.scene;
@@ -163,7 +163,7 @@ Status spread(LoopGrids& grids, const LoopOptions& options) {
     return {};
 }
 
-// Adds the frames of the way back, except the two ends.
+// Appends the frames in reverse order, without the first and the last.
 void turn_back(std::vector<LoopFrame>& frames) {
     for (std::size_t i = frames.size(); i > 2; --i) {
         const LoopFrame frame = frames[i - 2];
@@ -215,7 +215,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
     return exit_done;
 }
 
-// Opens the cache. Returns none if there is none yet.
+// Opens the cache. Returns none if the cache does not exist yet.
 Result<std::optional<cache::StoreReader>> open_if_there(const std::string& cache) {
     auto opened = cache::StoreReader::open(cache);
     if (opened) return std::optional{std::move(*opened)};
@@ -258,7 +258,7 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
 }
 
 // Applies the camera path of the scene file, unless options say how the camera moves or where it
-// is. The camera starts at the beginning of the path.
+// is. Then the camera begins at the first key of the path.
 void take_camera_keys(LoopOptions& options) {
     if (options.camera.empty()) return;
     if (std::ranges::any_of(options.scene.typed,
@@ -271,7 +271,7 @@ void take_camera_keys(LoopOptions& options) {
     if (options.camera.front().look_at) camera.look_at = options.camera.front().look_at;
 }
 
-// Refuses panels, unless a moment is typed, which makes a scene file with panels usable for a loop.
+// Refuses panels. If a moment was typed, ignores the panels of a scene file.
 Status refuse_panels(const LoopOptions& options) {
     const bool is_one = render::contains(options.scene.typed, render::moment_option());
     const bool are_in_file = !options.scene.panels.empty() && !is_one;
@@ -339,8 +339,8 @@ int only_check(const LoopOptions& options) {
     return range ? exit_done : report_error(range.error());
 }
 
-// Returns the output that goes to standard output, which is made in a temporary file: "-", or
-// "-.gif" and so on for a format other than WebP. Returns none if there is none.
+// Returns a temporary file for the output that goes to standard output, which is "-", or "-.gif"
+// and so on for a format other than WebP. Returns none if no output goes there.
 Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     const auto is_piped = [](const std::string& output) {
         return is_stdout(output) || output.starts_with("-.");

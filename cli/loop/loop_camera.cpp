@@ -30,8 +30,8 @@ Camera orbiting(const LoopScene& shown, double by_deg) {
     return render::turned(shown.view, by_deg, shown.scene.curved_earth);
 }
 
-// Returns the camera with a position. If it has none, its distance from the scene is that of the
-// fitted view.
+// Returns the camera with a position. A camera without a position gets the distance of the fitted
+// view.
 Camera placed(const LoopScene& shown, const Camera& camera) {
     if (camera.eye || camera.look_at) return camera;
     render::FittedView view = shown.view;
@@ -39,8 +39,8 @@ Camera placed(const LoopScene& shown, const Camera& camera) {
     return render::turned(view, 0, shown.scene.curved_earth);
 }
 
-// Returns how far frame i is along the path, from 0 to 1. A path that ends where it began leaves
-// out its last frame, because the loop begins with the same one.
+// Returns how far frame i is along the path, from 0 to 1. For a path that ends where it began, no
+// frame reaches 1, because the first frame of the loop has the same camera.
 double share_of(const CameraPath& path, std::size_t i, std::size_t there) {
     const std::size_t steps = path.is_closed() ? there : std::max<std::size_t>(there, 2) - 1;
     return static_cast<double>(i) / static_cast<double>(steps);

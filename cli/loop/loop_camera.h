@@ -1,8 +1,8 @@
 // cli/loop/loop_camera.h -- decides how many frames a loop has, and where the camera is in each.
 //
 // The camera is fixed, orbits (--orbit), or follows the keys of a scene file ([[loop.camera]],
-// render/view/camera_path.h). It orbits about the middle of a fitted view, about the point that it
-// looks at, or about the middle of the grid.
+// render/view/camera_path.h). The center of an orbit is the middle of a fitted view, the point that
+// the camera looks at, or the middle of the grid.
 //
 // Threads   Pure functions.
 #pragma once
@@ -25,13 +25,14 @@ struct LoopScene {
 
 [[nodiscard]] bool moves_camera(const LoopSettings& settings);
 
-// Returns the number of frames (without the way back) of a loop with this many grids, at least one.
-// Errors: bad_argument, with advice, if the camera would move in a single frame or all frames would
-// be the same.
+// Returns the number of frames of a loop, without the frames of --ping-pong that go back. `grids`
+// must be at least 1. Errors: bad_argument, with advice, if the camera would move in a single frame
+// or all frames would be the same.
 [[nodiscard]] Result<std::size_t> frame_count(const LoopSettings& settings, std::size_t grids);
 
-// Returns a camera for each of `all` frames. The first `there` frames follow the path; the others
-// go the same way back. Errors: those of CameraPath::make().
+// Returns a camera for each of `all` frames. With keys, the first `there` frames follow their path,
+// and later frames go back along it. An orbit goes on in the same direction through all frames.
+// Errors: those of CameraPath::make().
 [[nodiscard]] Result<std::vector<render::Camera>> cameras_of(const LoopSettings& settings,
                                                              const LoopScene& shown,
                                                              std::size_t there, std::size_t all);

@@ -9,7 +9,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// An existing grid, or one made for the instant.
+// A grid that exists, or a grid made for the instant.
 struct FrameGrid {
     std::optional<cache::GridFile> file;
     const pipeline::MosaicFrame* made = nullptr;

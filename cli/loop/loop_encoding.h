@@ -44,7 +44,7 @@ class Encoding {
     Writers writers_;
     render::Image frame_;
     double encode_s_ = 0;
-    // declared last, so that its destructor waits before the others are destroyed
+    // declared last, so that its destructor waits before other members are destroyed
     std::vector<std::future<Timed>> running_;
 };
 

@@ -15,7 +15,7 @@
 
 namespace stormcellar::cli {
 
-// One frame: an existing grid, or one that is made when the frame is drawn.
+// One frame. Its grid exists, or is made when the frame is drawn.
 struct LoopFrame {
     UtcTime time;
     std::optional<cache::StoreEntry> stored;
@@ -27,7 +27,7 @@ struct LoopGrids {
     TimeRange range;
     std::vector<LoopFrame> frames;  // ascending in time; empty: nothing matched, which has been
                                     // reported
-    std::size_t frames_there = 0;   // frames before the way back
+    std::size_t frames_there = 0;   // frames before those that go back
     std::filesystem::path sample;   // an existing grid
     std::optional<pipeline::BetweenGrids> between;  // makes the frames that do not exist
     std::optional<ArchiveCall> call;                // for an archive

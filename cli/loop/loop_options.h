@@ -46,8 +46,8 @@ struct LoopOptions : LoopSettings {
     std::optional<render::FittedView>* kept_view = nullptr;  // for a followed loop
 };
 
-// Adds to the subcommand the loop's own options and those of the scene and the plan. `options` must
-// outlive the parse.
+// Adds the options of the loop, its scene and its plan to the subcommand. `options` must outlive
+// the parse.
 void add_loop_options(CLI::App& loop, LoopOptions& options);
 
 // The times of the frames, and how frames between grids are made.

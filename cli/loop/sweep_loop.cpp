@@ -162,7 +162,7 @@ void limit_plane(const SweptVolume& volume, grid::GridSpec& plane) {
     plane.ny = limited(plane.ny, plane.cell_height_m());
 }
 
-// Returns the sweep on the plane of the first frame.
+// Returns the sweep of a frame, on the plane of the first frame.
 Result<PictureGrid> sweep_of(SweptVolume volume, const SweepFrame& frame, SweepDrawing& drawing) {
     drawing.scene.elevation_deg = frame.elevation_deg;
     if (frame.nearest_to) volume.request.frame_time = frame.nearest_to;
@@ -187,8 +187,9 @@ std::vector<UtcTime> times_of_sweeps(const SweptVolume& volume) {
     return times;
 }
 
-// Returns the frames that a volume may have. With --repeats there is a frame for each sweep, which
-// shows the sweep of the elevation nearest to it in time; several frames may show the same one.
+// Returns the frames that a volume may have. With --repeats there is a frame for the time of each
+// sweep. It shows the sweep of the elevation that is nearest in time, so several frames may show
+// the same sweep.
 std::vector<SweepFrame> frames_to_try(std::size_t number, const SweptVolume& volume,
                                       double asked_deg, const SweepDrawing& drawing) {
     std::vector<SweepFrame> frames;

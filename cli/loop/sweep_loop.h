@@ -3,9 +3,9 @@
 // the lowest up; with --repeats, each sweep of one elevation.
 //
 // Sweeps are drawn from raw files: the named files, the files of an archive's catalog, or the raw
-// files of a domain's grids. If a volume repeats a sweep (SAILS, MRLE), the newest is shown, or
-// with --repeats each one in order of time. All frames have the plane of the first frame, so that
-// the map does not move.
+// files of a domain's grids. If a volume repeats a sweep (SAILS, MRLE), the newest sweep is shown,
+// or with --repeats each sweep in order of time. All frames have the plane of the first frame, so
+// that the map does not move.
 //
 // Threads   One thread at a time.
 #pragma once

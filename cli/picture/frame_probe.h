@@ -23,7 +23,7 @@ using MaybeProbe = std::optional<render::Probe>;
 // Prints three lines: the place, its value, and the heights seen above it or its gate.
 void print_probe(const render::Probe& probe, const FrameOptions& options,
                  const render::Scene& scene, const cache::GridDescription& grid);
-// Returns the same for --json.
+// Returns the place, its value and the heights as JSON.
 [[nodiscard]] nlohmann::ordered_json json_of(const render::Probe& probe);
 
 }  // namespace stormcellar::cli

@@ -1,7 +1,7 @@
 // cli/picture/picture_grid.h -- the data of a picture: a grid of the cache, a grid made in memory
 // from files, or one sweep of a file.
 //
-// Threads   One thread at a time may use a PictureGrid; any may use its view.
+// Threads   One thread at a time may use a PictureGrid; several threads may use its view.
 // Errors    See each function.
 #pragma once
 
@@ -27,7 +27,7 @@ void add_picture_grid_options(CLI::App& app, GridOptions& options);
 
 class PictureGrid {
   public:
-    // Errors: those of GridFile::open().
+    // Opens a grid of the cache. Errors: those of GridFile::open().
     [[nodiscard]] static Result<PictureGrid> open(const std::filesystem::path& file);
     // Decodes the files and grids their moment, as `stormcellar grid` does. The options give the
     // files, the moment, the place of the grid and the number of threads. Errors name the file or
@@ -44,7 +44,7 @@ class PictureGrid {
     PictureGrid& operator=(PictureGrid&&) noexcept;
     ~PictureGrid();
 
-    // Returns false after the object was moved from.
+    // Returns false for an object that was moved from.
     [[nodiscard]] bool has_grid() const { return stored_ != nullptr || made_ != nullptr; }
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this object lives
     [[nodiscard]] const cache::GridDescription& description() const;
@@ -52,7 +52,8 @@ class PictureGrid {
     [[nodiscard]] const std::string& name() const;
     // Returns the decoded volumes of the grid; empty for a grid of the cache.
     [[nodiscard]] const std::vector<SourceVolume>& volumes() const;
-    // Call after the view was used, because a file of the cache may have been truncated meanwhile.
+    // Checks that a file of the cache was not truncated. Call check_whole() after the view was
+    // used.
     [[nodiscard]] Status check_whole() const;
 
   private:
@@ -63,7 +64,7 @@ class PictureGrid {
     explicit PictureGrid(std::unique_ptr<Made> made);
     explicit PictureGrid(std::unique_ptr<Swept> swept);
 
-    std::unique_ptr<Stored> stored_;  // one of the three is set
+    std::unique_ptr<Stored> stored_;  // one of stored_, made_ and swept_ is set
     std::unique_ptr<Made> made_;
     std::unique_ptr<Swept> swept_;
 };

@@ -16,7 +16,7 @@ std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const 
     return {};
 }
 
-// Returns the sweep of each moment, on the plane of the first.
+// Returns the sweep of each moment, on the plane of the first sweep.
 Result<std::vector<PictureGrid>> swept_panels(GridOptions options,
                                               const std::vector<PanelScene>& panels) {
     std::vector<PictureGrid> sweeps;

@@ -77,7 +77,7 @@ std::string error_text(const accuracy::Plan& plan) {
 }
 
 // Handles a plan for a product other than a volume. Returns an error, unless the plan is a scene
-// file's whose volume was replaced by --product; that plan is ignored.
+// file's whose volume was replaced by --product; such a plan is ignored.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
         return fail(

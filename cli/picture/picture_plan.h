@@ -31,7 +31,7 @@ struct PicturePlanOptions {
     std::optional<ScenePlan> scene;  // none: no file was given
 
     [[nodiscard]] bool asked() const { return explain || !tolerance.empty() || !effects.empty(); }
-    // returns true if the options are exactly those of the file
+    // Returns true if the options are exactly the [plan] of the scene file.
     [[nodiscard]] bool is_scenes() const {
         return scene && !explain && tolerance == scene->tolerance && effects == scene->effects;
     }
@@ -40,7 +40,7 @@ struct PicturePlanOptions {
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 
 // Resolves a conflict between a number of slices and a plan that chooses it (a tolerance, or an
-// effect slices_...). Typed options override those of a scene file, which are then dropped. Errors:
+// effect slices_...). Drops options of a scene file that conflict with typed options. Errors:
 // bad_argument, naming both, if both were typed or both are in the file.
 [[nodiscard]] Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                                             const SceneOptions& scene);

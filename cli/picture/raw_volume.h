@@ -26,8 +26,8 @@ struct RawVolume {
     std::vector<std::string> notes;  // remarks, such as missing chunks
 };
 
-// Returns a domain's grids: one for each time at which it has a grid of any moment, ascending.
-// Errors: those of the cache.
+// Returns one grid for each time at which the domain has a grid of any moment, ascending. Errors:
+// those of the cache.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> grids_of_any_moment(
     const cache::StoreReader& store, const std::string& domain, std::optional<UtcTime> from,
     std::optional<UtcTime> to);
@@ -39,7 +39,7 @@ struct RawVolume {
                                               const cache::GridDescription& grid);
 
 // Reads the volume of a station that starts at this time. If several files have it, reads it from
-// `file`. Errors: as above.
+// `file`. Errors: not_found and those of reading, as in raw_volume_of().
 [[nodiscard]] Result<RawVolume> raw_volume_at(const catalog::CatalogReader& catalog,
                                               const std::string& station, UtcTime start,
                                               const std::filesystem::path& file);

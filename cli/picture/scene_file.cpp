@@ -54,8 +54,8 @@ struct Place {
     void complain(std::string_view why) const { table.complain(key, why); }
 };
 
-// Reads a text. An empty text, or one in which `problem` finds an error, is a complaint and sets
-// nothing.
+// Reads a text. Complains about an empty text, or a text in which `problem` finds an error, and
+// then sets nothing.
 template <class Problem>
 void read_text(TomlTable& table, std::string_view key, std::string& value, Problem problem) {
     const auto text = table.text(key);

@@ -46,8 +46,8 @@ struct SceneFile {
     std::optional<Error> alone;
 };
 
-// Does the same as scene_of(). If a file was given, the message is "FILE: why" for an error of the
-// file alone, and "why (beside --scene FILE)" for one that the options may have caused.
+// Returns the scene of scene_of(). If a file was given, the message of an error is "FILE: why" if
+// the file alone causes the error, or "why (beside --scene FILE)" if options may have caused it.
 [[nodiscard]] Result<render::Scene> scene_with(const SceneFile& file, const SceneOptions& options);
 
 // Adds --scene to a subcommand. It must be the first option added, so that the other options are

@@ -36,10 +36,10 @@ struct PlacedSweep {
 };
 
 // Decodes the one file that the options name. With a scene, it decodes only the cuts that the scene
-// may show, if the pattern of the volume tells which those are; otherwise all cuts. Errors:
+// may show. If the pattern of the volume does not tell these cuts, it decodes all. Errors:
 // bad_argument for several files and for options; those of load_volume().
 [[nodiscard]] Result<SweptVolume> read_sweeps(GridOptions options, const render::Scene* shown);
-// Decodes a volume of the catalog in the same way.
+// Decodes a volume of the catalog, with the cuts that read_sweeps() would decode.
 [[nodiscard]] Result<SweptVolume> decode_sweeps(const RawVolume& raw, const GridOptions& options,
                                                 const render::Scene* shown);
 

@@ -27,7 +27,7 @@ struct CacheOptions {
     bool json = false;
 };
 
-// Returns every grid that the options select, of one domain or of all, of any moment.
+// Returns every grid that the options select, in one domain or in all domains, of any moment.
 Result<std::vector<StoreEntry>> matching(const CacheOptions& options) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);

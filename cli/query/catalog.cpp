@@ -36,7 +36,7 @@ struct CatalogOptions {
     GetOptions get;
 };
 
-// Returns the state of the volume. Of several volumes in a file, one may be complete and another
+// Returns the state of the volume. If a file has several volumes, some may be complete and some
 // incomplete.
 catalog::FileState state_of(const CatalogEntry& entry) {
     using catalog::FileState;
@@ -87,8 +87,7 @@ int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
     return entries.empty() ? report_nothing_matched() : exit_done;
 }
 
-// Reports databases that could not be read. Each affects only its own station; all others were
-// read.
+// Reports databases that could not be read. A bad database affects only its own station.
 int report_troubles(const CatalogReader& catalog, int status) {
     for (const catalog::Trouble& trouble : catalog.troubles())
         status = report_error(trouble.error);
@@ -123,14 +122,15 @@ int run_stations(const CatalogOptions& options) {
     return stations->empty() && status == exit_done ? report_nothing_matched() : status;
 }
 
-// Returns true for all chunks of a volume but the first; only the first one's row has the volume.
+// Returns true for every chunk but the first of a volume, because only the row of the first chunk
+// has the volume.
 bool is_part_of_a_volume(const CatalogEntry& entry) {
     return !entry.volume.start_time && entry.state != catalog::FileState::rejected &&
            level2::parse_chunk_name(entry.path.filename().native()).has_value();
 }
 
-// Returns the entries that the options select, of one station or of all whose databases can be
-// read.
+// Returns the entries that the options select. They belong to one station, or to all stations whose
+// databases can be read.
 Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
                                            const CatalogReader& catalog) {
     const auto range = parse_time_range(options.times);

@@ -15,8 +15,9 @@ struct CareOptions {
     bool json = false;
 };
 
-// Check or rebuild the catalog, print the findings, and return the exit status: 0 if nothing is
-// wrong (after rebuild_catalog(): any more). Lost rows are reported but are not a failure.
+// Check or rebuild the catalog, print the findings, and return the exit status. The status is 0 if
+// nothing is wrong, or nothing is left wrong after the rebuild. Lost rows are reported but are not
+// a failure.
 int check_catalog(const CareOptions& options);
 int rebuild_catalog(const CareOptions& options);
 

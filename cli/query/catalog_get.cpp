@@ -124,7 +124,8 @@ Result<level2::Decoded> decode_raw(const catalog::CatalogReader& catalog,
     return decoded;
 }
 
-// Returns the volumes of the file that matched; all of them if it has only one.
+// Returns the numbers of the file's volumes that matched. If the file has a single volume, returns
+// that.
 std::vector<std::size_t> matched_volumes(const MatchedFile& file,
                                          const std::vector<level2::Volume>& volumes) {
     std::vector<std::size_t> matched;

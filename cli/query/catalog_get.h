@@ -17,8 +17,8 @@ struct GetOptions {
 
 // Copies each file once under its own name, or writes each volume as NAME.nc, without the ending of
 // a compression (NAME_volumeN.nc if the file has several). Prints the path of each. Continues after
-// a failure and returns the exit status of the last one. A file that is no longer the cataloged one
-// is not copied and counts as a failure.
+// a failure and returns the exit status of the last failure. A file that was replaced since it was
+// cataloged is not copied and counts as a failure.
 [[nodiscard]] int get_files(const catalog::CatalogReader& catalog,
                             const std::vector<catalog::CatalogEntry>& entries,
                             const GetOptions& options);

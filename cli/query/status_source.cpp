@@ -102,7 +102,8 @@ bool are_elsewhere(const nlohmann::json& document) {
     return loops.contains("elsewhere") && loops["elsewhere"] == true;
 }
 
-// Returns true if the process exists, even if it is another user's and we may not signal it.
+// Returns true if the process exists, even if it belongs to a user whose processes we may not
+// signal.
 bool is_alive(const nlohmann::json& keeper) {
     const auto pid = keeper.find("pid");
     return pid != keeper.end() && pid->is_number_integer() && pid->get<std::int64_t>() > 0 &&

@@ -17,7 +17,7 @@
 
 namespace stormcellar::cli {
 
-// At most one of the three is set; none: a service in its usual places.
+// At most one of the places is set. If none is, the service is in its usual places.
 struct StatusOptions {
     std::string socket, state, config;
     bool json = false;
@@ -36,8 +36,8 @@ struct StatusAnswer {
     std::filesystem::path from;  // the socket or the file
     std::string silent;          // why no daemon answered; empty: one did
 };
-// Gets the status. Errors: not_found if neither answers; the message gives the reason for each
-// place.
+// Gets the status. Errors: not_found if no place gives a status; the message has the reason for
+// each place.
 [[nodiscard]] Result<StatusAnswer> find_status(const StatusPlaces& places);
 
 // Adds two members if another process than the daemon keeps or kept the loops. "loops" has the

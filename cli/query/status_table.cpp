@@ -191,7 +191,8 @@ std::string counts_lines(const json& status, Paint paint) {
 
 using Row = std::vector<std::string>;
 
-// Aligns columns to their widest cell, the first one to the left and the others to the right.
+// Pads the cells of a column to its widest cell. The first column is aligned left, all other
+// columns right.
 std::string aligned(const std::vector<Row>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const Row& row : rows)
@@ -208,7 +209,8 @@ std::string aligned(const std::vector<Row>& rows) {
     return lines;
 }
 
-// Returns the current values of the antenna; if there are none, the last ones, marked as old.
+// Returns the current values of the antenna. If there are none, returns the last values, marked as
+// old.
 std::string antenna_of(const json& antenna) {
     if (number(antenna, "median")) return short_duration(number(antenna, "median"));
     const auto last = number(antenna, "last");

@@ -17,7 +17,8 @@ struct CommandExample {
 struct CommandGuide {
     std::string_view command;  // "catalog get"; empty: the program itself
     std::vector<CommandExample> examples;
-    // At most ten, in the order of help; the others are only in --help-all. Empty: all are usual.
+    // Usual options, at most ten, in the order of help; other options are only in --help-all. An
+    // empty list makes all options usual.
     std::vector<std::string_view> usual = {};
 };
 

@@ -11,7 +11,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Returns "1 - 1e+06" as a person writes it.
+// Returns a range such as "1 - 1e+06" as a person writes it.
 std::string range_in_words(const std::string& range) {
     const std::size_t dash = range.find(" - ");
     if (dash == std::string::npos) return range;
@@ -29,7 +29,7 @@ std::string word_of_type(const std::string& type) {
     return type == "FLOAT" ? "NUMBER" : type;
 }
 
-// Takes what the parser says of a value: "INT:INT in [1 - 10]" or "TEXT:{a,b}".
+// Takes the type of a value from the parser's text: "INT:INT in [1 - 10]" or "TEXT:{a,b}".
 void take_type(const std::string& type, OptionReference& option) {
     const std::string name = type.substr(0, type.find(':'));
     option.value = word_of_type(name);
@@ -109,7 +109,7 @@ void add_options(const CLI::App& app, const std::string& group_of_all, CommandRe
     }
 }
 
-// Options without a group come first, then those of each group, as in --help.
+// Sorts options without a group first, then the options of each group, as in --help.
 void sort_by_group(std::vector<OptionReference>& options) {
     std::vector<std::string> groups{""};
     for (const OptionReference& option : options) {

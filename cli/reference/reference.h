@@ -1,7 +1,7 @@
 // cli/reference/reference.h -- the options of `stormcellar` as help, a manual page, and completions
 // for shells.
 //
-// All are generated from the parser itself, so they match the program's real options. The build of
+// Each is generated from the parser itself, so they match the program's real options. The build of
 // the package calls `stormcellar --reference man|bash|zsh|fish`, which --help does not show;
 // packaging/man contains the pages around the generated part. Hidden options (with an empty group)
 // are left out. -h,--help and --help-all are not repeated for each command.
@@ -65,7 +65,7 @@ enum class HelpExtent { usual, all };
 
 // Returns the manual, with headings and lists of man(7), one heading for each command that can run.
 [[nodiscard]] std::string manual_of(const CommandReference& program);
-// Return files to be sourced, or installed where the shell looks for completions.
+// Return completion scripts, which a user sources or installs where the shell looks for them.
 [[nodiscard]] std::string bash_completion_of(const CommandReference& program);
 [[nodiscard]] std::string zsh_completion_of(const CommandReference& program);
 [[nodiscard]] std::string fish_completion_of(const CommandReference& program);

@@ -74,7 +74,8 @@ std::string zsh_function(const std::string& name) {
     return name.empty() ? "_stormcellar" : "_stormcellar_" + replaced(name, " ", "_");
 }
 
-// Returns the values that can be listed: the only allowed ones, or the usual ones.
+// Returns the values that can be listed. They are the only allowed values, or else the usual
+// values.
 const Words& listed(const OptionReference& option) {
     return option.choices.empty() ? option.offers : option.choices;
 }
@@ -90,7 +91,8 @@ Words names_of_all(const CommandReference& program) {
     return names;
 }
 
-// Returns what positional arguments may be: files, unless the table of words says otherwise.
+// Returns the kind of positional arguments, which are files unless the table of words says
+// otherwise.
 Kept kept_of_arguments(const CommandReference& command) {
     for (const OptionReference& option : command.options) {
         if (!option.place.empty() && option.kept != Kept::nowhere) return option.kept;
@@ -191,7 +193,7 @@ std::string fish_values(const OptionReference& option) {
     return std::string(offer.fish) + (offer.kept == Kept::files ? offered : "");
 }
 
-// Writes what positional arguments may be besides files: domains or commands.
+// Writes the domains or commands that positional arguments may be besides files.
 void write_fish_arguments(const CommandReference& command, const Words& all_names,
                           std::string& out) {
     const Kept kept = kept_of_arguments(command);
@@ -214,7 +216,7 @@ void write_fish_option(const CommandReference& command, const OptionReference& o
     out += fmt::format(" -d {}\n", fish_quoted(brief(option.description)));
 }
 
-// Writes the options that take a value, and what the value after each may be.
+// Writes the options that take a value, and the values to offer after each.
 std::string bash_values_of(const CommandReference& command) {
     std::string values;
     std::string cases;
@@ -234,8 +236,8 @@ std::string bash_values_of(const CommandReference& command) {
     return out;
 }
 
-// A format: the first gap is for the names of all commands, the second for the words that each
-// command offers.
+// A format string. The first placeholder is for the names of all commands, the second for the words
+// that each command offers.
 constexpr std::string_view bash_script =
     R"bash(# bash completion of stormcellar; made by stormcellar --reference bash.
 # Adds files, directories, or the names that the program knows, to what is offered.

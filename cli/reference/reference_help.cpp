@@ -1,4 +1,4 @@
-// Writes the text of --help and --help-all: examples, then usual options, then the others.
+// Writes the text of --help and --help-all: examples, then usual options, then all other options.
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -18,7 +18,7 @@ constexpr std::size_t usual_width = 80, least_width = 60, most_width = 160;
 constexpr std::size_t text_column = 26;  // where the text beside an option begins
 constexpr std::size_t margin = 2;
 
-// Returns the width of a page: $COLUMNS, which a user may set, limited to readable widths.
+// Returns the width of a page, from $COLUMNS if a user has set it, limited to readable widths.
 std::size_t page_width() {
     const char* const asked = std::getenv("COLUMNS");
     if (asked == nullptr) return usual_width;
@@ -101,7 +101,8 @@ std::string usage_of(const CommandReference& command) {
     return line + " [OPTIONS]";
 }
 
-// Returns the options of the short help: arguments first, then those that the guide calls usual.
+// Returns the options of the short help: arguments first, then the options that the guide calls
+// usual.
 std::vector<const OptionReference*> usual_options(const CommandReference& command) {
     std::vector<const OptionReference*> usual;
     const CommandGuide* const guide = find_guide(command.name);

@@ -31,7 +31,7 @@ class ServedFiles {
     ServedFiles& operator=(const ServedFiles&) = delete;
     ~ServedFiles();
 
-    // Ingests the rest on another thread.
+    // Ingests the remaining files on another thread.
     void take_rest();
     [[nodiscard]] const ScratchCellar& cellar() const { return *cellar_; }
 

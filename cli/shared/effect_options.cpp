@@ -22,8 +22,8 @@ constexpr std::string_view standard_profile = "standard";
 // The settings of effects that a method names.
 using Settings = std::vector<EffectOverride>;
 
-// Returns the settings of each method: an interpolation turns its own effect on and the next one
-// off.
+// Returns the settings of each method. An interpolation turns its own effect on, and the next
+// effect off.
 const std::map<std::string, Settings>& methods() {
     static const std::map<std::string, Settings> known = [] {
         const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);

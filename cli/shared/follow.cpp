@@ -106,7 +106,7 @@ bool end_with(pid_t parent) {
 void add_follow_options(CLI::App& app, FollowOptions& options) {
     app.add_flag("--follow", options.wanted,
                  "Keep running, and make the loop again whenever its grids change");
-    // hidden: stormcellard uses it for children that must end when it ends
+    // hidden: stormcellard uses this option for children that must end when the daemon ends
     app.add_option("--with-parent", options.parent, "End when the process of this number ends")
         ->group("");
 }

@@ -25,7 +25,7 @@ namespace stormcellar::cli {
 
 struct FollowOptions {
     bool wanted = false;
-    pid_t parent = 0;  // this process ends when that one ends; 0: none
+    pid_t parent = 0;  // when that process ends, this one ends too; 0: none
 };
 void add_follow_options(CLI::App& app, FollowOptions& options);
 

@@ -237,7 +237,7 @@ Status InputFiles::Impl::add(const std::string& name) {
 }
 
 Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& file) {
-    // Continue after the member read last; if that fails, start from the beginning.
+    // Continue after the member that was read last. If that fails, start from the beginning.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!open || open_path != file.path || attempt > 0) {
             auto opened = OpenArchive::open(file.path, piped_of(file.path));

@@ -28,7 +28,8 @@ struct InputFile {
     // The files of a volume that came as one file for each chunk, in order; else empty.
     std::vector<std::filesystem::path> chunks = {};
 
-    // Returns the last part of its name, which contains the station and appears in results.
+    // Returns the last part of the path or member, which contains the station and appears in
+    // results.
     [[nodiscard]] std::string file_name() const;
 };
 

@@ -39,8 +39,8 @@ class OutputFile {
 
     // the path to write to
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    // Copies a temporary file to standard output. Call it when the file is written. Errors: io if
-    // standard output does not accept it.
+    // Copies a temporary file to standard output. Call finish() when the file is complete. Errors:
+    // io if standard output does not accept it.
     [[nodiscard]] Status finish();
 
   private:

@@ -10,12 +10,12 @@ namespace stormcellar::cli {
 
 enum class Paint { plain, colors };
 
-// Returns color only for a terminal, and not if NO_COLOR is set to anything (no-color.org), or if
-// TERM is missing or "dumb".
+// Returns Paint::colors only for a terminal. Returns Paint::plain if NO_COLOR is set to any text
+// (no-color.org), or if TERM is missing or "dumb".
 [[nodiscard]] Paint paint_for(int descriptor);
 
-// Return the text in bold red, for errors, or in yellow, for warnings. With Paint::plain they
-// return it unchanged, and so an empty text.
+// Return the text in bold red, for errors, or in yellow, for warnings. An empty text, or a text
+// with Paint::plain, stays unchanged.
 [[nodiscard]] std::string in_red(std::string_view text, Paint paint);
 [[nodiscard]] std::string in_yellow(std::string_view text, Paint paint);
 

@@ -15,7 +15,7 @@ namespace stormcellar::cli {
 
 class ScratchDirectory {
   public:
-    // Errors: io if it cannot be made.
+    // Makes the directory. Errors: io if that fails.
     [[nodiscard]] static Result<ScratchDirectory> make();
     ScratchDirectory(ScratchDirectory&& other) noexcept;
     ScratchDirectory& operator=(ScratchDirectory&&) = delete;

@@ -47,8 +47,8 @@ void say_plan(const synth::ReplayPlan& plan) {
                                              : "");
 }
 
-// Reports the first wait, and later each wait that is more than twice as long as the last one
-// reported.
+// Reports the first wait, and later each wait that is more than twice as long as the last reported
+// wait.
 class WaitNotes {
   public:
     explicit WaitNotes(Progress& progress) : progress_(progress) {}
