@@ -8,16 +8,16 @@
 //   as              appended to one file that is closed each time, or one file for each chunk
 //   sweeps          sweeps that had an event
 //   grid_*_ms       from the close of a sweep's last chunk to the rename of its grid
-//   event_*_ms      from that rename to its event at the client
+//   event_*_ms      from the rename of a grid to its event at the client
 //   bzip2_p50_ms    bunzip alone for the same chunks
-//   *_beyond_*      the time less that of bunzip, chunk by chunk
+//   *_beyond_*      the time less the time of bunzip, chunk by chunk
 //   end_ms          from the last chunk of the volume to the grid of the whole volume, synced;
 //                   end_event_ms: to the event of that grid
 // --hour: Plays the heaviest national hour (bench/national_feed.h) as chunks at its own speed,
 // while --streams N (1,000) clients each read the events of one station. There is one row:
 //   grids_per_s     renames of grids; events_per_s: grids with an event; heard_per_s: events read
 //                   by all clients
-//   lost            events that one client of a station read and another client of it did not
+//   lost            events that a client missed and another client of the same station read
 //   closed          streams that ended
 //   event_*         from the rename of a grid to its event, at each client
 //   web_cores       CPU time of stormcellar-web divided by wall time
@@ -99,7 +99,7 @@ struct Stream {
     std::string unread;
 };
 
-// Sends the request and reads the head of the answer. Bytes after the head stay in `unread`.
+// Sends the request and reads the head of the answer. Puts the bytes after the head into `unread`.
 Result<Stream> open_stream(int port, const std::string& query) {
     Stream client{testing::connection_to(port), {}};
     const std::string request =
@@ -162,7 +162,7 @@ class EventClients {
                 read_stream(ready[static_cast<std::size_t>(i)].data.u64);
         }
     }
-    // Skips the sizes of chunks, which are on lines of their own between the events.
+    // Skips the lines with the sizes of chunks, which are between the events.
     void read_stream(std::size_t index) {
         Stream& stream = streams_[index];
         std::array<char, 16384> buffer{};
@@ -360,8 +360,8 @@ struct Heard {
     std::size_t heard = 0, told = 0, lost = 0;
 };
 
-// Compares the clients. All clients of a station should read the same events; if one reads fewer
-// than another, its missing events are lost.
+// Compares the clients. All clients of a station should read the same events. An event is lost for
+// a client if other clients of the station read it and this client did not.
 Heard compare(const std::vector<HeardEvent>& events, const Renames& renames,
               const std::vector<std::string>& stations, std::size_t clients) {
     Heard result;

@@ -18,7 +18,7 @@
 //                  files), and at most anonymous_mib is the daemon's own
 //   daemon_cores, feeder_cores  CPU time divided by wall time
 //   volumes        volumes whose last chunk was sent
-//   ungridded      of these, without a grid at the end
+//   ungridded      volumes of these without a grid at the end
 //   held           share of the time during which the feed was paused
 //   cache_mib      the largest size of the cache
 // --sites N: uses only the first N of the 160 sites, for a trial. --soak-hours N: instead plays 16
@@ -140,8 +140,8 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
     if (stretch.most_cache_bytes > cache_budget) fmt::print(stderr, "THE CACHE IS OVER BUDGET\n");
 }
 
-// Plays the feed once to a new daemon. Its directories are kept if anything fails. `check` is
-// called after the daemon has ended.
+// Plays the feed once to a new daemon, and calls `check` after the daemon has ended. If anything
+// fails, the directories of the daemon are kept.
 Status play(const NationalFeed& feed, const Wanted& wanted, const StretchOptions& options,
             const std::function<Status(const Stretch&, const DaemonProcess&)>& check) {
     const fs::path root = wanted.work / fmt::format("run-{}", ::getpid());

@@ -11,7 +11,7 @@
 //   first_grid_s  gridding a decoded volume without a kept geometry: geometry and grid
 //   grid_s        gridding a decoded volume with the geometry kept
 //   write_s       the netCDF file
-//   whole_s       the program `stormcellar grid` from start to end
+//   whole_s       the program `stormcellar grid`, from start to end
 //   libbz2_s      libbz2 alone over the same LDM records
 //   ratio         (whole_s - its own time for writing netCDF) / libbz2_s
 //   mcells_per_s  10^6 cells a second of grid_s
@@ -116,7 +116,7 @@ void run_once(const fs::path& file, const Bytes& bytes, const NamedSpec& named, 
     const double write_s = seconds_of([&] {
         if (!netcdf::write_grid(real_file_system(), netcdf, *grid)) std::abort();
     });
-    grid = fail(ErrorCode::empty, "");  // frees its memory for the next one
+    grid = fail(ErrorCode::empty, "");  // frees its memory for the next grid
     keep_least_seconds(least.grid_s, make);
     least.decode_s = std::min(least.decode_s, decode_s);
     least.geometry_s = std::min(least.geometry_s, geometry_s);

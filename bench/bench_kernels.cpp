@@ -190,7 +190,7 @@ void add_columns(Kernels& kernels) {
     }
 }
 
-// Passes arguments that begin with --benchmark_ to Google Benchmark, and reads all others.
+// Passes arguments that begin with --benchmark_ to Google Benchmark, and reads all other arguments.
 int run(std::span<char* const> arguments) {
     std::vector<char*> ours, theirs = {arguments.front()};
     std::array<std::string, 2> usual = {"--benchmark_enable_random_interleaving=true",

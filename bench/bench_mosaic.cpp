@@ -7,8 +7,8 @@
 // 256 x 256 x 128 cells over the common box of the sites. bench/mosaic_feed.h describes the files,
 // bench/mosaic_run.h the timed work. Files are made once, untimed, in the directory of --work (by
 // default stormcellar-bench-mosaic in the system's directory for temporary files; 0.7 GB for 100
-// sites), and are used again. The 60 merged volumes, one for each 5 minutes, go into a cache there,
-// which is removed at the end. Each row is measured in a process of its own:
+// sites), and later runs use them again. The 60 merged volumes, one for each 5 minutes, go into a
+// cache there, which is removed at the end. Each row is measured in a process of its own:
 //   sites      1, 10, 30, 50, 100
 //   threads    threads of all timed work
 //   total_s    from raw files to merged volumes
@@ -22,7 +22,7 @@
 //              its pool of 512 nodes (shown for several threads)
 // --only SITES runs one number of sites. --hours H uses the first H of the five hours. --alone
 // leaves out libbz2, so that libbz2_s and ratio have no value; it runs every row. Otherwise,
-// without --full, a row is run only if the previous rows predict that it ends within 9 minutes.
+// without --full, a row is run only if it should end within 9 minutes by the times of earlier rows.
 //
 // Then the rows of the United States at 0.01 degrees follow (bench/nation.h), with the least times
 // of the runs. --sites or --us prints only one of the two tables. --cache DIR keeps the mosaic
@@ -162,8 +162,8 @@ Status measure_sites(const Request& request, const Case& a_case, Table& table) {
     double libbz2_a_site_s = 0;  // with one thread
     for (const int sites : a_case.sites) {
         for (const int threads : request.threads) {
-            // A row takes some 1.6 times as long as libbz2 alone, which is timed too. Making the
-            // files of new sites takes half as long as libbz2.
+            // The work of a row takes some 1.6 times as long as libbz2 alone, and the row times
+            // both. Making the files of new sites takes half as long as libbz2.
             const double expected_s = libbz2_a_site_s * sites * (0.5 + 2.6 / std::min(threads, 2));
             if (!request.has("--full") && elapsed_s + expected_s > most_default_s) {
                 fmt::print(stderr, "left out: {} sites, {} threads, some {:.0f} s (--full)\n",

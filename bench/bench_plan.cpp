@@ -1,4 +1,5 @@
-// bench_plan: compares the planner's predictions of a grid's time and error with measured ones.
+// bench_plan: compares the time and the error that the planner predicts for a grid with
+// measurements.
 //
 // usage: bench_plan [--data DIR] [--threads N] [--runs N] [--times | --errors] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
@@ -9,8 +10,9 @@
 //   choice       the rungs that differ from the default chain
 //   predicted_s  the prediction of grid::predict()
 //   grid_s       gridding with the geometry kept, the least of the runs. With exact geodesics,
-//                which only one chain needs, it includes making the geometry. For one thread it is
-//                CPU time, so that other programs do not count; for several threads it is wall time
+//                which only one chain needs, the time includes making the geometry. For one thread
+//                it is CPU time, so that other programs do not count; for several threads it is
+//                wall time
 //   ratio        predicted_s / grid_s
 //   predict_s    time of the prediction for all choices together
 // The grid has 460 x 460 x 32 cells at 1 km. It is 0.4 degrees east of the site, so that site frame
@@ -22,7 +24,7 @@
 //   stated_db    99th percentile of the error, from the plan
 //   true_db      99th percentile of the error over all these cells
 //   held         1 if true_db is at most stated_db, else 0
-// Without either option, it does both. Files without the moment are left out.
+// Without either option, both are done. Files without the moment are left out.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -125,7 +127,7 @@ double seconds_of_gridding(grid::GridScene& scene, const grid::SceneChoice& choi
         if (!geometry) return -1;
         if (!grid::make_grid(scene.volume(), scene.site(), **geometry, options)) return -1;
         least_s = std::min(least_s, now_s(options.threads) - start_s);
-        if (least_s > 1 && run > 0) break;  // long times vary little: two runs do
+        if (least_s > 1 && run > 0) break;  // long times vary little, so two runs are enough
     }
     return least_s;
 }

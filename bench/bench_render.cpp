@@ -69,8 +69,8 @@ constexpr std::array<PaperVolume, 3> paper_volumes = {{
     {"512x512x256", 512, 256, {4, 4, 3.5, 2.5, 1.5}},
 }};
 
-// Five volumes of KBGM (2005-08-22, a line of storms), gridded over the same box for any number of
-// cells, each in a file of its own.
+// Five volumes of KBGM (2005-08-22, a line of storms), gridded over the same box with any number of
+// cells. Each grid is in its own file.
 class RenderScene {
   public:
     static Result<RenderScene> make(const PaperVolume& volume, const std::filesystem::path& data,
@@ -86,7 +86,7 @@ class RenderScene {
 };
 
 // Every `stride`-th pixel of the reference picture in both directions. The stride is odd, so that
-// pixels with and without a ray of their own count in proportion.
+// the pixels that have a ray, and those that are interpolated between rays, count in proportion.
 struct ReferencePixels {
     static constexpr int stride = 5;
     static constexpr int steps = 8192;
@@ -219,7 +219,7 @@ constexpr std::array<Method, 4> methods = {{
     {"smooth", Integration::first_order, 2.0 / 255},
 }};
 
-// the paper's numbers, and some between them
+// the paper's numbers of slices, and some between them
 constexpr std::array<int, 7> measured_slices = {64, 128, 160, 192, 256, 512, 1024};
 
 struct Phases {

@@ -88,7 +88,7 @@ class WebBench {
         return {};
     }
 
-    // Loads nginx with the same bytes as a file, and then our server.
+    // Loads nginx, which serves the same bytes as a file, and then our server.
     Status compare(const Asked& asked, const std::vector<int>& clients, std::chrono::seconds time) {
         std::string body;
         const auto fetched = get_all(ours_, {asked.path}, asked.headers, scratch_, &body);

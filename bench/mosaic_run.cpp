@@ -136,8 +136,8 @@ UtcTime middle_of(const pipeline::MadePartial& partial) {
     return pipeline::PartialView{&partial.description, {}}.middle();
 }
 
-// Drops the partials that no frame from `time` on needs: for each site, all but the last one before
-// `time`.
+// Drops the partials that no frame from `time` on needs: for each site, all partials before `time`
+// except the last of them.
 void Runner::drop_before(UtcTime time) {
     std::map<std::string, UtcTime> last;
     for (const pipeline::MadePartial& partial : partials_) {

@@ -57,8 +57,8 @@ double storm_top_m(int ix, int iy) {
     return 12000 * field - 1500;
 }
 
-// Returns the code of a cell. It is seen between beams of 0.5 and 19.5 degrees over an earth of 4/3
-// radius.
+// Returns the code of a cell. The site sees a cell between its beams of 0.5 and 19.5 degrees over
+// an earth of 4/3 radius.
 std::uint8_t code_of(double arc_m, double top_m, double altitude_m, double level_m) {
     constexpr double radius_m = 8.5e6;
     const double fall_m = altitude_m + arc_m * arc_m / (2 * radius_m);
@@ -265,7 +265,7 @@ Status measure_nation(const Request& request, const fs::path& work,
     for (const int threads : request.threads) {
         Least least;
         for (int run = 0; run < request.runs; ++run) {
-            mosaic = fail(ErrorCode::empty, "");  // frees its memory for the next one
+            mosaic = fail(ErrorCode::empty, "");  // frees its memory for the next mosaic
             mosaic = run_once(nation, *bytes, **geometry, threads, least);
             if (!mosaic) return pass_on(mosaic);
         }

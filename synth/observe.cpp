@@ -129,7 +129,7 @@ class Antenna {
 level2::VolumeBlock block_of(const Scene& scene) {
     constexpr int usual_tower_m = 20;
     const int altitude_m = scene.site.antenna_altitude_m;
-    // If tower and ground were equally high, a reader would take the heights for those of a TDWR.
+    // If tower and ground were equally high, a reader would take the radar for a TDWR.
     const int tower_m = altitude_m == 2 * usual_tower_m ? usual_tower_m - 1 : usual_tower_m;
     level2::VolumeBlock block;
     block.version_major = 2;

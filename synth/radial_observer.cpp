@@ -334,7 +334,7 @@ void RadialObserver::add_clutter(const level2::Radial& radial) {
     }
 }
 
-// Returns the folded gates: none except in Doppler and batch cuts. The reflectivity of every cut is
+// Returns the folded gates; only Doppler and batch cuts have any. The reflectivity of every cut is
 // computed as in a surveillance cut.
 std::vector<bool> RadialObserver::find_folded() const {
     const bool ambiguous = cut_.waveform == Waveform::doppler || cut_.waveform == Waveform::batch;

@@ -7,7 +7,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// Larger jitters would let radials overtake one another.
+// With larger jitters, a radial could overtake the radial before it.
 constexpr TomlRange jitters_deg{0, 0.25};
 
 bool read_switch(TomlTable& table, std::string_view key) {

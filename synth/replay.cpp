@@ -138,7 +138,8 @@ class Player {
         return {};
     }
 
-    // Writes one piece. The first piece begins the file; after the last one the file is forgotten.
+    // Writes one piece. The first piece begins the file. After the last piece the file is
+    // forgotten.
     Status play_next(std::size_t item) {
         auto place = growing_.find(item);
         if (place == growing_.end()) {
@@ -199,7 +200,7 @@ class Player {
         return to_string(name);
     }
 
-    // Notes an arrival and its fault. Returns how many of its bytes to write.
+    // Notes an arrival and its fault. Returns how many bytes of the element to write.
     std::size_t note_arrival(const ReplayItem& item, const fs::path& name, std::size_t chunk,
                              const Arrival& arrival, std::size_t bytes) {
         const std::size_t kept = kept_bytes(arrival, bytes);

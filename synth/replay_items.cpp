@@ -45,7 +45,7 @@ void read_start(ReplayItem& item) {
     read_facts(item, std::as_bytes(std::span(start)));
 }
 
-// Returns the members of a tar or zip archive, or none if it is not an archive.
+// Returns the members of a tar or zip archive, or none if `source` is not an archive.
 std::vector<ReplayItem> members_of(const fs::path& source) {
     std::vector<ReplayItem> items;
     const Descriptor file{::open(source.c_str(), O_RDONLY | O_CLOEXEC)};
@@ -98,7 +98,7 @@ Result<std::vector<ReplayItem>> items_of(const fs::path& source) {
     return items;
 }
 
-// Compares by time if it is known, then by name.
+// Compares by time, then by name. Items without a time come last.
 bool earlier(const ReplayItem& a, const ReplayItem& b) {
     if (a.time.has_value() != b.time.has_value()) return a.time.has_value();
     if (a.time && *a.time != *b.time) return *a.time < *b.time;

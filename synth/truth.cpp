@@ -62,8 +62,8 @@ Offset offset_from(const Footprint& footprint, const Point& point, double t_s,
             point.y_m - footprint.y_m - footprint.motion.north_mps * t_s - lean.north_m};
 }
 
-// Returns a lower bound of squared_radii(): its value if the larger axis applied in all directions.
-// It saves the rotation for most points.
+// Returns a lower bound of squared_radii(), for which the larger axis applies in all directions.
+// For most points this bound is enough, which saves the rotation.
 double least_squared_radii(const Footprint& footprint, const Offset& offset) {
     return (square(offset.east_m) + square(offset.north_m)) /
            square(std::max(footprint.major_m, footprint.minor_m));
@@ -126,7 +126,8 @@ double hook_dbz(const Hook& hook, const Offset& offset, double z_m) {
         const double fall = square(distance_m / hook.width_m) + square(z_m / hook.top_m);
         return hook.peak_dbz - (hook.peak_dbz - edge_dbz) * fall;
     };
-    // The arc is at least as far away as its circle, which is quick to compute.
+    // The arc is at least as far away as its circle, and the distance to the circle is quick to
+    // compute.
     if (dbz_at(from_center_m - hook.radius_m) < weakest_dbz) return nothing;
     return dbz_at(distance_to_arc(hook, east_m, north_m, from_center_m));
 }
@@ -166,7 +167,7 @@ double box_dbz(const Box& box, const Point& point, double t_s) {
     return flat_dbz + box.wave.most_db * std::sin(2 * std::numbers::pi * way_m / box.wave.length_m);
 }
 
-// Adds up features in mm^6/m^3, and their motion weighted by it.
+// Adds up the reflectivities of features in mm^6/m^3, and their motions with these as weights.
 class Sum {
   public:
     void add(double dbz, const Motion& motion) {
@@ -211,7 +212,7 @@ double storm_ceiling_m(const Storm& storm) {
     return storm.hook ? std::max(own_m, hook_ceiling_m(*storm.hook)) : own_m;
 }
 
-// Heights below sea level count down to this one, the lowest of any site.
+// The lowest height that counts, below all sites.
 constexpr double floor_m = -500;
 
 Disc storm_disc(const Storm& storm, double t_s) {

@@ -10,7 +10,8 @@ namespace {
 constexpr double elevation_step_deg = 180.0 / 32768;
 constexpr double rate_step_deg_s = 22.5 / 16384;
 
-// The facts of each PRF by its number, from the radial blocks of real volumes of one radar.
+// The facts of each PRF, by its number. They come from the radial blocks of real volumes of one
+// radar.
 struct PrfFacts {
     float unambiguous_range_m;
     float nyquist_mps;

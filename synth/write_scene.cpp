@@ -10,7 +10,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// Observes and writes the volumes of a scene; the threads share it.
+// Observes and writes the volumes of a scene. All threads share one object.
 class Work {
   public:
     Work(const Scene& scene, const std::filesystem::path& directory, FileSystem& file_system,

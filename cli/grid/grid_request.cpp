@@ -93,7 +93,8 @@ Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit)
         extent, spacing, unit_name(unit), most, most * spacing);
 }
 
-// Returns how many cells an extent has. Errors: bad_argument if they do not fill it exactly.
+// Returns how many cells an extent has. Errors: bad_argument if the number is not whole or is too
+// large.
 Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     const double cells = std::round(extent / spacing);
     const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;

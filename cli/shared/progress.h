@@ -29,8 +29,9 @@ class Progress {
     bool shown_;
 };
 
-// Returns "frames [#####.....]  6/12, 2.5 a second, 3 s left". It leaves out the rate and the time
-// left while they are unknown: in the first second, before anything is done, and at the end.
+// Returns "frames [#####.....]  6/12, 2.5 a second, 3 s left". The line leaves out the
+// rate and the time left while they are unknown: in the first second, before anything is done, and
+// at the end.
 [[nodiscard]] std::string progress_line(const std::string& what, std::size_t done,
                                         std::size_t total, double elapsed_s = 0);
 

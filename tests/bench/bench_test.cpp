@@ -116,8 +116,8 @@ TEST(BenchGrid, TheTableHasTheKeysOfTheJson) {
     EXPECT_EQ(rows[0]["threads"], 1);
 }
 
-// Without Google Benchmark the program is not built. The program ends with 1 if a way does not make
-// the same bytes as libbz2.
+// Without Google Benchmark the program is not built. The program ends with status 1 if a way does
+// not make the same bytes as libbz2.
 TEST(BenchKernels, RowsAreRatiosToLibbz2) {
     STORMCELLAR_NEED_DATA();
     if (!fs::exists(bench("bench_kernels"))) GTEST_SKIP() << "it was not built";
@@ -188,7 +188,7 @@ TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     const auto row = nlohmann::json::parse(alone.out)["rows"][0];
     EXPECT_TRUE(row["libbz2_s"].is_null() && row["ratio"].is_null());
     EXPECT_EQ(row["raw_gb"], rows[0]["raw_gb"]);
-    // Merged volumes are removed, raw ones are kept.
+    // Merged volumes are removed, raw volumes are kept.
     for (const auto& entry : fs::directory_iterator(work.path()))
         EXPECT_EQ(entry.path().filename(), "feed");
 }

@@ -91,8 +91,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachKind,
                          ::testing::Values("mosaic-northeast/KDOX20100911_012056_V04.gz",
                                            "sequence-kbgm/KBGM20050822_024414.gz", "simulated-3"));
 
-// Tests the station whose two heights would be equal, so that they would be read as heights of a
-// TDWR.
+// The two heights must differ, because a reader takes equal heights for those of a TDWR.
 TEST(Restamp, SplitsAnAltitudeIntoTwoHeightsThatAddUp) {
     level2::Volume volume;
     volume.block.emplace();

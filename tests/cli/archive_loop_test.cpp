@@ -65,7 +65,7 @@ TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
     EXPECT_THAT(second.err, HasSubstr("the grids stay in"));
 }
 
-// 2026-11-24: a loop drew any file that had the path of a cataloged one.
+// 2026-11-24: a loop drew any file that had the path of a cataloged file.
 TEST_F(ArchiveLoop, LeavesOutWhatIsNotTheFileThatWasCataloged) {
     fs::rename(raw(five_volumes[0]), directory_ / "elsewhere");
     fs::create_symlink(directory_ / "elsewhere", raw(five_volumes[0]));
@@ -169,8 +169,8 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     EXPECT_FALSE(fs::exists(out()));
 }
 
-// 2026-11-22: no frames were counted if all volumes had grids; otherwise all frames of the year
-// were counted, though only two had volumes.
+// 2026-11-22: the program announced no frames if all volumes had grids. Otherwise it announced all
+// frames of the year, though only two had volumes.
 TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
     const Words mosaic = words(
         "--bounds=-77,41,-75,43 --spacing-km 4 --levels-km 1,3,5 --domain south --from 2005-01-01 "

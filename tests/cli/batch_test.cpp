@@ -114,7 +114,7 @@ TEST_F(Batch, IsToTheByteWhatALoopMakes) {
     EXPECT_THAT(batch("submit", "p", {"--engine", "make"}).out, HasSubstr("all 3 tasks are done"));
 }
 
-// The program and its children are killed as soon as a grid exists.
+// The test kills the program and its children as soon as a grid exists.
 TEST_F(Batch, ByMakeKilledHalfWayAndRunAgainIsWhatALoopMakes) {
     ASSERT_EQ(plan("p").status, 0);
     const std::string make = "setsid " STORMCELLAR_PROGRAM " batch submit --plan " + place("p") +

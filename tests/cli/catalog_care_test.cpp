@@ -59,7 +59,7 @@ class CatalogCare : public ::testing::Test {
     std::string first_ = testing::small_sequence[0], second_ = testing::small_sequence[1];
 };
 
-// 2026-11-24: `get` followed a link that had replaced a file, with the rights of its user.
+// 2026-11-24: if a link had replaced a file, `get` followed the link with the rights of its user.
 TEST_F(CatalogCare, GetDoesNotFollowALinkInAFilesPlace) {
     fs::rename(raw(first_), directory_ / "secret");
     fs::create_symlink(directory_ / "secret", raw(first_));
@@ -146,7 +146,8 @@ TEST_F(CatalogCare, DatabasesOfUnknownStationsAreSaidAndCleared) {
     EXPECT_EQ(run({"list", "--station", "KBGM"}).status, 0);
 }
 
-// An attacker made thousands of databases; the commands need few descriptors and little time.
+// An attacker makes thousands of databases. The commands still need few descriptors and little
+// time.
 TEST_F(CatalogCare, ThousandsOfDatabasesAreCheckedAndClearedWithFewDescriptors) {
     put_database("XAAA");
     constexpr int databases = 1500;

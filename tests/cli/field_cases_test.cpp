@@ -1,4 +1,4 @@
-// Tests inputs that failed once (../shared/data/cases) against the results that its README expects.
+// Tests inputs that failed once (../shared/data/cases). The README there has the expected results.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -198,7 +198,7 @@ TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     };
     EXPECT_EQ(time_of_frame({chunks}), "22:02");
     EXPECT_EQ(time_of_frame({chunks, "--volume", "1"}), "22:00");
-    // These are the names that a shell makes from 20240601-220000-*.
+    // A shell makes these names from 20240601-220000-*.
     Words named;
     for (const auto& entry : fs::directory_iterator(chunks)) {
         if (entry.path().filename().native().starts_with("20240601-220000-"))
@@ -234,7 +234,7 @@ TEST_F(FieldCases, ChunksNamedByTheirLdmKeyAreOneVolume) {
     EXPECT_EQ(volumes[0]["n_radials"], 360);
     EXPECT_EQ(list(catalog, {"--rejected"}).size(), 1U)
         << "the other chunks have no line of their own";
-    // A chunk whose name does not show that it is one must not be taken for a volume.
+    // A chunk must not be taken for a volume, even if its name does not show that it is a chunk.
     fs::create_directory(directory_ / "drop");
     fs::create_directory(directory_ / "other");
     fs::copy_file(in("9-ldm-key-chunk-names/drop/L2-BZIP2_KLOT_20201019054806_34_2_I_V06_0"),

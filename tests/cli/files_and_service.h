@@ -16,7 +16,7 @@
 
 namespace stormcellar::cli {
 
-// Skips its tests if the real volumes are not available.
+// A fixture that skips its tests if the real volumes are not available.
 class FilesAndService : public ::testing::Test {
   protected:
     void SetUp() override {

@@ -50,7 +50,7 @@ TEST_F(FilesLoop, ADirectoryItsFilesAndTheirArchiveGiveTheSameLoop) {
     for (const auto& entry : fs::directory_iterator(sequence())) {
         files.push_back(entry.path().string());
     }
-    // These are the files of the directory, so their grids exist.
+    // The grids of these files exist, because an earlier run made them from the directory.
     EXPECT_EQ(json_of(files)["grids_found"], 5);
     EXPECT_EQ(loop(), by_directory);
 
@@ -92,7 +92,7 @@ TEST_F(FilesLoop, ACacheThatIsNamedHoldsGridsAndCatalog) {
     EXPECT_EQ(json_of({sequence()}, {"--cache", cache})["grids_found"], 5);
 }
 
-// 2026-11-29: such members were left out without a message.
+// 2026-11-29: members without a volume were left out without a message.
 TEST_F(FilesLoop, MembersThatHoldNoVolumeAreNamedEachTime) {
     const fs::path day = directory_ / "day", tar = directory_ / "day.tar";
     fs::create_directory(day);

@@ -45,7 +45,8 @@ class Follow : public Loop {
     }
 };
 
-// Returns true if the process handles SIGTERM. Before, the signal would just end it.
+// Returns true if the process handles SIGTERM. Without a handler, the signal would just end the
+// process.
 bool catches_sigterm(pid_t id) {
     std::ifstream status("/proc/" + std::to_string(id) + "/status");
     for (std::string line; std::getline(status, line);) {
@@ -55,7 +56,8 @@ bool catches_sigterm(pid_t id) {
     return false;
 }
 
-// Counts how often the directory is opened from now on. The program opens it for each check.
+// Counts how often the directory is opened after the constructor. The program opens the directory
+// for each check.
 class Openings {
   public:
     explicit Openings(const fs::path& directory) {
@@ -104,7 +106,7 @@ TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
 }
 
 // Frames are kept from loop to loop, which must not change the result. The test types the view,
-// because a followed loop keeps the view that it began with as long as it fits.
+// because a followed loop keeps its first view as long as that view fits.
 TEST_F(Follow, IsTheLoopThatOneMakesAtOnce) {
     const Words view = words(
         "--azimuth 180 --tilt 55 --zoom 1 --exaggeration 5 --opacity 1 --sun 225,40 "
@@ -135,8 +137,8 @@ TEST_F(Follow, NothingIsMadeWithoutAChangeOfItsGrids) {
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     std::ofstream(grid.native() + ".pin") << "";
     commit("20050822_024000", 11);  // not among the last two
-    // The program lists the grids after some seven checks without a change, and goes on checking
-    // after it has made a loop or not.
+    // The program lists the grids after some seven checks without a change, and goes on checking,
+    // whether or not it has made a loop.
     EXPECT_TRUE(Openings(grid.parent_path().parent_path()).come_to(20));
     EXPECT_EQ(documents(program).size(), 1U) << program.out();
     EXPECT_EQ(program.end(SIGTERM), 0);
@@ -230,7 +232,7 @@ TEST_F(Follow, WhatCanNeverBeMadeIsRefusedAtOnce) {
 
 TEST_F(Follow, EndsWithItsParent) {
     commit("20050822_024400", 22);
-    // Process 1 did not start the program, so the program assumes that its parent has ended.
+    // The program is not a child of process 1, so it assumes that its parent has ended.
     const auto orphan =
         testing::run_stormcellar(arguments({"--with-parent", "1", "-o", out("a.gif")}));
     EXPECT_EQ(orphan.status, 0);

@@ -32,7 +32,7 @@ class FrameFiles : public FilesAndService {
     }
 };
 
-// The picture of the file has the same pixels and texts as that of the daemon's grid.
+// The pictures of the file and of the daemon's grid have the same pixels and texts.
 TEST_F(FrameFiles, IsThePictureOfTheStoredGrid) {
     const std::string file = volume("KTLX19990503_235621.gz");
     ingest(file);

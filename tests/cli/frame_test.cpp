@@ -109,7 +109,8 @@ TEST_F(Frame, PanelsOfOneMomentAreNamedOnceAndHaveNoProbe) {
     EXPECT_EQ(run(panels + "REF,XYZ"), exit_bad_usage);
     EXPECT_EQ(run(panels + "REF --moment REF"), exit_bad_usage);
     EXPECT_EQ(run(panels + "REF --probe 5,5"), exit_bad_usage);
-    // 2026-11-26: the first message advised another product, which the second one then refused.
+    // 2026-11-26: the message about the first error advised a product that the program then
+    // refused.
     EXPECT_EQ(run("--domain KBGM --panels REF -o " + out("b.tif")), exit_bad_usage);
     EXPECT_THAT(messages_, ::testing::HasSubstr("GeoTIFF and KMZ hold a map of one moment; give "
                                                 "--moment instead of --panels"));
@@ -177,7 +178,7 @@ TEST_F(Frame, DrawsEveryProduct) {
     EXPECT_FALSE(fs::exists(out("b.png")));
 }
 
-// 2026-11-22: such a section gave an empty picture.
+// 2026-11-22: a section outside the grid gave an empty picture.
 TEST_F(Frame, ASectionOutsideTheGridIsRefused) {
     EXPECT_EQ(run("--domain KBGM --product section --section 35,-98,35.5,-97 -o " + out("b.png")),
               exit_bad_usage);

@@ -58,7 +58,7 @@ TEST(GridRequest, DegreesAreTakenAsTheyAre) {
     EXPECT_EQ(spec->center_longitude_deg, 179.9);
 }
 
-// At 60 N a degree of latitude is 111.412 km, one of longitude 55.800 km.
+// At 60 N a degree of latitude is 111.412 km, and a degree of longitude is 55.800 km.
 TEST(GridRequest, KilometresBecomeDegreesAsTheCentreHasThem) {
     const auto both = spec_for("--projection lat-lon --spacing-km 2 --extent-km 300,200", 60, 10);
     ASSERT_TRUE(both);

@@ -96,7 +96,7 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "--no-such-option"}, "--no-such-option");
 }
 
-// 2026-11-21: an empty value was taken as if the option had not been given.
+// 2026-11-21: an option with an empty value was ignored.
 TEST_F(GridTest, AnOptionWithAnEmptyValueIsBadUsageAndNamed) {
     for (const char* option :
          {"--method", "--tolerance", "--averaging", "--profile", "--effect", "--center",
@@ -163,7 +163,8 @@ TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
     const std::string of_2022 = volume("KLOT20220317_000842_V06");
     EXPECT_EQ(moments_of({of_2022, "--moment", "all"}),
               (Names{"REF", "VEL", "SW", "ZDR", "PHI", "RHO", "CFP"}));
-    // With several files, all moments have one instant, though their sweeps have different times.
+    // With several files, all moments have the same instant, though their sweeps have different
+    // times.
     EXPECT_EQ(moments_of({of_1999, volume("KTLX19990503_235621.gz"), "--moment", "REF,VEL"}),
               (Names{"REF", "VEL"}));
     const ProgramResult missing = grid({of_1999, "-o", file("no.nc"), "--moment", "REF,RHO"});

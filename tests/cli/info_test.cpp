@@ -150,8 +150,9 @@ TEST_F(InfoTest, TheTableHasALineForEachSweep) {
     EXPECT_NE(ran.out.find("68 sweeps, 13623 radials; partial\n  volume 1  from sweep 0 on"),
               std::string::npos)
         << ran.out;
-    // Radials are missing in every sweep of this file: eight are named, the others counted. Half of
-    // the sweeps lack their last radial, and all volumes but the last are discarded.
+    // Radials are missing in every sweep of this file. The program names eight sweeps and counts
+    // the rest. Half of the sweeps lack their last radial, and all volumes but the last are
+    // discarded.
     const int facts = 12, blank_and_heading = 2, further_volumes = 3, blank_and_problems = 12;
     EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), 0x0A),
               facts + blank_and_heading + further_volumes + 68 + blank_and_problems)

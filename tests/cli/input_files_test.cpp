@@ -84,7 +84,7 @@ TEST_F(InputFilesTest, OneMemberIsNamedBehindItsArchive) {
     EXPECT_THAT(none.err, HasSubstr("is not in the archive"));
 }
 
-// 2026-11-28: the message was that the archive has no such member.
+// 2026-11-28: the message said that the archive has no such member.
 TEST_F(InputFilesTest, OfAMemberThatCannotBeReadIsSaidWhy) {
     const std::string path = put_archive("order.tar", archive::Kind::tar);
     fs::resize_file(path, fs::file_size(path) - 100'000);
@@ -136,7 +136,7 @@ TEST_F(InputFilesTest, AnArchiveIsReplayedMemberByMember) {
                     read_file(real(file)).value());
     }
     fs::create_directory(directory_ / "chunks");
-    // Volumes that cannot be sent in chunks are named, and the others are replayed.
+    // Volumes that cannot be sent in chunks are named; all other volumes are replayed.
     const std::string in_records = testing::real_file("volumes/KLBB20160601_150025_V06").string();
     const ProgramResult chunks =
         run({"replay", path, in_records, at("chunks"), "--interval", "0", "--as", "chunks"});

@@ -23,7 +23,7 @@ class Loop : public ::testing::Test {
         grid.start_time = grid.end_time = grid.time;
         return grids_.emplace_back(testing::commit_grid(store_, grid));
     }
-    // Returns the path of a grid of this many minutes after 3 UTC.
+    // Returns the path of the grid for this many minutes after 3 UTC.
     [[nodiscard]] fs::path path_at_minute(int minutes) const {
         const UtcTime time = parse_compact("20050822_030000").value();
         return store_.path_of("KBGM", level2::Moment::ref, time + std::chrono::minutes{minutes})
@@ -38,8 +38,8 @@ class Loop : public ::testing::Test {
         return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
     }
     testing::ProgramResult run(Words arguments) const {
-        // Draw few slices, which is quick. Other products have no slices, and a tolerance chooses
-        // their number.
+        // Draw a volume with few slices, which is quick. Other products have no slices, and a
+        // tolerance chooses the number of slices.
         if (!has(arguments, "--product") && !has(arguments, "--tolerance")) {
             arguments.insert(arguments.begin(), {"--slices", "16"});
         }

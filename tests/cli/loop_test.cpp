@@ -277,7 +277,7 @@ TEST_F(Loop, TheCameraFliesThroughItsKeys) {
     const auto result = run({"KBGM", "--scene", scene, "-o", out("f.webp")});
     ASSERT_EQ(result.status, 0) << result.err;
     const auto frames = render::decode_webp(out("f.webp")).frames;
-    ASSERT_EQ(frames.size(), 5U);  // 2 s of 2 frames, and the end
+    ASSERT_EQ(frames.size(), 5U);  // two frames a second for 2 s, and the end
     const auto still = [&](const std::string& place) {
         EXPECT_EQ(run({"KBGM", "--scene", scene, "--camera-km=" + place, "--look-at-km", "0,0,5",
                        "-o", out("s.webp")})
@@ -376,7 +376,7 @@ TEST_F(Loop, PlaceThatCannotBeWrittenIsAFailureThatNamesIt) {
     EXPECT_THAT(cache.err, HasSubstr("nowhere"));
 }
 
-// A loop of very many grids is interrupted while it writes its frames.
+// Interrupts a loop of very many grids while the program writes the frames.
 TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
     commit("20050822_024400", 22);
     for (int i = 0; i < 400; ++i) {
@@ -414,8 +414,8 @@ TEST_F(Loop, InterruptedOnItsWayToStandardOutputItLeavesNoTemporaryDirectory) {
     EXPECT_TRUE(fs::is_empty(temporary));
 }
 
-// The grids are many names of one file, which another thread truncates and restores all the time,
-// so most grids are truncated while they are drawn.
+// All grids are links to one file. A thread truncates and restores this file all the time, so most
+// grids are truncated while they are drawn.
 TEST_F(Loop, GridsThatAreCutWhileTheyAreDrawnAreLeftOut) {
     commit("20050822_024400", 22);
     for (int i = 1; i < 40; ++i) {

@@ -42,7 +42,7 @@ TEST_F(Mosaic, HoldsAllSitesInAnyOrder) {
     EXPECT_EQ(one["cells"], other["cells"]);
     EXPECT_EQ(one["time"], other["time"]);
     EXPECT_GT(one["cells"]["value"], 1000);
-    // Each moment has the values that it has alone, on the same columns.
+    // Each moment has the same values as in a grid of this moment alone on the same columns.
     const Words same_columns = {"--center", "42.5,-75", "--extent-km", "640,640"};
     const auto both = grid({real(bgm), real(enx)}, same_columns);
     const auto alone = grid({real(bgm)}, same_columns);
@@ -138,14 +138,15 @@ TEST_F(Mosaic, ALadderShowsWhatAFrameCosts) {
     ASSERT_EQ(steps["codes"].size(), 2U);
     for (const auto& [step, rows] : steps) {
         EXPECT_EQ(rows.back()["value_p99_db"], 0) << step;
-        // With one site, both rules of overlap give the same result, so only the faster one is on
+        // With one site, both rules of overlap give the same result, so only the faster rule is on
         // the Pareto front.
         EXPECT_TRUE(step == "overlap" || rows.back()["pareto"]) << step;
     }
     EXPECT_GT(steps["time"][0]["value_rms_db"], steps["time"][1]["value_rms_db"]);
     EXPECT_GT(steps["time"][0]["position_max_m"], 1000);
     EXPECT_GT(steps["sweeps"][0]["value_p99_db"], 1);
-    // Two roundings to 0.5 dB add at most 0.25 dB each, and the fine codes add a little.
+    // A value is rounded to 0.5 dB twice. Each rounding adds at most 0.25 dB, and the fine codes
+    // add a little.
     EXPECT_GT(steps["codes"][0]["value_p99_db"], 0.2);
     EXPECT_LE(steps["codes"][0]["value_max_db"], 0.51);
 }

@@ -33,7 +33,7 @@ TEST(NamedPlace, NumbersAreAPlace) {
     EXPECT_THAT(refusal(""), HasSubstr("--at takes LAT,LON"));
 }
 
-// The expected positions are of the city halls, from maps, to a few kilometers.
+// The expected positions are those of city halls on maps, accurate to a few kilometers.
 TEST(NamedPlace, TownsByNameAndState) {
     expect_at("Moore, OK", 35.34, -97.49);
     expect_at("moore,ok", 35.34, -97.49);
@@ -52,7 +52,7 @@ TEST(NamedPlace, TownsByNameAndState) {
 
 TEST(NamedPlace, ATownWithoutItsStateIfOneIsMeant) {
     expect_at("El Reno", 35.53, -97.96);
-    expect_at("Dallas", 32.78, -96.80);  // the only large one of eight with this name
+    expect_at("Dallas", 32.78, -96.80);  // the only large town of the eight with this name
 }
 
 TEST(NamedPlace, AmbiguousNamesListTheirStates) {

@@ -43,7 +43,7 @@ TEST_F(Ppi, SaysWhichSweepsThereAre) {
     EXPECT_FALSE(fs::exists(out("a.png")));
 }
 
-// The sweeps and radials that a truncated file still holds are drawn.
+// The program draws the sweeps and radials that a truncated file still holds.
 TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
     // The file has a third of the first sweep: the radials from the west to the northeast.
     const std::string begun = cut_volume("KLBB20160601_150025_V06", 400'000);
@@ -54,7 +54,8 @@ TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
     const auto drawn = run({"frame", begun, "--product", "ppi", "-o", out("a.png")});
     EXPECT_EQ(drawn.status, 0) << drawn.err;
 
-    // The file has two whole elevations; the frame shows the newest whole sweep of the low one.
+    // The file has two whole elevations. The frame shows the newest whole sweep of the lower
+    // elevation.
     const std::string low = cut_volume("KLBB20160601_150025_V06", 1'500'000);
     const auto lowest = probe({low, "--probe-at", "34.0,-102.2"});
     EXPECT_TRUE(lowest["partial"].get<bool>());
@@ -94,7 +95,7 @@ TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {
     EXPECT_EQ(of_domain["domain"], "KTLX");
     EXPECT_EQ(with({"KTLX", "--cache", out("cache"), "--catalog", out("state/catalog")})["probe"],
               of_file["probe"]);
-    // The plane may be chosen, as for a file.
+    // Options choose the plane of the sweep, as for a file.
     const auto placed = run({"frame", "KTLX", "--config", out("config.toml"), "--product", "ppi",
                              "--extent-km", "60,60", "-o", out("a.png")});
     EXPECT_EQ(placed.status, 0) << placed.err;
@@ -121,7 +122,7 @@ TEST_F(Ppi, ALoopGoesThroughTheElevations) {
     EXPECT_TRUE(fs::exists(directory_ / "up/frame_0004.png"));
     EXPECT_FALSE(fs::exists(directory_ / "up/frame_0005.png"));
 
-    // A scene file with the same setting gives eight frames there and back.
+    // A scene file with the same setting and ping_pong gives eight frames.
     std::ofstream(directory_ / "up.toml")
         << "[picture]\nproduct = \"ppi\"\n[loop]\nall_elevations = true\nping_pong = true\n";
     EXPECT_EQ(json_of(run({"loop", "--scene", out("up.toml"), file, "--cache", out("own"), "--json",

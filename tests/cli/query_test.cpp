@@ -104,7 +104,7 @@ TEST_F(QueryTest, GetJoinsTheChunksOfAVolume) {
     auto decode = get;
     decode.emplace_back("--decode");
     EXPECT_EQ(run(decode).out, out + "/KLOT20260328_201457.nc\n");
-    // If a chunk has gone meanwhile, the others are copied, with a note.
+    // If a chunk has gone meanwhile, the remaining chunks are copied, with a note.
     fs::remove(drop / "20260328-201457-007-I");
     auto forced = get;
     forced.emplace_back("--force");
@@ -120,7 +120,7 @@ TEST_F(QueryTest, GetDecodesEachVolumeToNetcdf) {
     const auto ran = run(get);
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(ran.out, out + "/KBGM20050822_024414.nc\n" + out + "/KBGM20050822_025001.nc\n");
-    // The same file as info writes.
+    // `info` writes the same file.
     const std::string other = directory_ / "other.nc";
     const auto raw = testing::real_file("sequence-kbgm/KBGM20050822_024414.gz");
     ASSERT_EQ(testing::run_stormcellar({"info", raw, "--to", other}).status, 0);
@@ -136,7 +136,7 @@ TEST_F(QueryTest, GetDecodesEachVolumeToNetcdf) {
     EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.nc"), *read_file(other));
 }
 
-// Each requested volume of a file with four becomes a file of its own.
+// Each requested volume of a file with four volumes becomes a separate file.
 TEST_F(QueryTest, GetDecodesTheVolumesOfAFileThatWereAskedFor) {
     ingest(testing::real_file("volumes/KBBX20060113_170337.gz"));
     const json entries = json::parse(run({"catalog", "list", "--station", "KBBX", "--json"}).out);
@@ -156,7 +156,7 @@ TEST_F(QueryTest, GetDecodesTheVolumesOfAFileThatWereAskedFor) {
               (std::set{name + "2.nc", name + "3.nc"}));
 }
 
-// A file that can no longer be decoded is named, and the others are written.
+// A file that can no longer be decoded is named; the remaining files are written.
 TEST_F(QueryTest, GetDecodesWhatItCanAndNamesTheRest) {
     const auto copy = directory_ / "KBGM20050822_025549.gz";
     fs::copy_file(testing::real_file("sequence-kbgm/KBGM20050822_025549.gz"), copy);
@@ -197,7 +197,7 @@ TEST_F(QueryTest, GetGivesOneFileToStandardOutput) {
     EXPECT_EQ(run({"catalog", "get", "--station", "KBGM", "-o", "-"}).status, 2);
 }
 
-// Two directories of the archive may hold files of one name.
+// Two directories of the archive may hold files of the same name.
 TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
     const fs::path kbgm = testing::real_file("sequence-kbgm");
     fs::create_directory(directory_ / "other");
@@ -210,7 +210,7 @@ TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
     EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.gz"),
               *read_file(kbgm / "KBGM20050822_024414.gz"));
     EXPECT_EQ(*read_file(out + "/KBGM20050822_024414_2.gz"), *read_file(copy));
-    // A file that has changed since it was cataloged is not handed out.
+    // A file that has changed since it was cataloged is not copied.
     fs::resize_file(copy, 1000);
     const auto changed =
         run({"catalog", "get", "--station", "KBGM", "--from", "2005-08-22T02:55", "-o", out + "2"});

@@ -53,7 +53,7 @@ Words names_of_options(const CommandReference& command) {
     return names;
 }
 
-// Returns the words of a command line as a shell splits it, without the program.
+// Returns the words of a command line, split as by a shell, without the name of the program.
 Words words_of(std::string_view line) {
     Words words{""};
     bool quoted = false;

@@ -1,5 +1,5 @@
-// Tests the reference of a small program; tests/packaging/check-reference compares the real one
-// with --help.
+// Tests the reference of a small program; tests/packaging/check-reference compares the real
+// reference with --help.
 #include "cli/reference/reference.h"
 
 #include <CLI/CLI.hpp>

@@ -88,7 +88,7 @@ TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     EXPECT_THAT(app.help(), ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO or CFP"));
 }
 
-// 2026-11-22: `--light shadow` with a composite was dropped without a word.
+// 2026-11-22: `--light shadow` with a composite was ignored without a message.
 TEST(SceneOptions, WhatAProductDoesNotUseIsRefused) {
     const std::string all = "volume composite cappi section echotop vil lowest-seen highest-seen";
     const std::string flat = " composite cappi section echotop vil lowest-seen highest-seen";
@@ -179,7 +179,7 @@ TEST(SceneOptions, AMomentMayBeInLowerCase) {
     EXPECT_EQ(scene->moment, level2::Moment::vel);
 }
 
-// 2026-11-25: a message about a number did not name the option that sets it.
+// 2026-11-25: a message about a number did not name the option of the number.
 TEST(SceneOptions, AnOptionOutOfItsRangeIsNamed) {
     const std::vector<std::pair<const char*, const char*>> said = {
         {"--tilt 120", "--tilt must be 0 to 90, not 120"},

@@ -1,4 +1,4 @@
-// Tests a scene file together with typed options: which exclude each other, and which override
+// Tests a scene file together with typed options. Some exclude each other; some options override
 // keys.
 #include <utility>
 
@@ -76,7 +76,7 @@ TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
     EXPECT_EQ(draw("--product volume").status, exit_done) << "now the plan has something to say";
 }
 
-// 2026-11-22: keys that the picture did not use were dropped without a word.
+// 2026-11-22: keys that the picture did not use were ignored without a message.
 TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
     commit();
     const auto draw = [&](const std::string& more) {
@@ -105,7 +105,6 @@ TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
     EXPECT_EQ(draw("--product volume").status, exit_done) << "now they have something to say";
 }
 
-// 2026-11-22: the number of slices was dropped beside a tolerance, and rounded by --explain.
 TEST_F(SceneFileTest, PanelsAreForFrameAlone) {
     commit();
     const auto with_scene = [&](const std::string& arguments) {
@@ -142,6 +141,7 @@ TEST_F(SceneFileTest, WrongPanelsAreSaidWithTheirLine) {
               "out moment");
 }
 
+// 2026-11-22: a tolerance made the program ignore the number of slices, and --explain rounded it.
 TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
     commit();
     const auto draw = [&](const std::string& more) {

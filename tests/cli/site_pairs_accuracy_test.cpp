@@ -78,7 +78,8 @@ TEST_F(SitePairs, BadUsageIsSaid) {
     EXPECT_THAT(velocity.err, HasSubstr("compared by REF"));
 }
 
-// Seven sites of one night: most pairs have too little common echo, and the program does not fail.
+// Most pairs of these seven sites of one night have too little common echo. The program does not
+// fail.
 TEST_F(SitePairs, OfRealSitesEachPairHasARow) {
     STORMCELLAR_NEED_DATA();
     std::vector<fs::path> files;

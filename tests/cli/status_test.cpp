@@ -76,7 +76,7 @@ TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
     EXPECT_TRUE(document["source"]["age_s"].is_number());
     EXPECT_EQ(document["state"], "running") << "as it was last said";
     EXPECT_EQ(status({"--socket", daemon.root() / "state/status.sock"}).status, 1);
-    // The socket that a killed daemon leaves behind does no harm.
+    // A daemon starts although a killed daemon has left its socket behind.
     daemon.start();
     EXPECT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
@@ -178,7 +178,7 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
     add_loops(document, {});
     EXPECT_EQ(document, none);
 
-    // The daemon's configuration names two loops; one of them is not in the file.
+    // The daemon's configuration names two loops, but the file has only one of them.
     write_file(file, keeper.dump());
     const json two = {
         {"loops",
@@ -194,7 +194,7 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
     add_loops(document, directory / "nothing");
     EXPECT_EQ(document, two) << "as the daemon has it";
 
-    // A killed keeper leaves its last status; its loops no longer run.
+    // A killed keeper leaves its last status, although its loops no longer run.
     keeper["loops"]["each"][0]["running"] = true;
     for (const json& pid : {json(-1), json(0), json("x"), json(0x7FFFFFF0)}) {
         keeper["pid"] = pid;

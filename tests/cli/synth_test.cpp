@@ -165,8 +165,8 @@ TEST_F(Synth, ReplayNamesMistakes) {
     EXPECT_THAT(faults.err, HasSubstr("faults: there is no fault 'lose'"));
 }
 
-// 2026-11-22: a replay did not report how long it takes or waits, and printed no JSON when
-// interrupted.
+// 2026-11-22: a replay did not say how long it would take or wait, and an interrupted replay
+// printed no JSON.
 TEST_F(Synth, AReplayThatWaitsSaysSoAndAnInterruptedOneWhatWasDone) {
     synthesise();
     fs::create_directory(at("drop"));

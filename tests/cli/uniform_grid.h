@@ -12,7 +12,7 @@
 
 namespace stormcellar::testing {
 
-// Returns a grid of `cells` rows and columns. The time is written as in names of files,
+// Returns a grid of `cells` rows and columns. The time has the form of file names,
 // "20050822_024400".
 inline grid::Grid uniform_grid(const std::string& compact_time, float dbz, int cells = 40) {
     grid::Grid grid;

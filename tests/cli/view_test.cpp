@@ -48,7 +48,7 @@ class ViewCommand : public ::testing::Test {
         const auto found = out.find(before);
         return found == std::string::npos ? 0 : std::atoi(out.c_str() + found + before.size());
     }
-    // Makes a fake xdg-open, which writes the address that it is to open into a file.
+    // Makes a fake xdg-open, which writes its argument, an address, into a file.
     void make_desktop() const {
         fs::create_directories(at("bin"));
         std::ofstream(at("bin/xdg-open")) << "#!/bin/sh\necho \"$@\" >'" << at("opened") << "'\n";

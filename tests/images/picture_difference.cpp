@@ -13,7 +13,7 @@ using render::Rgba8;
 
 constexpr int tile_edge = 8;
 
-// Replaces each pixel by the mean of it and its neighbors.
+// Replaces each pixel by the mean of this pixel and its neighbors.
 Image softened(const Image& image) {
     Image soft(image.width, image.height, {0, 0, 0, 255});
     for (int y = 0; y < image.height; ++y) {

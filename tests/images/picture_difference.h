@@ -20,16 +20,17 @@ struct PictureDifference {
 
 inline constexpr double visible = 3;
 
-// The largest allowed differences. The limit for a tile decides about labels: in
-// tests/images/synthetic_picture_test.cpp a label that moved makes a tile differ by 3.8 at least,
-// which must be found, and other letters make it differ by 2.1 at most, which is tolerated.
+// The largest allowed differences. The limit for a tile decides about labels. In
+// tests/images/synthetic_picture_test.cpp, a label that moved makes a tile differ by at least 3.8,
+// which must be found. Letters of another library make a tile differ by at most 2.1, which is
+// tolerated.
 struct Tolerance {
     double percentile_99 = 3;
     double visible_share = 0.01;
     double worst_tile = 3;
 };
 
-// Errors: bad_argument if the sizes differ.
+// Compares two pictures. Errors: bad_argument if their sizes differ.
 [[nodiscard]] Result<PictureDifference> difference_of(const render::Image& one,
                                                       const render::Image& other);
 [[nodiscard]] bool within(const PictureDifference& difference, const Tolerance& tolerance = {});

@@ -24,7 +24,7 @@ class ReferenceCheck : public ::testing::Test {
         std::error_code ignored;
         if (!directory_.empty()) fs::remove_all(directory_, ignored);
     }
-    // Returns the directory that a failure names.
+    // Returns the directory that the message of a failure names.
     fs::path directory_in(const std::string& message) {
         const auto begin = message.find("look at ") + 8;
         directory_ = message.substr(begin, message.find(',', begin) - begin);

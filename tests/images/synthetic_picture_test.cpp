@@ -1,5 +1,5 @@
-// Compares pictures of synthetic grids with stored references, and tests that errors are found:
-// each test below changes the scene or the drawn pixels, and every picture that the change concerns
+// Compares pictures of synthetic grids with stored references, and tests that errors are found.
+// Most tests below change the scene or the drawn pixels, and every picture that the change concerns
 // must then exceed the tolerance.
 #include <algorithm>
 #include <chrono>
@@ -36,7 +36,7 @@ class SyntheticPicture : public ::testing::TestWithParam<std::string> {
     Picture picture_;
 };
 
-// Subsets of the pictures: with a camera, with text around the picture, with a map.
+// The pictures with a camera, and below, those with text around the picture and those with a map.
 class CameraPicture : public SyntheticPicture {};
 class LabelledPicture : public SyntheticPicture {};
 class SitePicture : public SyntheticPicture {};
@@ -65,7 +65,7 @@ TEST_P(SyntheticPicture, LooksAsItsReference) {
 }
 
 // Mixes each pixel with its neighbor to the right and adds noise, like letters drawn by another
-// library: the picture must still count as the same.
+// library. The picture must stay within the tolerance.
 TEST_P(SyntheticPicture, OtherLettersAreTolerated) {
     Image image = read_reference(GetParam()).value();
     const Image original = image;
@@ -106,7 +106,8 @@ TEST_P(CameraPicture, ADegreeOfTiltIsFound) {
     EXPECT_TRUE(found(draw(picture_)));
 }
 
-// Turns the pixels about the middle of the picture: maps and sections have no camera to turn.
+// Turns the pixels about the middle of the picture, because maps and sections have no camera to
+// turn.
 TEST_P(SyntheticPicture, APictureTurnedByADegreeIsFound) {
     const Image original = read_reference(GetParam()).value();
     Image image = original;

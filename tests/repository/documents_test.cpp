@@ -1,4 +1,4 @@
-// Tests that links of documents resolve, that the files which they name exist, and that documents
+// Tests that links of documents resolve, that files named in documents exist, and that documents
 // named by installed files are installed.
 #include <algorithm>
 #include <cctype>
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Documents outside of docs/. cmake/Install.cmake installs these and docs/ with the same relative
-// paths.
+// Documents outside of docs/. cmake/Install.cmake installs them, and docs/, with the same relative
+// paths as in the tree.
 const std::vector<fs::path> single_documents = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
                                                 "bunzip/README.md"};
 
@@ -72,8 +72,8 @@ std::vector<Link> links_of(const fs::path& document) {
     return links;
 }
 
-// Returns the anchors of a document's headings: in lower case, with "-" for blanks, without other
-// signs.
+// Returns the anchors of a document's headings. Anchors are in lower case, with "-" for blanks and
+// without other signs.
 std::set<std::string> headings_of(const fs::path& document) {
     static const std::regex heading(R"(\n#+ ([^\n]*))");
     std::set<std::string> names;
@@ -221,7 +221,7 @@ TEST(Documents, FindItNamesFilesThatAreThere) {
         << "a question without a file";
     for (const std::string& file : files)
         EXPECT_TRUE(fs::is_regular_file(root / file)) << file;
-    // All other files and folders that it names must exist, too.
+    // All other files and folders that docs/find-it.md names must exist, too.
     static const std::regex path(R"(`([a-z_0-9]+/[A-Za-z0-9_./-]*)`)");
     for (const std::string& named : testing::found_in(page, path))
         EXPECT_TRUE(fs::exists(root / named)) << named;

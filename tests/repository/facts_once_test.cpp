@@ -33,8 +33,8 @@ struct SplitSource {
     std::vector<std::string> literals;
 };
 
-// Splits a source. Joins literals side by side, as the compiler does. Reads raw literals like
-// others, because none of them has names.
+// Splits a source. Joins literals side by side, as the compiler does. Reads raw literals like other
+// literals, because no raw literal has names.
 SplitSource split_source(const std::string& text) {
     SplitSource split;
     bool goes_on = false;
@@ -155,7 +155,7 @@ TEST(FactsOnce, ThePageListsNamesInItsFactsAlone) {
               std::set<std::string>{});
 }
 
-// Returns the text from an opening bracket to the closing one, both included.
+// Returns the text from an opening bracket to its closing bracket, both included.
 std::string in_brackets(const std::string& code, std::size_t at, char open, char close) {
     int depth = 0;
     for (std::size_t end = at; end < code.size(); ++end) {

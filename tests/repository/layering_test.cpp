@@ -1,7 +1,7 @@
 // Tests that includes run one way: a room includes only itself and the rooms allowed for it
-// (docs/architecture.md), and an inner room likewise. A public header,
-// include/stormcellar/ROOM/NAME.h, counts as part of the inner room of NAME.cpp, and includes only
-// public headers.
+// (docs/architecture.md), and an inner room only itself and the inner rooms allowed for it. A
+// public header, include/stormcellar/ROOM/NAME.h, counts as part of the inner room of NAME.cpp, and
+// includes only public headers.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -184,7 +184,7 @@ std::vector<std::string> violations(const std::string& room, const Rooms& may) {
     for (const auto& source : all_sources_of(room)) {
         for (const fs::path& included : quoted_includes(testing::text_of(source))) {
             const Place place = place_of(included);
-            // A room may be allowed one inner room of another.
+            // A room may be allowed a single inner room of another room.
             const std::string inner = place.room + "/" + place.rest.begin()->string();
             if (place.room != room && !may.contains(place.room) && !may.contains(inner))
                 found.push_back(source.string() + " includes " + included.string());
@@ -250,7 +250,8 @@ TEST_P(Layering, PublicHeadersIncludePublicOnes) {
     }
 }
 
-// Inner rooms do not include each other in a circle: each comes before the rooms that include it.
+// Inner rooms do not include each other in a circle, because each comes before the rooms that
+// include it.
 TEST(LayeringCheck, RoomsInsideHaveAnOrder) {
     for (const auto& [room, inside] : allowed_inside) {
         Rooms placed;

@@ -32,7 +32,7 @@ std::string code_of(const std::string& path) {
     return testing::without_comments(testing::text_of(testing::source_directory() / path));
 }
 
-// Returns the uses of standard locks, which clang's analysis does not see.
+// Returns the uses of standard locks, because clang's analysis does not see these.
 std::vector<std::string> unseen_locks(const std::string& code) {
     std::vector<std::string> found;
     for (const char* lock :

@@ -26,7 +26,8 @@ std::vector<std::string> split(const std::string& line) {
     return fields;
 }
 
-// Returns the entries. Each has two lines: feed and pattern, and after a tab the action.
+// Returns the entries. The first line of an entry has feed and pattern; the second has a tab and
+// the action.
 std::vector<Entry> entries() {
     std::ifstream file(testing::source_directory() / "docs/guides/ldm.md");
     std::vector<Entry> found;

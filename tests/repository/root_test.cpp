@@ -1,5 +1,5 @@
 // Checks the root of the tree, because a stray file there is the first thing that a visitor sees.
-// 2026-11-28: a picture named --colors was there for days.
+// 2026-11-28: a picture named --colors was in the root for days.
 #include <algorithm>
 #include <array>
 #include <filesystem>

@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 
-// Each folder, and the folders that it may import, which must come before it. Besides, main.ts and
-// tests may import everything, and every file may import facts.ts.
+// Each folder with the folders that it may import. A folder comes after all folders that it
+// imports. Besides, main.ts and tests may import everything, and every file may import facts.ts.
 const std::vector<std::pair<std::string, Folders>> order = {
     {"wire", {}},
     {"camera", {}},

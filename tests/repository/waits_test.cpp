@@ -56,7 +56,7 @@ const std::map<std::string, std::string>& code_of_tests() {
     return all;
 }
 
-// Returns the first line that waits for a time; empty: none does.
+// Returns the first line that waits for a fixed time; empty if no line does.
 std::string wait_in(const std::string& code) {
     static const std::regex waits(
         R"(\b(sleep_for|sleep_until|usleep|nanosleep|clock_nanosleep|sleep|yield)\s*\()"

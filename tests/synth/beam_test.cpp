@@ -39,7 +39,7 @@ TEST(BeamQuadrature, HasTheMomentsOfThePattern) {
         EXPECT_NEAR(mean_of(up, [](double x) { return x; }), 0, 1e-12);
         EXPECT_NEAR(std::sqrt(mean_of(up, [](double x) { return x * x; })), deviation_deg,
                     0.003 * deviation_deg);
-        // The variance is that of the Gaussian plus 1/12 for the turn of one degree.
+        // The variance is the variance of the Gaussian plus 1/12 for the turn of one degree.
         for (const double elevation_deg : {0.5, 19.5, 60.0}) {
             const double own_deg = deviation_deg / std::cos(elevation_deg * degree);
             const auto across = azimuth_nodes(width_deg, elevation_deg, 1, points);
@@ -77,8 +77,9 @@ struct Observed {
     }
 };
 
-// A storm that is independent of height: dBZ falls with the square of the distance across the beam,
-// so Z is a Gaussian of deviation s, and the mean over a Gaussian beam of deviation b is known:
+// The storm is independent of height. Its dBZ falls with the square of the distance across the
+// beam, so Z is a Gaussian of deviation s, and the mean over a Gaussian beam of deviation b is
+// known:
 //   peak + 10 log10(s / sqrt(s^2 + b^2)) - (10 / ln 10) x^2 / (2 (s^2 + b^2)).
 // The turn in azimuth is small. The curvature of the arc across the beam and the end of the pattern
 // allow 0.1.
@@ -114,8 +115,9 @@ TEST(BeamWidth, AGaussianStormIsSmearedAsItMustBe) {
     }
 }
 
-// A wide plateau that drifts east, seen looking north: v = V sin(azimuth). So at azimuth north the
-// mean is 0, and the deviation is V times that of the azimuth pattern, turn included.
+// The radar looks north at a wide plateau that drifts east, so v = V sin(azimuth). So at azimuth
+// north the mean is 0. The deviation is V times the deviation of the azimuth pattern, turn
+// included.
 TEST(BeamWidth, TheSpreadOfVelocityWidensTheSpectrum) {
     Observed observed;
     Box box;

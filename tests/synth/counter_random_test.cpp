@@ -24,7 +24,7 @@ TEST(CounterRandom, UniformNumbersStayInsideTheirEnds) {
     EXPECT_LT(std::abs(normals_of(0, 0).first), 6.8);
 }
 
-// Neighbors in every direction, and in seed and purpose, are uncorrelated.
+// Numbers of neighboring places, seeds and purposes are uncorrelated.
 TEST(CounterRandom, NormalNumbersHaveTheirMomentsAndDoNotHangTogether) {
     constexpr int side = 400;
     const auto normal = [](std::uint32_t seed, Draw purpose, DrawPlace place) {

@@ -51,7 +51,7 @@ TEST(Noise, GrowsAsTheSignalSinksIntoIt) {
     const double k = std::numbers::ln10 / 10;
     for (const double snr_db : {20.0, 10.0, 5.0, 3.0}) {
         const double over = 1 + std::pow(10, -snr_db / 10);
-        // An estimate below zero has no decibels, but its power still counts in the mean.
+        // An estimate of negative power cannot be written in decibels, but it counts in the mean.
         const Moments z = moments_of(100000, [&](std::uint32_t i) {
             const double dbz = noisy_dbz(snr_db, 0, 1, normal(i));
             return dbz == no_echo_dbz ? 0 : std::pow(10, (dbz - snr_db) / 10);
@@ -157,8 +157,8 @@ TEST(Jitter, IsBoundedSmoothAndOfItsCut) {
         const Jitter next = jitter_at(5, 0, 1, i * 0.01 + 0.01);
         EXPECT_LE(std::abs(here.azimuth), 1);
         EXPECT_LE(std::abs(here.elevation), 1);
-        // The fastest wave has a period of 1.7 s. All three together change by at most 2 pi (1/1.7
-        // + ...) / 3 a second.
+        // The fastest wave has a period of 1.7 s. The mean of the three waves changes by at most 2
+        // pi (1/1.7 + ...) / 3 a second.
         EXPECT_LT(std::abs(next.azimuth - here.azimuth), 0.0225);
         most = std::max(most, std::abs(here.azimuth));
     }

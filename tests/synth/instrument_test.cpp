@@ -39,7 +39,7 @@ std::uint64_t checksum_of(const SweepMoment& moment) {
     return xxh3_64(std::as_bytes(std::span(moment.codes8)));
 }
 
-// The codes are those of 2026-11-20, before effects existed.
+// The expected codes are from 2026-11-20, before effects existed.
 TEST(Instrument, WithoutEffectsTheCodesAreWhatTheyWere) {
     const level2::Volume volume = observe(scene_of("small-storm.toml"), 1);
     std::vector<std::uint64_t> sums;
@@ -80,7 +80,8 @@ TEST(Instrument, VelocityFoldingWrapsOntoTheNyquistInterval) {
     EXPECT_GT(folded, 1000U);
 }
 
-// Two columns in one direction: the far one is beyond the 137 km of PRF 6 of the Doppler cut.
+// Two columns are in one direction. The far column is beyond 137 km, the range of PRF 6 of the
+// Doppler cut.
 TEST(Instrument, RangeFoldingMarksTheWeakerTripInDopplerCuts) {
     Scene scene = scene_of("small-storm.toml");
     Storm near = scene.weather.storms[0];

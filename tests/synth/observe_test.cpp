@@ -130,7 +130,7 @@ TEST(Observe, VelocityIsTheRadialPartOfTheMotionPositiveAway) {
         }
     }
     EXPECT_GT(valid, 1000U);
-    // The storm is southwest of the radar and moves northeast: toward it.
+    // The storm is southwest of the radar and moves northeast, toward the radar.
     const auto& vel = *read.volume.sweeps[1].find(Moment::vel);
     const auto& radials = read.volume.sweeps[1].radials;
     const auto south_west = std::find_if(radials.begin(), radials.end(), [](const auto& radial) {

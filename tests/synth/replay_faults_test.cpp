@@ -52,8 +52,8 @@ TEST(ReplayFaults, EachKindAlone) {
     EXPECT_THAT(order_of(arrivals_of({}, 3, 4)), ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(order_of(arrivals_of(certainly(&FaultRates::repeat), 3, 2)),
                 ElementsAre(0, 0, 1, 1));
-    // Every second piece is delayed until after the next one; the last has none after it, so it
-    // comes in its turn.
+    // Every second piece is delayed until after the next piece. The last piece has no next piece,
+    // so it comes in its turn.
     EXPECT_THAT(order_of(arrivals_of(certainly(&FaultRates::reorder), 3, 5)),
                 ElementsAre(1, 0, 3, 2, 4));
     const auto dropped = arrivals_of(certainly(&FaultRates::drop), 3, 2);
@@ -79,8 +79,8 @@ TEST(ReplayFaults, ComeAsOftenAsAsked) {
     for (const Arrival& arrival : arrivals_of(rates, 1, pieces)) {
         if (!arrival.again) ++count[arrival.fault];
     }
-    // The piece after which a delayed one comes is not drawn for a fault, so 2 % fewer pieces are
-    // drawn.
+    // No fault is drawn for a piece after which a delayed piece comes, so faults are drawn for 2 %
+    // fewer pieces.
     const double drawn = pieces / (1 + rates.reorder);
     for (const auto& [fault, rate] : {std::pair{Fault::drop, 0.1},
                                       {Fault::repeat, 0.05},
@@ -101,7 +101,7 @@ TEST(ReplayFaults, DependOnSeedAndRowAlone) {
     EXPECT_NE(order_of(arrivals_of(rates, 5, 100)), order_of(arrivals_of(other, 5, 100)));
 }
 
-// The drop directory contains what the report says, for every way of writing.
+// For every way of writing, the drop directory contains the files that the report names.
 class ReplayWithFaults : public Replay {
   protected:
     void SetUp() override {

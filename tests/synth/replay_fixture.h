@@ -28,7 +28,7 @@ inline wire::Bytes volume_at(std::uint32_t ms, unsigned sweeps = 1) {
     return bytes;
 }
 
-// Returns a small volume of a station, whose name has four letters.
+// Returns a small volume of a station. The name of the station has four letters.
 inline wire::Bytes volume_of(std::string_view station, std::uint32_t ms, unsigned sweeps = 1) {
     wire::Bytes bytes = volume_at(ms, sweeps);
     for (std::size_t i = 0; i < station.size(); ++i)
@@ -46,7 +46,7 @@ inline std::string day_and_second(std::size_t second) {
     return text;
 }
 
-// Returns one member of each row.
+// Returns the same member of each row.
 template <class Row, class Part>
 std::vector<Part> parts_of(const std::vector<Row>& rows, Part Row::*part) {
     std::vector<Part> parts;

@@ -113,7 +113,7 @@ TEST_F(Replay, StoppedBetweenFilesNothingIsUnfinished) {
     EXPECT_FALSE(fs::exists(drop() / "b"));
 }
 
-// Headers are 500 ms apart, so the third is not due yet when the second is.
+// Headers are 500 ms apart, so the third file is not due yet when the second file is.
 TEST_F(Replay, WhatIsPastIsWrittenBeforeItBegins) {
     put("a", volume_at(1000));
     put("b", volume_at(1500));
@@ -160,7 +160,7 @@ TEST_F(Replay, TimeBetweenFilesComesFromTheirHeadersOrTheInterval) {
     };
     options.speed = 5;
     ASSERT_TRUE(play(options));
-    // An hour, five times faster, less the time that the first file took.
+    // The expected wait is an hour, five times faster, less the time that the first file took.
     EXPECT_LE(wait_s, 720);
     EXPECT_GT(wait_s, 600);
     stop = false;

@@ -57,7 +57,7 @@ TEST(ReplayTurns, AnIntervalPutsOneBehindTheOther) {
                 ElementsAre(Turn(0, 2), Turn(2, 2), Turn(4, 2)));
 }
 
-// 2026-11-22: the replay of a mixed archive waited for days without a message.
+// 2026-11-22: the replay of an archive of several years waited for days without a message.
 TEST(ReplayPlan, SaysWhichTimesAndHowLong) {
     const std::vector<ReplayItem> items = {item("KTLX", 0), item("KFTG", 100),
                                            item("KTLX", 157'680'000), item("", {})};

@@ -183,7 +183,7 @@ TEST(TruthBox, IsFlatAndFallsBeyondItsSides) {
     EXPECT_DOUBLE_EQ(truth_dbz(weather, {1000 + 9999, 19999, 2000}, 0), 40);
     EXPECT_NEAR(truth_dbz(weather, {1000, 20050, 3000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10025, 0, 3000}, 0), 40 - 30.0 / 4, 1e-9);
-    // This point is 30 m and 40 m beyond a corner, so 50 m from the box.
+    // This point is 30 m east and 40 m north of a corner, so 50 m from the box.
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10030, 20040, 3000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10050 + 100, 0, 3000}, 10), 10, 1e-9) << "it drifts";
     EXPECT_EQ(truth_dbz(weather, {1000, 0, 1999}, 0), -INFINITY);
@@ -240,7 +240,7 @@ TEST(Truth, SeenFromAnotherPlaceIsTheSameWeather) {
     int with_echo = 0;
     for (int i = 0; i < 2000; ++i) {
         const Point point{place(random), place(random), 0.05 * std::abs(place(random))};
-        // The axes of the new plane are those of the old one, turned clockwise.
+        // The axes of the new plane are the axes of the old plane, turned clockwise.
         const double east = point.x_m * std::cos(turn) + point.y_m * std::sin(turn) + stand.x_m;
         const double north = point.y_m * std::cos(turn) - point.x_m * std::sin(turn) + stand.y_m;
         const Echo here = truth(weather, {east, north, point.z_m}, 100);

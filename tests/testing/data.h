@@ -6,7 +6,8 @@
 
 namespace stormcellar::testing {
 
-// Returns $STORMCELLAR_DATA, else ../shared/data beside the source tree; none if it does not exist.
+// Returns $STORMCELLAR_DATA, else ../shared/data beside the source tree; none if that directory
+// does not exist.
 [[nodiscard]] std::optional<std::filesystem::path> data_directory();
 
 // Returns the path of a file below data_directory(), which must exist.

@@ -12,8 +12,8 @@
 
 namespace stormcellar::testing {
 
-// Turns the traps of this thread on while the object exists. base/floating_point.h has MaskedTraps
-// for the opposite.
+// Turns the traps of this thread on while the object exists. MaskedTraps in base/floating_point.h
+// turns traps off.
 class FpTraps {
   public:
     FpTraps();

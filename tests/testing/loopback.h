@@ -28,7 +28,8 @@ namespace stormcellar::testing {
     return socket;
 }
 
-// Returns a socket that has a port, but does not listen yet; a closed one if there is no port.
+// Returns a socket that has a port, but does not listen yet; a closed descriptor if there is no
+// port.
 [[nodiscard]] inline Descriptor bound_socket() {
     Descriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const sockaddr_in address = loopback_address(0);

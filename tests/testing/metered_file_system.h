@@ -2,9 +2,9 @@
 // operation.
 //
 // It works on real files and does one operation at a time, for any number of threads. After each
-// one it adds up the blocks of all files below the directory, temporary ones included, and keeps
-// the largest sum. It can also be full: a write beyond `capacity` fails with no_space, and removing
-// files makes room.
+// operation it adds up the blocks of all files below the directory, temporary files included, and
+// keeps the largest sum. The file system can also be full. A write beyond `capacity` fails with
+// no_space, and removing files makes room.
 #pragma once
 
 #include <cstdint>

@@ -7,8 +7,8 @@
 
 namespace stormcellar::testing {
 
-// Returns random bytes below `kinds`. The smaller `kinds` is, the better they compress; with 256
-// they do not compress.
+// Returns random bytes below `kinds`. The smaller `kinds` is, the better the bytes compress; with
+// 256 they do not compress.
 template <class Random>
 [[nodiscard]] std::vector<std::byte> noise(std::size_t size, unsigned kinds, Random& random) {
     std::vector<std::byte> bytes(size);

@@ -2,8 +2,8 @@
 //
 // It works on real files in a directory and remembers which contents and names were made durable.
 // power_cut() then puts the directory into the worst state that a crash may leave: contents that
-// were never synced become empty, and renames whose directory was not synced are undone. It can
-// also run out of space after a number of bytes, and fail the n-th operation.
+// were never synced become empty, and renames whose directory was not synced are undone. The file
+// system can also run out of space after a number of bytes, and fail the n-th operation.
 #pragma once
 
 #include <cstdint>

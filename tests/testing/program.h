@@ -18,7 +18,7 @@ struct ProgramResult {
     std::string err;
 };
 
-// Waits for the program to end. Throws std::runtime_error if it cannot be started.
+// Runs the program to its end. Throws std::runtime_error if the program cannot be started.
 [[nodiscard]] ProgramResult run_program(const fs::path& program,
                                         const std::vector<std::string>& arguments);
 
@@ -38,12 +38,13 @@ class RunningProgram {
     ~RunningProgram();
 
     [[nodiscard]] pid_t id() const { return child_; }
-    // Returns its output so far.
+    // Returns the output of the program so far.
     [[nodiscard]] std::string out() const;
     [[nodiscard]] std::string err() const;
     // Waits at most a minute until `seen` returns true. Returns false if it never does.
     static bool wait_for(const std::function<bool()>& seen);
-    // Sends the signal and waits. Returns the exit status, or minus the signal that ended it.
+    // Sends the signal and waits for the end. Returns the exit status, or minus the signal that
+    // ended the program.
     int end(int signal);
 
   private:

@@ -23,7 +23,8 @@ inline constexpr std::array small_sequence = {"KBGM20050822_024414_V06", "KBGM20
                                               "KBGM20050822_025549_V06", "KBGM20050822_030243_V06",
                                               "KBGM20050822_030830_V06"};
 
-// Writes a volume to the file. Its name gives the time of its start. Throws if that fails.
+// Writes a volume to `file`. The volume's `name` gives the time of its start. Throws if writing
+// fails.
 inline void write_small_volume(const std::string& name, const std::filesystem::path& file) {
     std::string text = fmt::format(
         "[radar]\nstation = \"KBGM\"\n[volumes]\ncount = 1\nstart = \"{}-{}-{}T{}:{}:{}Z\"\n",

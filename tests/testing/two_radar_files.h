@@ -15,7 +15,7 @@
 namespace stormcellar::testing {
 
 // Writes two volumes each of XSYA and XSYB, five minutes apart. XSYB's reflectivity is too weak by
-// `b_too_weak_db`. Returns them in order of time. Throws if that fails.
+// `b_too_weak_db`. Returns the files in order of time. Throws if writing fails.
 inline std::vector<std::filesystem::path> write_two_radars(const std::filesystem::path& directory,
                                                            float b_too_weak_db) {
     struct Place {

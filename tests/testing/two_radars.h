@@ -1,7 +1,7 @@
 // tests/testing/two_radars.h -- scenes of simulated radars that look at the same storms.
 //
-// Nine storms about 35 N 97 W all move in one direction at 26 m/s; the noise is 1 dB. The radars
-// are at 35 N, 97.6 W and 96.4 W, 110 km apart. A volume takes 160 s.
+// Nine storms about 35 N 97 W move in one direction at 26 m/s. The noise of reflectivity is 1 dB.
+// The radars are at 35 N, 97.6 W and 96.4 W, 110 km apart. A volume takes 160 s.
 #pragma once
 
 #include <string>
