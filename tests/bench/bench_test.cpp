@@ -120,7 +120,7 @@ TEST(BenchGrid, TheTableHasTheKeysOfTheJson) {
 // not make the same bytes as libbz2.
 TEST(BenchKernels, RowsAreRatiosToLibbz2) {
     STORMCELLAR_NEED_DATA();
-    if (!fs::exists(bench("bench_kernels"))) GTEST_SKIP() << "it was not built";
+    if (!fs::exists(bench("bench_kernels"))) GTEST_SKIP() << "bench_kernels was not built";
     const std::string file =
         *testing::data_directory() / "volumes/example_nexrad_archive_msg31_compressed.ar2v";
     const auto said =

@@ -120,7 +120,7 @@ TEST_P(PlayedFeed, GivesEachVolumeAtItsTimeAsTheSiteWouldSendIt) {
         EXPECT_TRUE(decoded->report.complete);
         EXPECT_EQ(decoded->volume.station, icao);
         EXPECT_EQ(decoded->volume.start_time(), volumes[i].start)
-            << "believed, though radials say another";
+            << "the header's time counts, though the radials have a different time";
         EXPECT_TRUE(volumes[i].grid.starts_with(icao + "_REF_" + format_compact(volumes[i].start)));
     }
     EXPECT_GE(whole, 4U);

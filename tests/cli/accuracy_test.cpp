@@ -93,7 +93,7 @@ TEST(Accuracy, MarkdownIsWhatThePageShows) {
     std::size_t shown = 0;
     for (const std::string& line : lines_of(text))
         shown += std::regex_match(line, row) ? 1 : 0;
-    EXPECT_GE(shown, 18U) << "rows of the table of the page";
+    EXPECT_GE(shown, 18U) << "rows of the table in docs/accuracy.md";
     EXPECT_NE(ran.out.find("| chain | exact | "), std::string::npos);
     EXPECT_NE(ran.out.find(" | 0 / 0 | 0 / 0 / 0 / 0 | 0.00 | yes |"), std::string::npos);
 }
@@ -173,7 +173,7 @@ peak_dbz = 50
         with({"accuracy", "--scene", scene, "--json", "--rounds", "1", "--columns", "300"}, small));
     if (ran.status == 2) GTEST_FAIL() << ran.err;
     const auto json = json_of(ran);
-    ASSERT_EQ(json["truth"].size(), 6U) << "every chain but the traced one";
+    ASSERT_EQ(json["truth"].size(), 6U) << "one row for every chain except the traced chain";
     for (const auto& row : json["truth"]) {
         EXPECT_GT(row["count"].get<int>(), 50);
         EXPECT_LT(row["rms"].get<double>(), 12) << row["chain"];
@@ -267,7 +267,7 @@ TEST_F(Effects, AProfileOfOnesOwnTurnsRefractionOn) {
     EXPECT_EQ(beam_of(flat), "flat earth");
     EXPECT_NE(flat.err.find("refraction is off"), std::string::npos) << flat.err;
     EXPECT_EQ(beam_of(gridded({"--profile", sounding, "--tolerance", "9 km, 20 dB"})), "4/3 earth")
-        << "the planner finds it small enough";
+        << "the planner leaves refraction off, because its effect is small enough";
 }
 
 TEST_F(Effects, ASoundingFarAboveTheAntennaIsNoted) {

@@ -71,8 +71,9 @@ TEST_F(Batch, PlansRunsMergesAndChecks) {
     EXPECT_EQ(facts["frame_tasks"], 2);
     EXPECT_EQ(facts["volumes"], 5);
     EXPECT_GT(facts["grid_task_memory_bytes"], 100'000'000);
-    EXPECT_EQ(batch("check", "p").status, 3) << "nothing is done";
-    EXPECT_EQ(batch("merge", "p", {"--task", "1"}).status, 1) << "its grids are not done";
+    EXPECT_EQ(batch("check", "p").status, 3) << "no task is done";
+    EXPECT_EQ(batch("merge", "p", {"--task", "1"}).status, 1)
+        << "the grids that the task needs are not done";
     const ProgramResult ran = batch("run", "p", {"--task", "0"});
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("task 0: KBGM 20050822: 5 files, 0 left out, 5 grids"));
@@ -92,7 +93,8 @@ TEST_F(Batch, SaysByItsStatusWhetherAnotherTryHelps) {
     ASSERT_EQ(plan("p").status, 0);
     EXPECT_EQ(batch("run", "p", {"--task", "7"}).status, 2);
     EXPECT_EQ(batch("run", "p", {"--task", "one"}).status, 2);
-    EXPECT_EQ(batch("run", "p", {"--task", "1"}).status, 2) << "it makes frames";
+    EXPECT_EQ(batch("run", "p", {"--task", "1"}).status, 2)
+        << "task 1 makes frames, so run refuses it";
     EXPECT_EQ(batch("run", "elsewhere", {"--task", "0"}).status, 1);
     fs::rename(directory_ / "drop", directory_ / "unmounted");
     const ProgramResult away = batch("run", "p", {"--task", "0"});
@@ -156,7 +158,7 @@ TEST_F(Batch, WritesTheClimatologyOfItsFrames) {
     EXPECT_GT(count_bytes("--cell-statistics"), 2 * count_bytes("--statistics"));
     const std::string file = place("c.nc");
     const ProgramResult early = batch("statistics", "p", {"-o", file});
-    EXPECT_EQ(early.status, 1) << "nothing is counted";
+    EXPECT_EQ(early.status, 1) << "no frame is counted";
     EXPECT_FALSE(fs::exists(file));
     ASSERT_EQ(batch("submit", "p", {"--engine", "make"}).status, 0);
     for (const char* by : {"hour", "month", "all"}) {
@@ -175,11 +177,12 @@ TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {
              words("--from 2005-08-22T02:50 --to 2005-08-22T03:05 --spacing-km 4"));
     ASSERT_EQ(run(arguments).status, 0);
     ASSERT_EQ(batch("submit", "own", {"--engine", "local"}).status, 0);
-    EXPECT_EQ(grids_of(directory_ / "own/cache").size(), 3U) << "those that begin in the range";
+    EXPECT_EQ(grids_of(directory_ / "own/cache").size(), 3U)
+        << "only volumes that begin in the range have grids";
     const ProgramResult refused = run(with(arguments, {"--center", "42,-76"}));
     EXPECT_EQ(refused.status, 2);
     EXPECT_THAT(refused.err, HasSubstr("need --mosaic NAME"));
-    EXPECT_EQ(plan("own").status, 2) << "another plan is there";
+    EXPECT_EQ(plan("own").status, 2) << "the directory has a plan already";
 }
 
 }  // namespace

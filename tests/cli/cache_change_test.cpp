@@ -86,8 +86,8 @@ TEST_F(CacheChangeTest, PinnedGridsAndTheNewestStayAndThatIsSaid) {
               std::string::npos)
         << ran.err;
     EXPECT_EQ(facts({"unpin", "--domain", "KBGM"})["unpinned"].size(), 1U)
-        << "only what was pinned is named";
-    EXPECT_EQ(run({"unpin", "--domain", "KBGM"}).status, 3) << "nothing is any more";
+        << "only grids that were pinned are listed";
+    EXPECT_EQ(run({"unpin", "--domain", "KBGM"}).status, 3) << "no grid is pinned any more";
     EXPECT_EQ(facts({"evict", "--domain", "KBGM", "--to", "now"})["evicted"].size(), 2U);
 }
 

@@ -112,7 +112,8 @@ TEST_F(CatalogCare, OneDatabaseThatCannotBeReadIsNamedAndTheOthersAreListed) {
     EXPECT_NE(checked.err.find("KAAA.sqlite: is a FIFO"), std::string::npos) << checked.err;
     EXPECT_EQ(run({"list", "--station", "KBGM"}).status, 0);
     const auto rebuilt = run({"rebuild", "--drop", drop_, "--stations", "known"});
-    EXPECT_EQ(rebuilt.status, 0) << "KAAA is of no known station, and left alone: " << rebuilt.err;
+    EXPECT_EQ(rebuilt.status, 0) << "KAAA is no known station, so its database is left alone: "
+                                 << rebuilt.err;
 }
 
 TEST_F(CatalogCare, DatabasesOfUnknownStationsAreSaidAndCleared) {

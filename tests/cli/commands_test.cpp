@@ -15,7 +15,7 @@ TEST(Plural, IsOfAllButOne) {
 TEST(ReportError, BadArgumentIsBadUsageAndTheRestFailed) {
     EXPECT_EQ(report_error({ErrorCode::bad_argument, "x"}), exit_bad_usage);
     EXPECT_EQ(report_error({ErrorCode::corrupt, "x"}), exit_failed);
-    EXPECT_EQ(report_error({ErrorCode::busy, "x"}), exit_failed) << "what was asked for is fine";
+    EXPECT_EQ(report_error({ErrorCode::busy, "x"}), exit_failed) << "the request itself is valid";
     EXPECT_EQ(report_error({ErrorCode::unmet, "x"}), exit_failed);
 }
 

@@ -84,7 +84,7 @@ TEST_F(KeptFramesTest, NoMoreIsKeptThanThereIsRoomFor) {
             ASSERT_TRUE(frame(kept, path));
     }
     EXPECT_EQ(kept.count(), 2U);
-    EXPECT_EQ(drawn_, 4) << "the third one twice";
+    EXPECT_EQ(drawn_, 4) << "the third frame is drawn twice";
     kept.next_loop();
     (void)frame(kept, all[2]);
     EXPECT_EQ(kept.count(), 2U) << "room is made between loops, not in them";

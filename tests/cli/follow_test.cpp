@@ -169,7 +169,7 @@ TEST_F(Follow, WaitsForTheCache) {
     EXPECT_EQ(program.end(SIGINT), 0);
     fs::remove_all(directory_ / "cache");
     const auto refused = testing::run_stormcellar(arguments({"-o", out("a.gif"), "--from", "eve"}));
-    EXPECT_EQ(refused.status, 2) << "what makes no sense does without a cache too";
+    EXPECT_EQ(refused.status, 2) << "an invalid request is refused even without a cache";
 }
 
 TEST_F(Follow, ABurstIsOneRemake) {
@@ -182,7 +182,7 @@ TEST_F(Follow, ABurstIsOneRemake) {
         const auto all = documents(program);
         return all.back()["frames"] == 6;
     })) << program.out();
-    EXPECT_LE(documents(program).size(), 3U) << "a slow machine may part the burst once";
+    EXPECT_LE(documents(program).size(), 3U) << "on a slow machine the burst may make two loops";
     EXPECT_EQ(program.end(SIGINT), 0);
 }
 

@@ -101,7 +101,7 @@ TEST_F(FrameFiles, TheServiceSaysWhereThingsAre) {
 
 TEST_F(FrameFiles, NothingSaysWhereTheCacheIs) {
     if (::access("/etc/stormcellar/stormcellard.toml", R_OK) == 0)
-        GTEST_SKIP() << "a service is here";
+        GTEST_SKIP() << "this machine has a configured service";
     const auto lost = run({"frame", "KTLX", "-o", out("a.png")});
     EXPECT_EQ(lost.status, 2);
     EXPECT_THAT(lost.err, HasSubstr("'KTLX' names no file here"));

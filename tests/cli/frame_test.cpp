@@ -191,7 +191,7 @@ TEST_F(Frame, ASectionOutsideTheGridIsRefused) {
     EXPECT_FALSE(fs::exists(out("b.png")));
     EXPECT_EQ(run("--domain KBGM --product section --section 42.2,-79,42.2,-76 -o " + out("b.png")),
               exit_done)
-        << "a part of it lies within";
+        << "part of the section is within the grid";
 }
 
 TEST_F(Frame, TakesTheNewestGridOfTheMoment) {

@@ -137,7 +137,8 @@ TEST_F(GridTest, ReportsFactsAndTimings) {
     EXPECT_EQ(json["ny"], 50);
     EXPECT_EQ(json["levels_m"], (std::vector<double>{100, 400, 700, 1000}));
     EXPECT_EQ(json["center"], (std::vector<double>{-10, 20}));
-    EXPECT_EQ(json["cells"]["not_seen"], 100 * 50 * 4) << "another continent";
+    EXPECT_EQ(json["cells"]["not_seen"], 100 * 50 * 4)
+        << "the grid is on a different continent from the radar";
     for (const char* phase : {"read_s", "decode_s", "grid_s", "write_s", "total_s"})
         EXPECT_TRUE(json[phase].is_number()) << phase;
     EXPECT_LE(json["read_s"].get<double>() + json["decode_s"].get<double>() +

@@ -133,7 +133,8 @@ TEST_F(InfoTest, RefusesATargetBeforeItDecodes) {
         const ProgramResult ran = info({file, "--to", to});
         EXPECT_EQ(ran.out, "");
         EXPECT_NE(ran.err.find(to), std::string::npos) << ran.err;
-        EXPECT_EQ(ran.err.find("Level II"), std::string::npos) << "it decoded first: " << ran.err;
+        EXPECT_EQ(ran.err.find("Level II"), std::string::npos)
+            << "the file was decoded before --to was checked: " << ran.err;
         return ran.status;
     };
     EXPECT_EQ(refused(file), 2) << "the input file itself";

@@ -121,7 +121,7 @@ TEST_F(ReferenceHelp, IsAsWideAsTheReaderAsks) {
     };
     EXPECT_LE(widest_line("120"), 120U);
     EXPECT_GT(widest_line("120"), 100U);
-    EXPECT_LE(widest_line("100000"), 160U) << "what can be read";
+    EXPECT_LE(widest_line("100000"), 160U) << "lines stay short enough to read";
     for (const char* unusable : {"", "wide", "100x", "-5"})
         EXPECT_LE(widest_line(unusable), 80U) << unusable;
 }

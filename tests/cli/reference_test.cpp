@@ -76,7 +76,8 @@ TEST_F(Reference, TheManualSaysThemAsRoff) {
                                 "number.\nMust be given.\n"));
     EXPECT_THAT(page, HasSubstr("\\fB\\-\\-as\\fR \\fBwhole|growing\\fR\n"));
     EXPECT_THAT(page, HasSubstr("From 1 to 9.\n"));
-    EXPECT_THAT(page, HasSubstr("\n\\&.5 by default.\n")) << "a line with a dot is no request";
+    EXPECT_THAT(page, HasSubstr("\n\\&.5 by default.\n"))
+        << "a line that begins with a dot must not be a roff request";
     EXPECT_THAT(page, Not(HasSubstr("secret")));
 }
 

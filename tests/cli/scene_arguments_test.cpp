@@ -141,13 +141,14 @@ TEST(SceneOptions, ACameraMayStandAnywhere) {
     EXPECT_EQ(scene->camera.eye->x_m, -20e3);
     EXPECT_EQ(scene->camera.eye->y_m, 5500);
     EXPECT_EQ(scene->camera.eye->height_m, 3000);
-    EXPECT_EQ(scene->camera.field_of_view_deg, 60) << "a place needs one";
+    EXPECT_EQ(scene->camera.field_of_view_deg, 60)
+        << "a camera with a position needs a field of view";
     EXPECT_TRUE(scene->curved_earth);
     EXPECT_EQ(scene_of(parse("--camera-km 1,2,3 --field-of-view 35"))->camera.field_of_view_deg,
               35);
     EXPECT_FALSE(scene_of(parse("--camera-km 1,2")));
     EXPECT_FALSE(scene_of(parse("--field-of-view 170")));
-    EXPECT_FALSE(scene_of(parse("--tilt 120"))) << "without a place of its own";
+    EXPECT_FALSE(scene_of(parse("--tilt 120"))) << "the camera has no position, so --tilt is used";
     EXPECT_FALSE(scene_of(parse("--time-zone Nowhere/Land")));
 }
 
@@ -235,7 +236,8 @@ TEST(FactsOf, TheAgeOfTheNewestRadialWhileItIsNews) {
     EXPECT_EQ(age_at(std::chrono::milliseconds(0)), std::chrono::seconds(0));
     EXPECT_EQ(age_at(std::chrono::milliseconds(3'599'999)), std::chrono::seconds(3599));
     EXPECT_FALSE(age_at(std::chrono::hours(1)));
-    EXPECT_FALSE(age_at(std::chrono::milliseconds(-1))) << "a clock that is late";
+    EXPECT_FALSE(age_at(std::chrono::milliseconds(-1)))
+        << "a negative age, from a clock that is late";
 }
 
 TEST(SceneOptions, ThreadsDefaultToTheMachines) {

@@ -73,7 +73,7 @@ TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
     EXPECT_THAT(within.err,
                 HasSubstr(at("s.toml") +
                           ": [plan] needs the product volume; it does not work with composite"));
-    EXPECT_EQ(draw("--product volume").status, exit_done) << "now the plan has something to say";
+    EXPECT_EQ(draw("--product volume").status, exit_done) << "the plan applies to a volume";
 }
 
 // 2026-11-22: keys that the picture did not use were ignored without a message.
@@ -98,11 +98,11 @@ TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
     write("[picture]\nproduct = \"composite\"\n" + keys);
     for (const char* more : {"", "--product vil"}) {
         const auto within = draw(more);
-        EXPECT_EQ(within.status, exit_bad_usage) << "the file is no good for its own product";
+        EXPECT_EQ(within.status, exit_bad_usage) << "the file has an error for its own product";
         EXPECT_THAT(within.err, HasSubstr("[camera] tilt_deg is for volume; "));
         EXPECT_THAT(within.err, HasSubstr(at("s.toml")));
     }
-    EXPECT_EQ(draw("--product volume").status, exit_done) << "now they have something to say";
+    EXPECT_EQ(draw("--product volume").status, exit_done) << "the keys apply to a volume";
 }
 
 TEST_F(SceneFileTest, PanelsAreForFrameAlone) {
@@ -118,7 +118,7 @@ TEST_F(SceneFileTest, PanelsAreForFrameAlone) {
     EXPECT_THAT(drawn.out, HasSubstr("\"width\": 1280")) << "the size of panels";
     const auto one = with_scene(frame + " --moment REF");
     EXPECT_EQ(one.status, exit_done) << one.err;
-    EXPECT_THAT(one.out, HasSubstr("\"width\": 796")) << "what is typed wins over the file";
+    EXPECT_THAT(one.out, HasSubstr("\"width\": 796")) << "a typed option overrides the file";
     const auto refused = with_scene(loop);
     EXPECT_EQ(refused.status, exit_bad_usage);
     EXPECT_THAT(refused.err, HasSubstr(at("s.toml") + ": [picture] panels is for frame"));
@@ -164,7 +164,7 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
     EXPECT_THAT(refused("--slices 40 --effect slices_128=on"),
                 HasSubstr("--slices and --effect slices_... cannot be used together"));
     EXPECT_EQ(draw("--slices 40 --effect every_pixel=off").status, exit_done);
-    EXPECT_TRUE(has_slices(40)) << "no rung, but asked for";
+    EXPECT_TRUE(has_slices(40)) << "40 is no rung, but was requested";
     const auto explained = draw("--slices 40 --explain");
     EXPECT_EQ(explained.status, exit_done) << explained.err;
     EXPECT_THAT(explained.out, HasSubstr("has the 40 slices that you asked for; the plan has 64"));
@@ -172,12 +172,12 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
     const std::string scene = "--scene " + at("s.toml");
     write("[volume]\nslices = 40\n");
     EXPECT_EQ(draw(scene + " --effect slices_128=on --effect slices_64=on").status, exit_done);
-    EXPECT_FALSE(has_slices(40)) << "what is typed wins";
+    EXPECT_FALSE(has_slices(40)) << "a typed option overrides the file";
     EXPECT_EQ(draw(scene + " --tolerance \"dE 60\"").status, exit_done);
-    EXPECT_FALSE(has_slices(40)) << "what is typed wins";
+    EXPECT_FALSE(has_slices(40)) << "a typed option overrides the file";
     write("[plan]\ntolerance = \"dE 9\"\n[plan.effects]\nslices_64 = \"on\"\n");
     EXPECT_EQ(draw(scene + " --slices 40").status, exit_done);
-    EXPECT_TRUE(has_slices(40)) << "what is typed wins";
+    EXPECT_TRUE(has_slices(40)) << "a typed option overrides the file";
     write("[volume]\nslices = 40\n[plan]\ntolerance = \"dE 9\"\n");
     EXPECT_THAT(
         refused(scene),

@@ -178,7 +178,8 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
                     ::testing::StartsWith(fmt::format("s.toml:2: [{}] {}: ", section, key)))
             << line;
     }
-    EXPECT_EQ(settings_.scene.scene.slices, render::Scene{}.slices) << "nothing was taken";
+    EXPECT_EQ(settings_.scene.scene.slices, render::Scene{}.slices)
+        << "no setting of a wrong file is used";
     EXPECT_THAT(complaint("[loop]\noutputs = [\"a.xyz\"]\n"),
                 HasSubstr("/a.xyz: the ending '.xyz' is not known; this build writes .webp, "));
 }
@@ -235,7 +236,8 @@ TEST_F(SceneFileTest, TheCommandLineWins) {
         EXPECT_FALSE(scene_file.error);
         EXPECT_EQ(all.scene.scene.width, 700) << order;
         EXPECT_EQ(all.scene.scene.height, 480) << order;
-        EXPECT_EQ(all.scene.scene.camera.azimuth_deg, 180) << "given, though it is the default";
+        EXPECT_EQ(all.scene.scene.camera.azimuth_deg, 180)
+            << "a typed value counts, even if it is the default";
         EXPECT_FALSE(all.scene.scene.curved_earth);
         EXPECT_EQ(all.loop.last, 3);
     }

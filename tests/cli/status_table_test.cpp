@@ -218,7 +218,7 @@ TEST(StatusTable, TroubleHasColorsAndTheTextStays) {
     EXPECT_NE(page.find("\x1B[1;31mLOST: /d: Permission denied\x1B[0m"), std::string::npos);
     EXPECT_NE(page.find("\x1B[33m2 rejected\x1B[0m"), std::string::npos);
     EXPECT_NE(page.find("\x1B[33mmissing chunks of KTLX"), std::string::npos);
-    EXPECT_NE(page.find(" 0 failures\n"), std::string::npos) << "none is no trouble";
+    EXPECT_NE(page.find(" 0 failures\n"), std::string::npos) << "0 failures have no color";
     status = {{"state", "running"}, {"stations", json::array()}};
     EXPECT_EQ(status_table(status, now, Paint::colors), status_table(status, now));
 }
@@ -242,7 +242,7 @@ TEST(Paint, IsForTerminalsAlone) {
     ::setenv("NO_COLOR", "1", 1);
     EXPECT_EQ(paint_for(terminal), Paint::plain);
     ::setenv("NO_COLOR", "", 1);
-    EXPECT_EQ(paint_for(terminal), Paint::colors) << "empty is not set";
+    EXPECT_EQ(paint_for(terminal), Paint::colors) << "an empty NO_COLOR counts as not set";
     ::unsetenv("NO_COLOR");
     ::close(terminal);
     EXPECT_EQ(in_red("", Paint::colors), "");

@@ -74,7 +74,7 @@ TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
     const json document = json::parse(after.out);
     EXPECT_EQ(document["source"]["answered"], false);
     EXPECT_TRUE(document["source"]["age_s"].is_number());
-    EXPECT_EQ(document["state"], "running") << "as it was last said";
+    EXPECT_EQ(document["state"], "running") << "the last reported state";
     EXPECT_EQ(status({"--socket", daemon.root() / "state/status.sock"}).status, 1);
     // A daemon starts although a killed daemon has left its socket behind.
     daemon.start();
@@ -165,7 +165,7 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
     json own = {{"loops", {{"running", 1}, {"each", {{{"name", "its own"}}}}}}};
     const json before = own;
     add_loops(own, file);
-    EXPECT_EQ(own, before) << "the daemon keeps them itself";
+    EXPECT_EQ(own, before) << "the daemon keeps its own loops";
 
     for (const std::string& text : {std::string{"[1]"}, std::string{"{}"}, std::string{"{half"}}) {
         write_file(file, text);
@@ -192,7 +192,7 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
               (json{{{"name", "plains"}}, {{"name", "coast"}, {"running", false}}}));
     document = two;
     add_loops(document, directory / "nothing");
-    EXPECT_EQ(document, two) << "as the daemon has it";
+    EXPECT_EQ(document, two) << "the document stays unchanged without a file";
 
     // A killed keeper leaves its last status, although its loops no longer run.
     keeper["loops"]["each"][0]["running"] = true;

@@ -118,7 +118,7 @@ TEST(Documents, AreShortEnoughToBeRead) {
         words +=
             static_cast<std::size_t>(std::distance(std::istream_iterator<std::string>(text), {}));
     }
-    EXPECT_GT(words, most_words / 2) << "they were not all read";
+    EXPECT_GT(words, most_words / 2) << "some documents were not read";
     EXPECT_LE(words, most_words);
 }
 
@@ -217,8 +217,7 @@ TEST(Documents, FindItNamesFilesThatAreThere) {
     const std::string page = testing::text_of(root / "docs/find-it.md");
     const std::vector<std::string> files = testing::found_in(page, row);
     EXPECT_GE(files.size(), 30U);
-    EXPECT_EQ(files.size(), testing::found_in(page, question).size())
-        << "a question without a file";
+    EXPECT_EQ(files.size(), testing::found_in(page, question).size()) << "a question has no file";
     for (const std::string& file : files)
         EXPECT_TRUE(fs::is_regular_file(root / file)) << file;
     // All other files and folders that docs/find-it.md names must exist, too.

@@ -284,7 +284,7 @@ TEST(LayeringCheck, KnowsEveryRoom) {
         const std::string name = entry.path().filename();
         if (!entry.is_directory() || name.starts_with(".") || free.contains(name)) continue;
         if (!testing::sources_below(entry.path()).empty()) {
-            EXPECT_TRUE(allowed.contains(name)) << name << " is no room of the design";
+            EXPECT_TRUE(allowed.contains(name)) << name << " is not in the list of rooms";
         }
     }
 }

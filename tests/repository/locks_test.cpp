@@ -74,7 +74,7 @@ TEST(Locks, EveryMutexSaysWhatItGuards) {
         if (path == the_header) continue;
         const std::string code = code_of(path);
         for (const std::string& name : silent_mutexes(code))
-            ADD_FAILURE() << path << ": nothing says what " << name << " guards";
+            ADD_FAILURE() << path << ": no annotation says what " << name << " guards";
         guarded += code.find("STORMCELLAR_GUARDED_BY(") != std::string::npos ? 1 : 0;
     }
     EXPECT_GE(guarded, 50U) << "files";

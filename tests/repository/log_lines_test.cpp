@@ -68,7 +68,8 @@ TEST(LogLines, EveryEventIsExplainedAndNoOther) {
     for (const std::string& event : named)
         EXPECT_TRUE(rows.contains(event)) << event << " is not explained";
     for (const auto& [event, row] : rows)
-        EXPECT_EQ(std::count(named.begin(), named.end(), event), 1) << event << " is none of ours";
+        EXPECT_EQ(std::count(named.begin(), named.end(), event), 1)
+            << event << " is no event of the daemon";
 }
 
 TEST(LogLines, EveryEventIsLogged) {

@@ -56,7 +56,7 @@ TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
     const auto options = testing::found_in(table, std::regex(R"re(option = "(--[a-z-]+)")re"));
     ASSERT_GE(options.size(), 29U);
     const std::set<std::string> distinct(options.begin(), options.end());
-    EXPECT_EQ(distinct.size(), options.size()) << "each is one row";
+    EXPECT_EQ(distinct.size(), options.size()) << "each option has one row";
     for (const std::string& option : options) {
         EXPECT_EQ(sources_with(quoted(option), {"cli/picture", "cli/loop", "render/options"}),
                   option_table)
@@ -88,7 +88,8 @@ TEST(OnePlace, ASubcommandIsRegisteredOnce) {
     for (const std::string& name : names) {
         const std::string function = "set_up_" + name + "(";
         const auto sources = sources_with(function, {"cli"});
-        EXPECT_EQ(sources.size(), 2U) << function << ": its own file and the registry";
+        EXPECT_EQ(sources.size(), 2U)
+            << function << ": only its own file and the registry may have its name";
         EXPECT_TRUE(sources.contains(*subcommand_registry.begin())) << function;
     }
     EXPECT_EQ(sources_with("add_subcommand(app,", {"cli"}), std::set<std::string>{"cli/main.cpp"})

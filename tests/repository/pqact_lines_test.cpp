@@ -70,7 +70,7 @@ std::multiset<std::string> places(const std::string& product) {
 const std::string drop = "/var/spool/ldm/nexrad2/KFTG/";
 
 TEST(PqactLines, PutAChunkWhereTheManualSays) {
-    EXPECT_EQ(entries().size(), 5U) << "four ways, one of them of two entries";
+    EXPECT_EQ(entries().size(), 5U) << "the page has four ways, and one way has two entries";
     EXPECT_EQ(places("L2-BZIP2/KFTG/20150908215946/494/43/I/V06/0"),
               (std::multiset<std::string>{
                   drop + "KFTG20150908215946_V06", drop + "KFTG20150908215946_V06",

@@ -133,7 +133,7 @@ TEST(Prose, SubjectsOfCommitsAreShort) {
         if (subject.size() > width) ++long_ones;
         subject.clear();
     }
-    EXPECT_LE(long_ones, allowed_before) << "the newest are the first of: " << command;
+    EXPECT_LE(long_ones, allowed_before) << "list the subjects, newest first, with: " << command;
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(Root, HoldsRoomsAndKnownDocumentsAlone) {
         const bool is_room = entry.is_directory() && fs::exists(entry.path() / "CMakeLists.txt");
         EXPECT_TRUE(is_room || is_one_of(root_documents, name) || is_one_of(hidden_names, name) ||
                     is_one_of(other_folders, name) || is_ignored(name))
-            << name << " stands in the root of the tree";
+            << name << " is in the root of the tree";
     }
 }
 

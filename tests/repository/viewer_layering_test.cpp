@@ -61,7 +61,7 @@ TEST(ViewerLayering, FoldersImportOneWay) {
         if (own.empty()) continue;
         ++files;
         const auto known = std::ranges::find(order, own, &decltype(order)::value_type::first);
-        ASSERT_NE(known, order.end()) << own << " is no folder of the list";
+        ASSERT_NE(known, order.end()) << own << " is not in the list of folders";
         for (const std::string& other : imported_folders(testing::text_of(entry.path()), own)) {
             EXPECT_TRUE(other == own || known->second.contains(other))
                 << file << " imports from " << other;

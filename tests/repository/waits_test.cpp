@@ -107,7 +107,7 @@ TEST(Waits, WhoLetsTimePassIsListed) {
         if (name != the_one_place && code.find("pass_time(") != std::string::npos)
             found.insert(name);
     EXPECT_EQ(found, with_a_pace)
-        << "a load may have a pace; whoever waits for somebody takes testing::eventually()";
+        << "only a load may use pass_time(); use testing::eventually() to wait for a condition";
 }
 
 }  // namespace

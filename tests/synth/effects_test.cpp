@@ -43,7 +43,7 @@ TEST(Noise, FarAboveTheNoiseItDeviatesBySoManyDecibels) {
         const Moments z = moments_of(100000, [&](std::uint32_t i) {
             return std::pow(10, (noisy_dbz(50, -30, noise_db, normal(i)) - 50) / 10);
         });
-        EXPECT_NEAR(z.mean, 1, 0.01) << "right in the mean";
+        EXPECT_NEAR(z.mean, 1, 0.01) << "the mean in linear Z is right";
     }
 }
 
@@ -79,7 +79,8 @@ TEST(Noise, OfVelocitiesDoublesWhereSignalEqualsNoise) {
 TEST(VelocityFolding, IsAMultipleOfTheIntervalOffAndInside) {
     for (const double nyquist : {8.32, 28.34, 33.21}) {
         EXPECT_DOUBLE_EQ(wrapped_mps(0, nyquist), 0);
-        EXPECT_DOUBLE_EQ(wrapped_mps(nyquist, nyquist), -nyquist) << "the upper end is not inside";
+        EXPECT_DOUBLE_EQ(wrapped_mps(nyquist, nyquist), -nyquist)
+            << "the interval excludes its upper end";
         EXPECT_DOUBLE_EQ(wrapped_mps(-nyquist, nyquist), -nyquist);
         EXPECT_NEAR(wrapped_mps(nyquist + 1, nyquist), -nyquist + 1, 1e-12);
         EXPECT_NEAR(wrapped_mps(-nyquist - 1, nyquist), nyquist - 1, 1e-12);
@@ -117,7 +118,8 @@ TEST(Clutter, FallsWithRangeAndElevation) {
     Clutter clutter{50, 30000, 0};
     EXPECT_DOUBLE_EQ(clutter_dbz(clutter, 1, {10, 0, 1}, 0), 50);
     EXPECT_DOUBLE_EQ(clutter_dbz(clutter, 1, {10, 0, 1}, 30000), 10);
-    EXPECT_DOUBLE_EQ(clutter_dbz(clutter, 1, {10, -0.4, 1}, 15000), 30) << "no more than on it";
+    EXPECT_DOUBLE_EQ(clutter_dbz(clutter, 1, {10, -0.4, 1}, 15000), 30)
+        << "a beam below the horizon has no more clutter than a beam on it";
     // At half a beam width above the axis the pattern is a half, so both ways together lose 6.02
     // dB.
     EXPECT_NEAR(clutter_dbz(clutter, 1, {10, 0.5, 1}, 15000), 30 - 20 * std::log10(2), 1e-9);
@@ -181,7 +183,7 @@ TEST(Missing, SectorsRunClockwiseThroughNorth) {
     EXPECT_FALSE(missing(1, 349.5));
     EXPECT_TRUE(missing(2, 100));
     EXPECT_FALSE(missing(1, 100));
-    EXPECT_TRUE(missing(3, 180)) << "a full circle";
+    EXPECT_TRUE(missing(3, 180)) << "the sector is a full circle";
     instrument.missing_cuts = {4};
     EXPECT_TRUE(missing(4, 200));
 }

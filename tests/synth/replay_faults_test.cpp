@@ -184,7 +184,7 @@ TEST_F(ReplayWithFaults, ChunksAreMissingOrCutAsTheReportSays) {
             }
         }
     }
-    EXPECT_EQ(cut + missing, kept.size()) << "the report names no others";
+    EXPECT_EQ(cut + missing, kept.size()) << "the report names only these faults";
 }
 
 TEST_F(ReplayWithFaults, OfWholeFilesEachIsOnePiece) {

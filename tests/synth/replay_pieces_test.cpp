@@ -35,7 +35,7 @@ TEST(ReplayPieces, WhatHasNoRecordsComesInSixteenths) {
     EXPECT_EQ(piece_ends(wire::Bytes(1600)).front(), 100U);
     EXPECT_EQ(piece_ends(wire::Bytes(1600)).back(), 1600U);
     EXPECT_THAT(piece_ends(wire::Bytes(3)), ElementsAre(1, 2, 3));
-    EXPECT_THAT(piece_ends({}), SizeIs(::testing::Le(1))) << "an empty file is made at once";
+    EXPECT_THAT(piece_ends({}), SizeIs(::testing::Le(1))) << "an empty file has at most one piece";
 }
 
 TEST(ReplayPieces, OfRealVolumesAreTheirChunks) {
@@ -69,7 +69,7 @@ TEST(ReplayPieces, TheLastControlWordSaysWhetherTheVolumeEnds) {
     const wire::Bytes last = wire::ldm_record(wire::radial_messages(2, 3), true);
     EXPECT_TRUE(ends_volume(wire::join({header, record, last})));
     EXPECT_FALSE(ends_volume(wire::join({header, record})));
-    EXPECT_FALSE(ends_volume(wire::join({header, last, record}))) << "only the last counts";
+    EXPECT_FALSE(ends_volume(wire::join({header, last, record}))) << "only the last record counts";
     EXPECT_FALSE(ends_volume({}));
 }
 

@@ -69,7 +69,8 @@ TEST_F(Replay, NothingIsWrittenOver) {
         const auto report = play(at_once(delivery));
         ASSERT_FALSE(report);
         EXPECT_THAT(report.error().message, HasSubstr("drop/b: exists already"));
-        EXPECT_FALSE(fs::exists(drop() / "a")) << "seen before anything is written";
+        EXPECT_FALSE(fs::exists(drop() / "a"))
+            << "the conflict is found before anything is written";
         EXPECT_EQ(fs::file_size(drop() / "b"), 4U);
     }
     const auto nowhere =

@@ -28,7 +28,8 @@ Weather only(const Layer& layer) {
 TEST(TruthStorm, IsStrongestInItsCoreAndTenAtItsEdges) {
     const Weather weather = only(round_storm());
     EXPECT_DOUBLE_EQ(truth_dbz(weather, {0, 0, 4000}, 0), 60);
-    EXPECT_NEAR(truth_dbz(weather, {0, 0, 0}, 0), 60, 1e-9) << "no weaker below the core";
+    EXPECT_NEAR(truth_dbz(weather, {0, 0, 0}, 0), 60, 1e-9)
+        << "the echo is no weaker below the core";
     EXPECT_NEAR(truth_dbz(weather, {0, 20000, 4000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-10000, 0, 4000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {0, 0, 12000}, 0), 10, 1e-9);
