@@ -3,8 +3,9 @@
 #   need PROGRAM ...        skips if one of the programs is not installed
 #   need_python MODULE ...  skips if $python lacks a module ($PYTHON, else Debian's)
 #   serve PROGRAM WORD ...  runs `PROGRAM serve WORD ...` and sets $address, without a slash at the end
-#   take_volume             sets $volume to a real volume, or one that $program simulates, and $station to its station
-# $directory is a new directory. At the end of the script it is removed, and the server is ended.
+#   take_volume             sets $volume to a real volume, or to a volume that $program simulates, and $station to its
+#                           station
+# $directory is a new directory. At the end of the script the directory is removed and the server is stopped.
 python=${PYTHON:-/usr/bin/python3}
 directory=$(mktemp -d)
 server=

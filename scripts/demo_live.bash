@@ -2,7 +2,7 @@
 # daemon grids its volumes, and the viewer shows them until Ctrl-C. Uses $build, $cellar, $output, step, fail and,
 # from the environment,
 #   STORMCELLAR_DEMO_BUCKET   another bucket that answers like Amazon S3
-#   https_proxy               the proxy that the feed uses, if it is set
+#   https_proxy               if set, the proxy that the feed uses
 bucket=${STORMCELLAR_DEMO_BUCKET:-https://unidata-nexrad-level2-chunks.s3.amazonaws.com}
 
 # reach_bucket STATION: checks the bucket before anything is built, if curl is installed

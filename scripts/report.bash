@@ -1,7 +1,7 @@
 # Functions for checks of several programs, which report and wait; scripts source this file.
-#   say TEXT                   prints it with the script's name and the seconds since its start
-#   fail TEXT                  prints it and ends the script
-#   skip TEXT                  prints it and ends the script with status 77
+#   say TEXT                   prints the text with the script's name and the seconds since its start
+#   fail TEXT                  prints the text and ends the script
+#   skip TEXT                  prints the text and ends the script with status 77
 #   wait_for WHAT COMMAND ...  waits until the command succeeds; fails after $most_wait_s seconds
 most_wait_s=60
 

@@ -1,7 +1,7 @@
 # Functions for a Slurm cluster on this host; scripts source this file. Controller and nodes are in network namespaces
 # joined by a bridge, so they reach nothing outside, and a node's link can be cut.
-#   in_own_network "$@"     call this first, in the root of the tree: runs the script again in its own network; ends
-#                           it with status 77 if that is not allowed
+#   in_own_network "$@"     call this first, in the root of the tree; runs the script again in a network namespace, or
+#                           ends it with status 77 if that is not allowed
 #   start_slurm NODE ...    starts nodes of one processor each, in the partitions batch and urgent
 #   end_slurm               ends the cluster; for a trap
 #   cut_link NODE, mend_link NODE
@@ -110,7 +110,7 @@ start_slurm() {
     wait_until "$# idle nodes" '[ "$(sinfo -h -o %D -t idle -p batch)" = '$#' ]'
 }
 
-# Ends the daemons by their pid files, and waits until they are gone.
+# Stops the daemons by their pid files, and waits until they have ended.
 end_slurm() {
     local file process
     [ ! -s "$home/slurmctld.pid" ] || timeout 10 scancel -u root 2>/dev/null || true
