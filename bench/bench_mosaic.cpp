@@ -8,7 +8,8 @@
 // bench/mosaic_run.h the timed work. Files are made once, untimed, in the directory of --work (by
 // default stormcellar-bench-mosaic in the system's directory for temporary files; 0.7 GB for 100
 // sites), and later runs use them again. The 60 merged volumes, one for each 5 minutes, go into a
-// cache there, which is removed at the end. Each row is measured in a process of its own:
+// cache in this directory, which is removed at the end. Each row is measured in a process of its
+// own:
 //   sites      1, 10, 30, 50, 100
 //   threads    threads of all timed work
 //   total_s    from raw files to merged volumes

@@ -2,11 +2,11 @@
 //
 // Sites     The first N by ICAO of the WSR-88Ds between 105 and 67 degrees west and 24 and 49.5
 //           north. The order is alphabetical, so ten sites cover as large an area as a hundred.
-// Volumes   Each site sends one of ten kinds, in turn: real volumes of the data directory and a
-//           simulated line of storms, re-stamped (bench/restamp.h) and written by level2::encode():
-//           every radial has the site's name and position, and a time of its own. The volumes of a
-//           site start 5 (simulated), 6 or 10 minutes apart, the duration of their patterns. No two
-//           sites start together.
+// Volumes   There are ten kinds of volumes: real volumes of the data directory, and simulated
+//           storms. The sites take the kinds in turn. Each volume is re-stamped (bench/restamp.h),
+//           so that every radial has the site's name and position, and a time of its own.
+//           level2::encode() writes it. The volumes of a site start 5 (simulated), 6 or 10 minutes
+//           apart, the duration of their patterns. No two sites start together.
 // On disk   FeedFiles::first_hour: the files of the first hour, different for each site and start.
 //           Later hours use the same files: when a file is read for hour h, the times of the
 //           decoded volume are moved by h hours (`moved`). So five hours are read, decompressed,

@@ -48,8 +48,8 @@ GridSpec nation_grid() {
     return spec;
 }
 
-// Returns the height of the top of storms over a column, which is the same for all sites. Below 0
-// there is no storm.
+// Returns the height of the top of storms over a column, which is the same for all sites. A height
+// below 0 means that there is no storm.
 double storm_top_m(int ix, int iy) {
     const double field = std::sin(ix / 97.0) * std::sin(iy / 71.0) +
                          0.6 * std::sin(ix / 31.0 + iy / 43.0) +

@@ -25,8 +25,8 @@ class ChildProcess {
   public:
     // Starts `arguments[0]`, which is looked up in $PATH if it has no slash. Its stdout goes to the
     // file `output`, its stderr to `output`.err. If `processor` is given, the child runs only on
-    // that one. Errors: io if the system cannot make a process. If the program cannot be run, the
-    // child ends at once, so is_running() returns false.
+    // that processor. Errors: io if the system cannot make a process. If the program cannot be run,
+    // the child ends at once, so is_running() returns false.
     static Result<ChildProcess> start(std::vector<std::string> arguments,
                                       std::filesystem::path output,
                                       std::optional<int> processor = std::nullopt);
@@ -37,7 +37,7 @@ class ChildProcess {
     [[nodiscard]] bool is_running();
     // Waits for the child to end. Returns true if its exit status is 0.
     bool wait();
-    // Sends SIGTERM to the child, and then does the same as wait().
+    // Sends SIGTERM to the child and waits for its end. Returns true if its exit status is 0.
     bool stop();
     [[nodiscard]] std::string output() const;  // its stdout so far
 

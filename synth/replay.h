@@ -19,7 +19,7 @@
 //
 // The first piece of a file comes at the time in its header. Its other pieces are spread evenly
 // until the same station's next volume begins, over at most `longest_volume_s`. The last volume of
-// a station takes as long as its previous one, and the only volume of a station takes
+// a station takes as long as the station's volume before it, and the only volume of a station takes
 // `usual_volume_s`. So volumes of several stations overlap, as in a feed. Whole files come at the
 // time in their header. Files without a readable header come last, in order of their names, without
 // a wait.

@@ -6,8 +6,8 @@
 //           (stormcellar/grid/site_frame.h), so azimuth and arc from there are exact. East and
 //           north of a motion are directions in that plane. Radial velocity is the horizontal
 //           motion times the cosine of the elevation at the antenna, as in synth/observe.h. From a
-//           site other than the scene's, the direction is the direction in the plane, whose scale
-//           errs by (arc / earth radius)^2 / 6 across the radius: 0.02 % at 230 km.
+//           site other than the scene's, directions are taken in the plane, whose scale errs by
+//           (arc / earth radius)^2 / 6 across the radius, 0.02 % at 230 km.
 // Accuracy  Places within 1e-6 m up to 500 km away; echo as in synth/truth.h. Enforced by
 //           tests/synth/sampled_truth_test.cpp.
 // Threads   Immutable; the scene must outlive it.

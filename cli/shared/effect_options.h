@@ -46,8 +46,8 @@ struct EffectRequest {
 };
 
 // Parses the options. A profile other than the default turns refraction on, unless refraction is
-// set explicitly or a tolerance leaves it to the planner. For several volumes, which overlap by
-// this rule, the chain is that of their mosaic (pipeline/mosaic/mosaic_effects.h). Errors:
+// set explicitly or a tolerance leaves it to the planner. For several volumes, which overlap by the
+// given rule, returns the chain of their mosaic (pipeline/mosaic/mosaic_effects.h). Errors:
 // bad_argument, naming the option; io and permission for a sounding that cannot be read.
 [[nodiscard]] Result<EffectRequest> parse_effects(
     const EffectOptions& options, level2::Moment moment,

@@ -22,7 +22,7 @@ inline constexpr const char* usual_state = "/var/lib/stormcellar";
 inline constexpr const char* usual_cache = "/var/cache/stormcellar";
 
 struct ServicePlaces {
-    std::filesystem::path config;  // the file that names the others
+    std::filesystem::path config;  // the file that names the directories below
     std::filesystem::path drop;    // empty: the file does not name it
     std::filesystem::path state = usual_state;
     std::filesystem::path cache = usual_cache;

@@ -135,8 +135,8 @@ def machines(bars):
 
 
 def sites(title, paper, ours):
-    """Minutes by the number of sites: paper and ours are {name: (color, {sites: minutes})}. The paper's are known at both
-    ends alone, so its lines are dashed."""
+    """Draws minutes by the number of sites; paper and ours are {name: (color, {sites: minutes})}. The paper's minutes are
+    known only at both ends of a line, so its lines are dashed."""
     lines = {**paper, **ours}
     chart = Chart(title, [(name, color) for name, (color, _) in lines.items()])
     axis = LogAxis([m for _, points in lines.values() for m in points.values()], chart.height - BOTTOM, TOP)
