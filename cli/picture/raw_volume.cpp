@@ -18,7 +18,7 @@ Result<RawVolume> read_volume(const catalog::CatalogReader& catalog, const std::
     if (!*found) {
         return fail(ErrorCode::not_found,
                     "{}: the catalog has no volume of {} that starts at {}; a ppi is drawn from "
-                    "the raw file, which may be named itself",
+                    "the raw file, so name that Level II file instead",
                     catalog.directory().native(), station, when);
     }
     const catalog::CatalogEntry& entry = **found;

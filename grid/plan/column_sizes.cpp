@@ -45,7 +45,8 @@ class NearGates {
           half_cell_m_(static_cast<float>(std::hypot(spec.cell_width_m(), spec.cell_height_m())) /
                        2) {}
 
-    // Selects the sweeps that are neither no echo everywhere nor not seen everywhere around a tile.
+    // Selects the sweeps that may have a value around a tile. A sweep whose samples there are all
+    // no echo, or all not seen, is left out.
     void move_to(const Tile& tile) {
         busy_.clear();
         const auto table_end =

@@ -226,7 +226,7 @@ TEST_F(RealLayout, MarksAreApart) {
             names += marks.ground_texts.size();
         });
     }
-    EXPECT_GT(names, 1000U) << "names without room cannot overlap";
+    EXPECT_GT(names, 1000U) << "too few names were drawn to test whether they overlap";
 }
 
 TEST_F(RealLayout, PanelsAreWholeAndApart) {

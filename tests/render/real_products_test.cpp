@@ -86,8 +86,8 @@ TEST_F(RealProducts, ACappiShowsTheGatesAtItsHeight) {
     EXPECT_LT(std::sqrt(squares / valued), 0.5);
 }
 
-// The largest value that another decoder found in the volume is an upper bound of the column
-// maxima, which point samples at 1 km need not reach.
+// No column maximum exceeds the largest value that another decoder found in the volume. The
+// greatest maximum may be lower, because the grid samples points 1 km apart.
 TEST_F(RealProducts, TheCompositesMaximumIsThatOfTheGolden) {
     std::ifstream file(*testing::data_directory() / "golden/KTLX19990503_235621.gz.json");
     ASSERT_TRUE(file);

@@ -81,8 +81,8 @@ Status PowerCutFileSystem::sync_directory(const fs::path& directory) {
     return {};
 }
 
-// Removes a file. After a power cut the file may come back. It is then empty if it was never
-// synced, else unchanged.
+// Removes a file. After a power cut a file whose contents were all synced comes back, unless its
+// directory was synced after the removal. Any other file stays removed.
 Status PowerCutFileSystem::remove(const fs::path& path) {
     if (Status counted = count_operation(); !counted) return counted;
     if (unsynced_contents_.erase(path) == 0 && fs::exists(path)) {
