@@ -6,7 +6,7 @@
 // all votes of weight x |difference chosen - difference voted for|. The cost is convex, so minimum
 // cuts, which each raise or lower a set of regions by one, lead to its minimum.
 //
-// Source    Bioucas-Dias and Valadao (2007), phase unwrapping via graph cuts (PUMA); Dinic (1970).
+// Source    Bioucas-Dias and Valadao (2007), phase unwrapping via graph cuts (PUMA).
 // Accuracy  tests/retrieve/fold_graph_test.cpp finds the minimum of small graphs to 1e-3. In noisy
 //           data, minimize_cost() may stop before the minimum to bound its time.
 // Threads   Pure functions.

@@ -1,111 +1,198 @@
 #include "retrieve/dealias/minimum_cut.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr float least_capacity = 1e-5F;  // smaller capacities are rounding errors
+constexpr float least_capacity = 1e-5F;  // smaller ones are rounding errors
 
 }  // namespace
 
-MinimumCut::MinimumCut(std::int32_t nodes)
-    : source_(nodes), sink_(nodes + 1), first_(static_cast<std::size_t>(nodes) + 2, -1) {}
-
-void MinimumCut::add(std::int32_t from, std::int32_t to, float capacity) {
-    auto& first_from = first_[static_cast<std::size_t>(from)];
-    arcs_.push_back({to, first_from, capacity});
-    first_from = static_cast<std::int32_t>(arcs_.size() - 1);
-    auto& first_to = first_[static_cast<std::size_t>(to)];
-    arcs_.push_back({from, first_to, 0});
-    first_to = static_cast<std::int32_t>(arcs_.size() - 1);
-}
-
 void MinimumCut::prefer_source(std::int32_t node, float cost) {
-    if (cost > 0) add(source_, node, cost);
-    if (cost < 0) add(node, sink_, -cost);
+    at(node).rest += cost;
 }
 
 void MinimumCut::connect(std::int32_t from, std::int32_t to, float cost) {
-    if (cost > 0) add(from, to, cost);
+    if (!(cost > 0) || from == to) return;
+    const auto next = static_cast<std::int32_t>(arcs_.size());
+    arcs_.push_back({to, at(from).first, cost});
+    at(from).first = next;
+    arcs_.push_back({from, at(to).first, 0});
+    at(to).first = next + 1;
 }
 
-// Numbers the nodes by their distance from the source along arcs with capacity left. Returns true
-// if the sink has a number.
-bool MinimumCut::reaches_sink() {
-    level_.assign(first_.size(), -1);
-    level_[static_cast<std::size_t>(source_)] = 0;
-    queue_.assign(1, source_);
-    for (std::size_t i = 0; i < queue_.size(); ++i) {
-        const auto node = static_cast<std::size_t>(queue_[i]);
-        for (std::int32_t a = first_[node]; a >= 0; a = arcs_[static_cast<std::size_t>(a)].next) {
-            ++looks_;
-            const Arc& arc = arcs_[static_cast<std::size_t>(a)];
-            auto& level = level_[static_cast<std::size_t>(arc.to)];
-            if (arc.capacity <= least_capacity || level >= 0) continue;
-            level = level_[node] + 1;
-            queue_.push_back(arc.to);
-        }
-    }
-    return level_[static_cast<std::size_t>(sink_)] >= 0;
+void MinimumCut::activate(std::int32_t node) {
+    if (at(node).is_active) return;
+    at(node).is_active = true;
+    active_.push_back(node);
 }
 
-// Returns the first arc from the node that leads one level on and has capacity left, or -1 if there
-// is none.
-std::int32_t MinimumCut::next_arc(std::int32_t node) {
-    std::int32_t& a = current_[static_cast<std::size_t>(node)];
-    const std::int32_t level = level_[static_cast<std::size_t>(node)];
-    for (; a >= 0; a = arcs_[static_cast<std::size_t>(a)].next) {
+// Adds the free neighbors of a node to its tree. Returns the arc, from the source's tree to the
+// sink's, over which it meets the other tree; none if it does not.
+std::int32_t MinimumCut::grow(std::int32_t node) {
+    const Tree tree = at(node).tree;
+    for (std::int32_t a = at(node).first; a != none; a = arc(a).next) {
         ++looks_;
-        const Arc& arc = arcs_[static_cast<std::size_t>(a)];
-        if (arc.capacity > least_capacity && level_[static_cast<std::size_t>(arc.to)] == level + 1)
-            break;
-    }
-    return a;
-}
-
-// Sends as much flow along the path from the source to the sink as it can hold. Returns the number
-// of arcs before the first full arc.
-std::size_t MinimumCut::fill_path() {
-    float flow = std::numeric_limits<float>::max();
-    for (const std::int32_t a : path_)
-        flow = std::min(flow, arcs_[static_cast<std::size_t>(a)].capacity);
-    std::size_t left = path_.size();
-    for (std::size_t i = path_.size(); i-- > 0;) {
-        Arc& arc = arcs_[static_cast<std::size_t>(path_[i])];
-        arc.capacity -= flow;
-        arcs_[static_cast<std::size_t>(path_[i] ^ 1)].capacity += flow;
-        if (arc.capacity <= least_capacity) left = i;
-    }
-    return left;
-}
-
-// Fills shortest paths until none is left or the limit on looks is reached. A node from which the
-// sink cannot be reached loses its level.
-void MinimumCut::fill_shortest_paths() {
-    path_.clear();
-    std::int32_t node = source_;
-    while (looks_ < most_looks_) {
-        if (node == sink_) {
-            path_.resize(fill_path());
-        } else if (const std::int32_t a = next_arc(node); a >= 0) {
-            path_.push_back(a);
-        } else {
-            if (path_.empty()) return;
-            level_[static_cast<std::size_t>(node)] = std::numeric_limits<std::int32_t>::max();
-            path_.pop_back();
+        if (outward(tree, a) <= least_capacity) continue;
+        const std::int32_t there = arc(a).to;
+        Node& other = at(there);
+        if (other.tree == Tree::free) {
+            other.tree = tree;
+            other.parent = a ^ 1;
+            other.checked = at(node).checked;
+            other.distance = at(node).distance + 1;
+            activate(there);
+        } else if (other.tree != tree) {
+            return tree == Tree::source ? a : a ^ 1;
+        } else if (other.checked <= at(node).checked && other.distance > at(node).distance) {
+            // A shorter way to the root.
+            other.parent = a ^ 1;
+            other.checked = at(node).checked;
+            other.distance = at(node).distance + 1;
         }
-        node = path_.empty() ? source_ : arcs_[static_cast<std::size_t>(path_.back())].to;
+    }
+    return none;
+}
+
+float MinimumCut::least_along(std::int32_t node, float least) {
+    const Tree tree = at(node).tree;
+    while (at(node).parent != terminal) {
+        const std::int32_t up = at(node).parent;  // from the node to its parent
+        least = std::min(least, outward(tree, up ^ 1));
+        node = arc(up).to;
+    }
+    return std::min(least, std::abs(at(node).rest));
+}
+
+void MinimumCut::fill_along(std::int32_t node, float flow) {
+    const Tree tree = at(node).tree;
+    while (at(node).parent != terminal) {
+        const std::int32_t up = at(node).parent;
+        const std::int32_t along = tree == Tree::source ? up ^ 1 : up;
+        arc(along).capacity -= flow;
+        arc(along ^ 1).capacity += flow;
+        const std::int32_t parent = arc(up).to;
+        if (arc(along).capacity <= least_capacity) make_orphan(node);
+        node = parent;
+    }
+    at(node).rest += tree == Tree::source ? -flow : flow;
+    if (std::abs(at(node).rest) <= least_capacity) make_orphan(node);
+}
+
+void MinimumCut::make_orphan(std::int32_t node) {
+    at(node).parent = orphan;
+    orphans_.push_back(node);
+}
+
+void MinimumCut::fill(std::int32_t bridge) {
+    const std::int32_t in_source = arc(bridge ^ 1).to, in_sink = arc(bridge).to;
+    const float flow = least_along(in_sink, least_along(in_source, arc(bridge).capacity));
+    arc(bridge).capacity -= flow;
+    arc(bridge ^ 1).capacity += flow;
+    fill_along(in_source, flow);
+    fill_along(in_sink, flow);
+}
+
+// Returns true if the way up from a node ends at its root, and its length. Marks the nodes on the
+// way, so that the next look ends there.
+bool MinimumCut::is_rooted(std::int32_t node, std::int32_t& distance) {
+    distance = 0;
+    std::int32_t top = node;
+    while (true) {
+        if (at(top).checked == time_) {
+            distance += at(top).distance;
+            break;
+        }
+        const std::int32_t up = at(top).parent;
+        ++looks_;
+        ++distance;
+        if (up == terminal) {
+            at(top).checked = time_;
+            at(top).distance = 1;
+            break;
+        }
+        if (up == orphan || up == none) return false;
+        top = arc(up).to;
+    }
+    std::int32_t left = distance;
+    for (std::int32_t i = node; at(i).checked != time_; i = arc(at(i).parent).to) {
+        at(i).checked = time_;
+        at(i).distance = left--;
+    }
+    return true;
+}
+
+// Hangs an orphan below the neighbor of its tree that is nearest to the root. If there is none, the
+// orphan leaves the tree, and its children become orphans.
+void MinimumCut::adopt(std::int32_t node) {
+    const Tree tree = at(node).tree;
+    std::int32_t best = none, nearest = std::numeric_limits<std::int32_t>::max();
+    for (std::int32_t a = at(node).first; a != none; a = arc(a).next) {
+        ++looks_;
+        const std::int32_t there = arc(a).to;
+        if (at(there).tree != tree || at(there).parent == none) continue;
+        if (outward(tree, a ^ 1) <= least_capacity) continue;
+        std::int32_t distance = 0;
+        if (!is_rooted(there, distance) || distance >= nearest) continue;
+        nearest = distance;
+        best = a;
+    }
+    if (best != none) {
+        at(node).parent = best;
+        at(node).checked = time_;
+        at(node).distance = nearest + 1;
+        return;
+    }
+    for (std::int32_t a = at(node).first; a != none; a = arc(a).next) {
+        ++looks_;
+        const std::int32_t there = arc(a).to;
+        if (at(there).tree != tree || at(there).parent == none) continue;
+        if (outward(tree, a ^ 1) > least_capacity) activate(there);
+        const std::int32_t up = at(there).parent;
+        if (up >= 0 && arc(up).to == node) make_orphan(there);
+    }
+    at(node).tree = Tree::free;
+    at(node).parent = none;
+}
+
+void MinimumCut::adopt() {
+    ++time_;
+    while (!orphans_.empty()) {
+        const std::int32_t node = orphans_.front();
+        orphans_.pop_front();
+        adopt(node);
     }
 }
 
 std::int64_t MinimumCut::run(std::int64_t most_looks) {
     looks_ = 0;
-    most_looks_ = most_looks;
-    while (reaches_sink() && looks_ < most_looks_) {
-        current_ = first_;
-        fill_shortest_paths();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        Node& node = nodes_[i];
+        if (std::abs(node.rest) <= least_capacity) continue;
+        node.tree = node.rest > 0 ? Tree::source : Tree::sink;
+        node.parent = terminal;
+        node.distance = 1;
+        activate(static_cast<std::int32_t>(i));
+    }
+    while (!active_.empty() && looks_ < most_looks) {
+        const std::int32_t node = active_.front();
+        if (at(node).tree == Tree::free) {
+            at(node).is_active = false;
+            active_.pop_front();
+            continue;
+        }
+        const std::int32_t bridge = grow(node);
+        if (bridge == none) {
+            at(node).is_active = false;
+            active_.pop_front();
+            continue;
+        }
+        ++time_;
+        fill(bridge);
+        adopt();
     }
     return looks_;
 }
