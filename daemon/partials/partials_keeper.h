@@ -1,7 +1,7 @@
 // daemon/partials/partials_keeper.h -- ingests partials of mosaics from the directories of other
 // machines, in a thread of its own.
 //
-// As soon as a partial is complete, the keeper copies it into the cache and makes the frames that
+// The keeper copies each partial into the cache once it is complete, and makes the frames that
 // the partial changes, the newest partial first. It checks a damaged or truncated file again when
 // the file changes. If the file was written less than 30 s ago, the keeper also checks it again at
 // the next scan. If the cache has lost a partial, the keeper copies it again. While no partials

@@ -71,6 +71,22 @@ std::vector<GateBeside> gates_beside(const SheetState& other, const SheetState& 
     return gates;
 }
 
+// Calls use(gate, turns, votes) for each gate of a radial that has a value: its velocity in turns
+// as if the fold number of its node were 0, and the votes for that fold number.
+template <class Use>
+void for_each_gate(const SheetState& state, int radial, std::vector<Votes>& anchors, Use use) {
+    const auto r = static_cast<std::size_t>(radial);
+    const float* turns = state.sheet.row(radial);
+    for (std::size_t q = state.regions.first_run[r]; q < state.regions.first_run[r + 1]; ++q) {
+        const Run& run = state.regions.runs[q];
+        const auto region = static_cast<std::size_t>(run.region);
+        const auto shift = static_cast<float>(state.graph.fold_in_node[region]);
+        Votes& votes = anchors[static_cast<std::size_t>(state.graph.node_of_region[region])];
+        for (std::int32_t gate = run.begin; gate < run.end; ++gate)
+            use(gate, turns[gate] + shift, votes);
+    }
+}
+
 }  // namespace
 
 void SheetState::fill_gate_folds() {
@@ -101,17 +117,10 @@ void anchor_to_wind(const FoldedWind& wind, const SheetState& state, std::vector
         const double azimuth = static_cast<double>(sheet.azimuths_deg[r]) * degree;
         const auto east = static_cast<float>(std::sin(azimuth));
         const auto north = static_cast<float>(std::cos(azimuth));
-        const float* turns = sheet.row(radial);
-        for (std::size_t q = state.regions.first_run[r]; q < state.regions.first_run[r + 1]; ++q) {
-            const Run& run = state.regions.runs[q];
-            const auto region = static_cast<std::size_t>(run.region);
-            const auto shift = static_cast<float>(state.graph.fold_in_node[region]);
-            Votes& votes = anchors[static_cast<std::size_t>(state.graph.node_of_region[region])];
-            for (std::int32_t gate = run.begin; gate < run.end; ++gate) {
-                const Component& of = by_gate[static_cast<std::size_t>(gate)];
-                votes.add_real(of.east * east + of.north * north - turns[gate] - shift, of.weight);
-            }
-        }
+        for_each_gate(state, radial, anchors, [&](std::int32_t gate, float turns, Votes& votes) {
+            const Component& of = by_gate[static_cast<std::size_t>(gate)];
+            votes.add_real(of.east * east + of.north * north - turns, of.weight);
+        });
     }
 }
 
@@ -127,20 +136,12 @@ void anchor_to_sheet(const SheetState& other, const SheetState& state,
         if (of < 0) continue;
         const float* turns_of = other.sheet.row(of);
         const std::int8_t* folds_of = other.gate_folds.data() + other.sheet.at(of, 0);
-        const float* turns = sheet.row(radial);
-        for (std::size_t q = state.regions.first_run[r]; q < state.regions.first_run[r + 1]; ++q) {
-            const Run& run = state.regions.runs[q];
-            const auto region = static_cast<std::size_t>(run.region);
-            const auto shift = static_cast<float>(state.graph.fold_in_node[region]);
-            Votes& votes = anchors[static_cast<std::size_t>(state.graph.node_of_region[region])];
-            for (std::int32_t gate = run.begin; gate < run.end; ++gate) {
-                const GateBeside& to = beside[static_cast<std::size_t>(gate)];
-                if (to.gate < 0) continue;
-                const float turns_there = turns_of[to.gate] + static_cast<float>(folds_of[to.gate]);
-                if (std::isnan(turns_there)) continue;
-                votes.add_real(turns_there * ratio - turns[gate] - shift, to.weight);
-            }
-        }
+        for_each_gate(state, radial, anchors, [&](std::int32_t gate, float turns, Votes& votes) {
+            const GateBeside& to = beside[static_cast<std::size_t>(gate)];
+            if (to.gate < 0 || std::isnan(turns_of[to.gate])) return;
+            const float turns_there = turns_of[to.gate] + static_cast<float>(folds_of[to.gate]);
+            votes.add_real(turns_there * ratio - turns, to.weight);
+        });
     }
 }
 
