@@ -25,6 +25,7 @@ struct SheetState {
     std::vector<float> heights_m;       // of each gate number, above the antenna
     // of each gate, radials x gates; fill_gate_folds() makes them from `folds`
     std::vector<std::int8_t> gate_folds;
+    std::vector<std::uint8_t> ambiguous;  // 1 for each gate whose fold number is uncertain
 
     [[nodiscard]] std::int32_t fold_of(std::int32_t region) const {
         const auto r = static_cast<std::size_t>(region);

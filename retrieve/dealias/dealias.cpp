@@ -9,6 +9,7 @@
 #include "base/degree.h"
 #include "retrieve/dealias/ambiguity.h"
 #include "retrieve/dealias/anchors.h"
+#include "retrieve/dealias/roughness.h"
 #include "retrieve/dealias/shear_repair.h"
 
 namespace stormcellar::retrieve {
@@ -90,11 +91,15 @@ void solve_anchored(std::vector<SheetState>& states, const FoldedWind& wind) {
 
 // A layer whose wind agrees less than this with its velocities unfolds no gates.
 constexpr double least_agreement = 0.3;
+// A velocity that remains more turns from the wind is ambiguous.
+constexpr double most_from_wind = 0.35;
 
-// Chooses the fold number that brings each gate nearest to the wind at its height.
+// Chooses the fold number that brings each gate nearest to the wind at its height. A gate is
+// ambiguous if there is no wind, or if the wind is nearly as far from the next fold number.
 void unfold_to_wind(const FoldedWind& wind, SheetState& state) {
     const VelocitySheet& sheet = state.sheet;
     state.gate_folds.assign(sheet.turns.size(), 0);
+    state.ambiguous.assign(sheet.turns.size(), 0);
     const double per_turn = std::cos(sheet.elevation_deg * degree) / sheet.turn_mps;
     for (int radial = 0; radial < sheet.radials; ++radial) {
         const double azimuth = static_cast<double>(sheet.azimuths_deg[at(radial)]) * degree;
@@ -103,9 +108,16 @@ void unfold_to_wind(const FoldedWind& wind, SheetState& state) {
             const std::size_t here = sheet.at(radial, gate);
             const FoldedWind::Layer& layer =
                 wind.at(static_cast<double>(state.heights_m[at(gate)]));
-            if (std::isnan(sheet.turns[here]) || layer.agreement < least_agreement) continue;
-            state.gate_folds[here] = static_cast<std::int8_t>(std::lrint(
-                layer.u_mps * east + layer.v_mps * north - static_cast<double>(sheet.turns[here])));
+            if (std::isnan(sheet.turns[here])) continue;
+            if (layer.agreement < least_agreement) {
+                state.ambiguous[here] = 1;
+                continue;
+            }
+            const double turns =
+                layer.u_mps * east + layer.v_mps * north - static_cast<double>(sheet.turns[here]);
+            const double whole = std::nearbyint(turns);
+            state.gate_folds[here] = static_cast<std::int8_t>(whole);
+            state.ambiguous[here] = std::abs(turns - whole) > most_from_wind ? 1 : 0;
         }
     }
 }
@@ -115,22 +127,25 @@ void count_jumps(const SheetState& state, Dealiased& dealiased) {
     dealiased.jumps += state.regions.jumps;
 }
 
-void write_folds(const SheetState& state, SweepFolds& folds, Dealiased& dealiased) {
-    const std::size_t first =
-        state.sheet.first_radial * static_cast<std::size_t>(state.sheet.gates);
-    std::ranges::copy(state.gate_folds, folds.folds.begin() + static_cast<std::ptrdiff_t>(first));
+// Marks the gates whose fold number is uncertain.
+void mark_ambiguous(SheetState& state) {
+    state.ambiguous = rough_gates(state.sheet, state.gate_folds);
     for (const Run& run : state.regions.runs) {
-        const auto node = at(state.graph.node_of_region[at(run.region)]);
-        if (state.guessed[node] == 0) continue;
-        std::fill_n(folds.ambiguous.begin() +
-                        static_cast<std::ptrdiff_t>(first + state.sheet.at(run.radial, run.begin)),
-                    run.end - run.begin, std::uint8_t{1});
-        dealiased.ambiguous_gates += run.end - run.begin;
+        if (state.guessed[at(state.graph.node_of_region[at(run.region)])] == 0) continue;
+        const auto begin = static_cast<std::ptrdiff_t>(state.sheet.at(run.radial, run.begin));
+        std::fill_n(state.ambiguous.begin() + begin, run.end - run.begin, std::uint8_t{1});
     }
+}
+
+void write_folds(const SheetState& state, SweepFolds& folds, Dealiased& dealiased) {
+    const auto first = static_cast<std::ptrdiff_t>(state.sheet.first_radial) * state.sheet.gates;
+    std::ranges::copy(state.gate_folds, folds.folds.begin() + first);
+    std::ranges::copy(state.ambiguous, folds.ambiguous.begin() + first);
     for (std::size_t gate = 0; gate < state.gate_folds.size(); ++gate) {
         if (std::isnan(state.sheet.turns[gate])) continue;
         ++dealiased.gates;
         if (state.gate_folds[gate] != 0) ++dealiased.folded_gates;
+        if (state.ambiguous[gate] != 0) ++dealiased.ambiguous_gates;
     }
 }
 
@@ -170,6 +185,8 @@ Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
         if (rung == Dealiasing::region) solve_alone(state);
     }
     if (rung == Dealiasing::anchored) solve_anchored(states, wind);
+    for (SheetState& state : states)
+        if (rung != Dealiasing::profile) mark_ambiguous(state);
     std::map<std::pair<std::size_t, std::size_t>, SweepFolds*> by_moment;
     for (SweepFolds& folds : dealiased.sweeps)
         by_moment[{folds.sweep, folds.moment}] = &folds;

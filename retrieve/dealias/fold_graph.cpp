@@ -39,9 +39,9 @@ int Votes::winner() const {
 
 namespace {
 
-// Limits the work, because noise can have so many nearly equal solutions that finding the best
-// takes minutes.
-constexpr std::int64_t looks_per_edge = 1000;
+// Limits the looks at arcs, because noise can have so many nearly equal solutions that finding the
+// best takes minutes. Sweeps of real weather take up to 4 million looks.
+constexpr std::int64_t most_looks = 8'000'000;
 
 std::size_t at(std::int32_t index) {
     return static_cast<std::size_t>(index);
@@ -265,8 +265,7 @@ void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
                 static_cast<std::int32_t>(std::ranges::min_element(of) - of.begin()) - Votes::most;
         }
     }
-    std::int64_t looks =
-        looks_per_edge * static_cast<std::int64_t>(graph.edges.size() + anchors.size() + 1);
+    std::int64_t looks = most_looks;
     int idle = 0;
     for (int i = 0; looks > 0 && idle < 2; ++i)
         idle = move(graph, anchors, i % 2 == 0 ? 1 : -1, looks, folds) ? 0 : idle + 1;

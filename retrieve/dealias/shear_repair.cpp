@@ -18,6 +18,10 @@ constexpr int reach = 4;
 constexpr double most_jumps = 0.15;
 constexpr int block_radials = 8, block_gates = 16;
 
+// A gate votes for the fold number of its region with this weight, so that neighbors that
+// contradict each other do not change the number.
+constexpr float weight_of_staying = 0.06F;
+
 class ShearRepair {
   public:
     ShearRepair(const VelocitySheet& sheet, std::vector<std::int8_t>& folds)
@@ -121,6 +125,8 @@ class ShearRepair {
     // is marked.
     void gather_votes() {
         anchors_.resize(marked_.size());
+        for (std::size_t i = 0; i < marked_.size(); ++i)
+            anchors_[i].add(folds_[marked_[i]], weight_of_staying);
         for_each_pair([&](std::size_t a, std::size_t b) {
             const std::int32_t of_a = node_[a], of_b = node_[b];
             if (of_a < 0 && of_b < 0) return;

@@ -16,7 +16,7 @@
 // Accuracy  The rung `anchored` is right at 99.9 % of the gates of uniform, sheared and rotating
 //           winds with 1 m/s of noise, for Nyquist velocities from 8 to 33 m/s
 //           (tests/retrieve/dealias_test.cpp). In noisy data the search may stop before the best
-//           solution. `ambiguous` marks only some of the wrong gates.
+//           solution. `ambiguous` marks half to three quarters of the wrong gates.
 // Errors    None. The fold number is 0 for gates without a value, for radials whose Nyquist
 //           velocity is missing (TDWR) or not from 1 to 200 m/s, and where `profile` has no wind.
 // Threads   Pure functions.
@@ -40,8 +40,8 @@ struct SweepFolds {
     std::size_t moment = 0;  // index in the sweep
     // Rows as in the moment: radials x gate_stride.
     std::vector<std::int8_t> folds;
-    // 1 where the fold number is uncertain, because another number would fit nearly as well; always
-    // 0 from `profile`.
+    // 1 where the fold number is uncertain, because another number would fit nearly as well or
+    // because neighboring gates differ too much.
     std::vector<std::uint8_t> ambiguous;
 };
 
