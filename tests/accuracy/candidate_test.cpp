@@ -41,9 +41,9 @@ TEST(Candidate, EachChoiceCostsAndLeavesOffWhatItSays) {
 
 TEST(Candidate, EffortGoesBeforeWhatWasMeasured) {
     Chain chain = small_chain();
-    chain.steps[0].effects[0].effort = 1;  // and 1 s
-    chain.steps[1].effects[1].effort = 2;  // and 2 s
-    chain.steps[2].effects[0].effort = 3;  // and 0.5 s
+    chain.steps[0].effects[0].effort = 1;  // its cost is 1 s
+    chain.steps[1].effects[1].effort = 2;  // its cost is 2 s
+    chain.steps[2].effects[0].effort = 3;  // its cost is 0.5 s
     const auto candidates = list_candidates(chain);
     ASSERT_TRUE(candidates);
     // Both {0, 1, 0} and {0, 0, 0} have no effort. {0, 0, 0} has one more effect off, so it comes

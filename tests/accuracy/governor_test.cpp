@@ -62,7 +62,7 @@ TEST(Governor, APredictionThatWasWrongCostsTheNextRung) {
     const Plan plan = governed(small_chain(), "250 m, 0.5 dB", sample);
     EXPECT_TRUE(plan.meets_budget);
     EXPECT_EQ(plan.choice.rungs, (Rungs{0, 1, 1}));
-    EXPECT_EQ(sample.seen, (std::vector<Rungs>{{0, 1, 0}}));  // the choice after it is proven
+    EXPECT_EQ(sample.seen, (std::vector<Rungs>{{0, 1, 0}}));  // {0, 1, 1} is proven
     EXPECT_EQ(plan.measured_choices, 1U);
     EXPECT_FALSE(plan.measured);
     EXPECT_EQ(plan.decisions[3].effect, "linear_mean");

@@ -34,7 +34,7 @@ TEST(Ladder, TheFrontIsWhatNothingBeats) {
     EXPECT_EQ(front({row("s", 0, "a", 1, 3, 9), row("s", 1, "b", 2, 2, 9),
                      row("s", 2, "c", 3, 2.5, 9), row("s", 3, "d", 4, 0, 0)}),
               "abd");
-    // A rung that is better in a single error is on the front too.
+    // A rung (choice) that is better in a single error is also on the Pareto front.
     EXPECT_EQ(front({row("s", 0, "a", 1, 3, 5), row("s", 1, "b", 2, 4, 4)}), "ab");
     EXPECT_EQ(front({row("s", 0, "a", 1, 3, 5), row("s", 1, "b", 2, 3, 5)}), "a");
 }

@@ -120,7 +120,7 @@ struct Search {
     const Chain& chain;
     const Budget& budget;
     std::optional<double> least_cost_s;
-    std::vector<std::size_t> on = {};  // rung of each step so far
+    std::vector<std::size_t> on = {};  // choice (rung) of each step so far
 
     void step(std::size_t index, double cost_s, ErrorSize off) {
         if (index == chain.steps.size()) {

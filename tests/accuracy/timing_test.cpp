@@ -43,8 +43,8 @@ TEST(Timing, RoundsTurnRoundSoThatNoneIsAlwaysBehindTheSame) {
 }
 
 TEST(Timing, ASlowerMachineIsSharedByAll) {
-    // The machine becomes slower: twice as slow from the third round, three times in the fifth. The
-    // timings must still show which work is slower.
+    // The machine becomes twice as slow in the third round and three times as slow in the fifth.
+    // The timings must still show which work is slower.
     double clock_s = 0;
     int runs = 0;
     const auto work = [&](double cost_s) {

@@ -244,8 +244,8 @@ std::vector<std::byte> zip_of_lzma() {
     return bytes_of(zip);
 }
 
-// libarchive would unpack such a member to find its end, with as much memory as its header asks
-// for.
+// libarchive would unpack a member of zip_of_lzma() to find the end of the member, and would take
+// as much memory as the header asks for.
 TEST(ArchiveReader, SmallCodecsAloneEndAZipThatIsReadFromItsStart) {
     Limits limits;
     limits.small_codecs = true;
@@ -339,9 +339,9 @@ TEST(ArchiveReader, WhatIsPackedTwiceIsNone) {
         ArchiveReader::open(packed(Kind::tar_compress, make_archive(Kind::tar_compress, two))));
 }
 
-// Packs `prefix` and then endless repetitions of `period`, as compress does with codes of up to
-// `most_width` bits. The file is `start` and any number of copies of `repeated`; each copy unpacks
-// to many periods.
+// Packs `prefix` and then endless repetitions of `period`, in the format of compress, with codes of
+// up to `most_width` bits. The file is `start` and any number of copies of `repeated`; each copy
+// unpacks to many periods.
 struct EndlessCompressed {
     std::string start, repeated;
 };

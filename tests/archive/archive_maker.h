@@ -18,7 +18,7 @@ struct Put {
 };
 
 [[nodiscard]] std::vector<std::byte> make_archive(Kind kind, const std::vector<Put>& puts);
-// Returns the bytes without an archive around them, packed by the codec of this kind.
+// Packs the bytes with the codec of this kind, but puts no tar or zip around them.
 [[nodiscard]] std::vector<std::byte> packed(Kind kind, const std::vector<std::byte>& bytes);
 [[nodiscard]] std::vector<std::byte> bytes_of(const std::string& text);
 

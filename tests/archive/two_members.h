@@ -1,4 +1,4 @@
-// Has two members for test archives, and a function that reads the names of all members.
+// Two members for test archives, and a function that reads the names in an archive.
 #pragma once
 
 #include <string>

@@ -134,7 +134,7 @@ TEST(StationTable, AgreesWithLevelIIIProducts) {
         expect_agreement(product, 0.0015);
 }
 
-// In September 2010, two sites converted their heights in meters from feet to meters once more:
+// In September 2010, two sites took their heights in meters for feet and converted them again:
 // message 31 had 4 + 9 m at KDOX and 171 + 9 m at KTYX, which is 0.3048 times the heights of the
 // table. The table's height replaces a reported height that differs by more than 30 m, so the
 // difference must be larger.

@@ -1,4 +1,4 @@
-// Tests how much of a plan check() finds done, from the records of the tasks.
+// Tests that check() knows from the records of tasks which tasks of a plan are done.
 #include "batch/check.h"
 
 #include <gmock/gmock.h>

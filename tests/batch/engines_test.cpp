@@ -19,8 +19,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// A plan with ten stations on two days in tasks 0 to 19, and frames from 22:00 to 02:00 in tasks 20
-// to 23.
+// A plan with ten stations on two days in tasks 0 to 19, and mosaics (frames) from 22:00 to 02:00
+// in tasks 20 to 23.
 class BatchEngines : public ::testing::Test {
   protected:
     void SetUp() override {

@@ -1,6 +1,6 @@
 // tests/batch/failing_reads.h -- makes files unreadable for a while, as on a failing disk or share.
 //
-// It replaces the C library's read() and pread() in the program that links it.
+// A program that links failing_reads.cpp calls its read() and pread() instead of the C library's.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-// tests/batch/small_archive.h -- real volumes of KBGM as an archive, and plans of coarse grids of
-// them.
+// tests/batch/small_archive.h -- an archive of real volumes of KBGM, and recipes for coarse grids.
 #pragma once
 
 #include <atomic>
@@ -26,7 +25,7 @@ inline UtcTime at(const std::string& text) {
     return *parse_utc(text, UtcTime{});
 }
 
-// Returns a recipe for frames of the small domain from an archive that no test reads.
+// Returns a recipe for mosaics (frames) of the small domain from an archive that no test reads.
 inline Recipe recipe_between(const std::string& from, const std::string& to) {
     Recipe recipe;
     recipe.source = "/archive";

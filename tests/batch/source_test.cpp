@@ -142,7 +142,7 @@ TEST_F(Source, LinksAreNotFollowedAndCounted) {
     EXPECT_EQ(listing.first_link.parent_path(), directory_.path());
 }
 
-// 2026-11-29: a file that is named as a tar, but is none, was reported as having no station and
+// 2026-11-29: a file with the name of a tar that is no tar was reported as having no station and
 // time in its name.
 TEST_F(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
     write(directory_ / "README");

@@ -1,4 +1,4 @@
-// Tests that tasks make the same bytes however often, where and in how many steps they run.
+// Tests that tasks make the same bytes wherever they run, however often, and in however many steps.
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -29,7 +29,6 @@ using ::testing::SizeIs;
 
 class BatchTasks : public SmallArchive {
   protected:
-    // Returns the directory of the partials.
     [[nodiscard]] fs::path partials(const std::string& cache) const {
         return directory_ / cache / "north.KBGM/REF/20050822";
     }
@@ -71,7 +70,7 @@ TEST_F(BatchTasks, ASecondRunFindsWhatStandsAndASecondCacheHasTheSameBytes) {
     EXPECT_EQ(tree_of(directory_ / "two"), bytes);
 }
 
-// An engine may start a task twice. Here both run at the same time, each in its own process.
+// An engine may start a task twice. Here two processes run one task at the same time.
 TEST_F(BatchTasks, TwoAtTheSameTimeLeaveTheBytesOfOne) {
     run_all(plan_of(recipe("one"), "plan-one"));
     const Plan plan = plan_of(recipe("two"), "plan-two");

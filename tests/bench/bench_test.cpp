@@ -116,8 +116,8 @@ TEST(BenchGrid, TheTableHasTheKeysOfTheJson) {
     EXPECT_EQ(rows[0]["threads"], 1);
 }
 
-// Without Google Benchmark the program is not built. The program ends with status 1 if a way does
-// not make the same bytes as libbz2.
+// bench_kernels is built only with Google Benchmark. The program ends with status 1 if a way of
+// unpacking gives other bytes than libbz2.
 TEST(BenchKernels, RowsAreRatiosToLibbz2) {
     STORMCELLAR_NEED_DATA();
     if (!fs::exists(bench("bench_kernels"))) GTEST_SKIP() << "bench_kernels was not built";

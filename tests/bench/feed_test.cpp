@@ -1,5 +1,5 @@
 // Tests the national feed of bench_feed: re-stamped records, the files that its replay writes, and
-// the slope of memory.
+// the growth of memory.
 #include <algorithm>
 #include <atomic>
 #include <cmath>

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachKind,
                          ::testing::Values("mosaic-northeast/KDOX20100911_012056_V04.gz",
                                            "sequence-kbgm/KBGM20050822_024414.gz", "simulated-3"));
 
-// The two heights must differ, because a reader takes equal heights for those of a TDWR.
+// The heights of site and tower must differ, because a reader takes equal heights for a TDWR's.
 TEST(Restamp, SplitsAnAltitudeIntoTwoHeightsThatAddUp) {
     level2::Volume volume;
     volume.block.emplace();

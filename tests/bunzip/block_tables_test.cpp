@@ -80,7 +80,7 @@ TEST(BlockTables, WhatContradictsIsBad) {
     }
 }
 
-// libbz2 drops such selectors too, since 1.0.7.
+// Since version 1.0.7, libbz2 also drops selectors that no block needs.
 TEST(BlockTables, SelectorsThatNoBlockNeedsAreDropped) {
     BlockPlan many = small_plan();
     many.selectors.assign(20'000, 0);

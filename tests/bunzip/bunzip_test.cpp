@@ -43,7 +43,7 @@ TEST_P(BunzipBy, AStreamInPiecesOfAnySize) {
     }
 }
 
-// Even if the last byte fills the room, the reader must check the end of the stream.
+// Even if the last byte fills the buffer, the reader must check the end of the stream.
 TEST_P(BunzipBy, AStreamEndsWithItsLastByte) {
     const Bytes bytes = contents(1000);
     const Bytes stream = compressed(bytes, 9);
@@ -134,7 +134,8 @@ TEST_P(BunzipBy, ThreadsWithAWorkspaceEach) {
     EXPECT_EQ(right, (std::array{true, true, true, true}));
 }
 
-// 2026-11-23: the path libbz2 refused streams that just fit, and every path refused empty streams.
+// 2026-11-23: the path libbz2 refused output that just fits the limit, and every path refused empty
+// streams.
 TEST_P(BunzipBy, ALimitThatIsJustEnough) {
     Workspace workspace;
     for (const char* text : {"", "a", "aaa", "aaaa", "aaaaa", "a banana", "bbbbaaaa"}) {

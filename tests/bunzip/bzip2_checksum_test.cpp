@@ -18,7 +18,7 @@ class ChecksumOf : public ::testing::TestWithParam<Path> {
 };
 INSTANTIATE_TEST_SUITE_P(EachPath, ChecksumOf, ::testing::ValuesIn(available_kernels()), test_name);
 
-// The check value of CRC-32/BZIP2 in the catalog of parametrized CRC algorithms.
+// This is the check value of CRC-32/BZIP2 in the catalog of parametrized CRC algorithms.
 TEST_P(ChecksumOf, TheNineDigits) {
     EXPECT_EQ(~go_on(checksum_begin, bytes_of("123456789")), 0xFC891918U);
     EXPECT_EQ(slow_checksum(bytes_of("123456789")), 0xFC891918U);

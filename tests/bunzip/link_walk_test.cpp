@@ -75,8 +75,8 @@ TEST(LinkWalk, ManyRings) {
     expect_as_alone(links_of({3, 100'000}, random), 100'003, 50'000);
 }
 
-// All marks are close together on the ring, so one of the walks would have to read nearly all of
-// the block, and has no room for it.
+// Each walk begins at a mark. Here all marks are close together on the ring, so one of the walks
+// would have to read nearly all of the block, for which it has no room.
 TEST(LinkWalk, OneWalkThatHasItAll) {
     constexpr std::uint32_t rows = 600'000;
     std::vector<std::uint32_t> order;

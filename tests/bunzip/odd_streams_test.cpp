@@ -19,7 +19,7 @@ constexpr std::size_t most = std::size_t{16} << 20;
 
 class OddStreams : public ::testing::TestWithParam<Path> {
   protected:
-    // Returns the end that libbz2 reports, so that a test can state it.
+    // Expects bunzip to decode as libbz2 does. Returns the end that libbz2 reports.
     End check(const Bytes& stream, std::size_t limit = most) {
         const LibraryOutcome wanted = decompressed(stream, limit);
         std::vector<std::byte> out;
@@ -218,7 +218,7 @@ TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
     }
 }
 
-// If the last byte of a block fills the room, the bytes after the block are still checked, as in
+// If the last byte of a block fills the buffer, the bytes after the block are still checked, as in
 // libbz2.
 TEST_P(OddStreams, WhatIsBehindTheLimitsLastByte) {
     const BlockPlan sound = plan({0, 1, 2, 3}, std::vector<std::uint8_t>(6, 3), {2, 3, 2, 3, 5});

@@ -102,7 +102,7 @@ TEST_F(AccountProtectionTest, AGroupsOwnBudgetIsProtectedByHalfToo) {
     put("KTLX", 2, 10);
     budgets_.domains["northeast"].bytes = 50;
     EXPECT_THAT(*room(name("northeast", 10), 30), ElementsAre(name("northeast", 9)))
-        << "the parts hold 20 of the 25 bytes that may be protected";
+        << "the partials hold 20 of the 25 bytes that may be protected";
     EXPECT_EQ(account_.down_to("northeast", 0, 10, {hours{168}, 50}).size(), 1U);
     EXPECT_EQ(account_.down_to("northeast", 0, 10, {hours{168}, 30}).size(), 2U);
     EXPECT_EQ(account_.down_to("northeast", 0, 10, {hours{168}, 10}).size(), 3U);
@@ -142,7 +142,7 @@ TEST_F(AccountProtectionTest, OthersGoBeforeAnyHistoryThatIsKnown) {
     EXPECT_THAT(account_.down_to("", 30, 100),
                 ElementsAre(name("XAAA", 100), name("XAAA", 101), name("XAAA", 102)));
     EXPECT_THAT(account_.down_to("", 0, 100, {}, Reach::others).size(), 3U);
-    // Grids of others give room even to an older grid of a known station.
+    // Grids of unknown stations ("others") give room even to an older grid of a known station.
     EXPECT_THAT(*room(name("KTLX", 1), 10), ElementsAre(name("XAAA", 100)));
     EXPECT_TRUE(room(name("KTLX", -1), 10)) << "grids of others are evicted before this grid";
 }
@@ -239,7 +239,7 @@ struct SlowGrid {
     bool newest = false;
 };
 
-// Chooses grids by the words of stormcellar/cache/budget.h, in a slow and simple way.
+// Chooses grids as stormcellar/cache/budget.h describes, in a slow and simple way.
 std::vector<GridName> slow_choice(const std::map<GridName, GridFacts>& grids, std::uint64_t target,
                                   std::uint64_t space) {
     std::vector<SlowGrid> going, protected_ones;

@@ -148,7 +148,7 @@ TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     EXPECT_THAT(account_.expired("B", budgets_, 100), IsEmpty());
 }
 
-// Grids more than 10 minutes in the future do not make others old.
+// Grids more than 10 minutes in the future do not make other grids old.
 TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     account_.set_now(noon);
     budgets_.total.age = minutes{60};
@@ -191,7 +191,7 @@ TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
     EXPECT_EQ(account_.newest("northeast"), noon + minutes{60});
     EXPECT_THAT(account_.down_to("northeast", 0, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0)));
-    // If no more grids of a part come, even its newest grid expires.
+    // If no more partials of a site come, even its newest partial expires.
     budgets_.domains["northeast"].age = minutes{30};
     EXPECT_THAT(account_.expired("northeast", budgets_, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0), grid_named("northeast.KOKX", 5)));

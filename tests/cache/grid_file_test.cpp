@@ -131,7 +131,7 @@ TEST_F(GridFileTest, AWindowThatContradictsItselfIsRefused) {
             header.offset_y_cells = offset;
         });
     };
-    EXPECT_EQ(opened_with(0, 0), ErrorCode::empty) << "sealing works";
+    EXPECT_EQ(opened_with(0, 0), ErrorCode::empty) << "the file is valid with these values";
     EXPECT_EQ(opened_with(1, 2.5), ErrorCode::empty);
     EXPECT_EQ(opened_with(0, 2.5), ErrorCode::corrupt);
     EXPECT_EQ(opened_with(1, 0), ErrorCode::corrupt);
@@ -150,10 +150,10 @@ TEST_F(GridFileTest, AProjectionThatDoesNotFitItsNumbersIsCorrupt) {
             header.spacing = spacing;
         });
     };
-    EXPECT_EQ(opened_as(0, 1000), ErrorCode::empty) << "sealing works";
-    EXPECT_EQ(opened_as(1, 0.01), ErrorCode::empty) << "degrees";
+    EXPECT_EQ(opened_as(0, 1000), ErrorCode::empty) << "the file is valid with these values";
+    EXPECT_EQ(opened_as(1, 0.01), ErrorCode::empty) << "the spacing is in degrees";
     EXPECT_EQ(opened_as(1, 1000), ErrorCode::corrupt) << "1000 degrees";
-    EXPECT_EQ(opened_as(2, 1000), ErrorCode::corrupt) << "no parallels";
+    EXPECT_EQ(opened_as(2, 1000), ErrorCode::corrupt) << "a cone needs parallels";
     EXPECT_EQ(opened_as(3, 1000), ErrorCode::corrupt);
     EXPECT_EQ(opened_as(0xFFFFFFFF, 1000), ErrorCode::corrupt);
 }

@@ -30,8 +30,8 @@ class MapGuard : public ::testing::Test {
                                     bricks.view()));
         return path;
     }
-    // Only the first page remains, so that the first missing code is read through the map whatever
-    // the page size of the machine is.
+    // Keeps 4096 bytes, the smallest page size, so that machines with larger pages read the first
+    // missing code through the map, too.
     static void cut(const fs::path& path) { fs::resize_file(path, 4096); }
 
     testing::TemporaryDirectory directory_;

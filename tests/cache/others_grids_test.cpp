@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using testing::noon;
 
-// Returns XAAA, XAAB, ...: the names of stations that no table has.
+// Returns a name that no table of stations has: XAAA for 0, XAAB for 1, ...
 std::string invented(int number) {
     std::string name = "XAAA";
     for (std::size_t at = 3; at > 0; --at, number /= 26)
@@ -120,7 +120,7 @@ TEST_F(OthersGridsTest, KnownStationsFindRoomEvenWhereTheirNewestAloneExceedTheB
         }
         EXPECT_THAT(store.roll().problems, IsEmpty());
     }
-    // First the grid is large, and then it needs nearly the whole budget.
+    // Each grid is large. In the smaller budget, one grid takes nearly all of the room.
     ASSERT_TRUE(commit(store, "KTLX", 10, 8));
     ASSERT_TRUE(commit(store, "KTLX", 11, 8));
     Budgets small = budgets_;
@@ -179,8 +179,8 @@ TEST_F(OthersGridsTest, AFullFileSystemTakesTheirsFirst) {
     const std::uint64_t of_known = testing::allocated_bytes(cache_);
     for (int site = 0; site < 5; ++site)
         ASSERT_TRUE(commit(store, invented(site), 100 + site));
-    // The cache holds one grid too many. Without the rule for others, known grids would be evicted
-    // down to the low mark, too.
+    // The cache holds one grid too many. Without the rule for others, known grids would also be
+    // evicted, down to the low mark at which eviction stops.
     beside_ = capacity_ * 8 / 10 - testing::allocated_bytes(cache_) + 4096;
     EXPECT_EQ(store.roll().evicted, 5U);
     EXPECT_EQ(testing::allocated_bytes(cache_), of_known)

@@ -88,14 +88,14 @@ TEST_F(StoreTest, SweepTakesOurLeftoversAndNothingElse) {
     std::ofstream(leftover) << "half";
     std::ofstream(foreign) << "theirs";
     ASSERT_TRUE(StoreWriter::open(real_file_system(), directory_.path(), false));
-    EXPECT_TRUE(fs::exists(leftover)) << "only the one writer may sweep";
+    EXPECT_TRUE(fs::exists(leftover)) << "only the owner of the cache removes leftovers";
     ASSERT_TRUE(StoreWriter::open(real_file_system(), directory_.path(), true));
     EXPECT_FALSE(fs::exists(leftover));
     EXPECT_TRUE(fs::exists(foreign));
     EXPECT_TRUE(fs::exists(grid));
 }
 
-// A call that a role does not offer must not compile.
+// A call that a reader or a writer does not offer must not compile.
 template <class Store>
 concept Commits = requires(Store& store, const GridDescription& about, const grid::BrickView& view,
                            const StoreEntry& entry) {

@@ -1,4 +1,5 @@
-// Tests that a file's row is searched in few databases, but in all that may have it.
+// Tests that a file's row is searched in few databases, but in all that may have it. A row in the
+// database of another station than the name of its file says is a stray.
 #include "catalog/path_homes.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +37,7 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     for (const char* path : {"/d/KOUN_a", "/d/KTLX_a", "/d/KOUN_b", "/d/KOUN_c"})
         EXPECT_TRUE(*catalog_.is_settled(path, 1000, 42)) << path;
 
-    // When the path gets a file of the station in its name, its row in the other database is
-    // deleted.
+    // Registering KOUN_b for KOUN deletes its row in the database of KTLX.
     catalog_ = *CatalogWriter::open(directory_ / "catalog");
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KOUN")));
     EXPECT_EQ(catalog_.list("KTLX", {{}, {}, true})->size(), 2U);

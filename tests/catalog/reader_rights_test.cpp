@@ -51,8 +51,8 @@ class Reader {
         ::waitpid(child_, nullptr, 0);
     }
 
-    // Returns the number of volumes that the process sees; -1 if it cannot read the catalog. It
-    // writes the error to stderr.
+    // Returns the number of volumes that the process sees; -1 if it cannot read the catalog. The
+    // process then writes the error to stderr.
     int count() {
         int answer = -2;
         if (::write(orders_[1], "?", 1) != 1) return -3;

@@ -129,7 +129,7 @@ TEST(Accuracy, PrintsALadderForARealVolume) {
     EXPECT_NE(text.str().find("</svg>"), std::string::npos);
 }
 
-// In each step the exact rung has no error, and the cheapest rung has some.
+// In each step, the exact choice (rung) has no error, and the cheapest rung has some.
 TEST(Accuracy, PrintsALadderForAPictureWithItsLight) {
     STORMCELLAR_NEED_DATA();
     const ProgramResult ran = run(

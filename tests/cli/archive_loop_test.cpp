@@ -1,4 +1,4 @@
-// stormcellar loop --catalog, run as a user runs it.
+// Runs `stormcellar loop --catalog` as a user does.
 #include <cstdlib>
 #include <fstream>
 

@@ -1,4 +1,4 @@
-// stormcellar batch, run as a user runs it.
+// Runs `stormcellar batch` as a user does.
 #include <filesystem>
 #include <fstream>
 #include <map>

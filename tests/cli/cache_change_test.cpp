@@ -1,4 +1,4 @@
-// stormcellar cache stat|list|evict|pin|unpin, run as a user runs them.
+// Runs `stormcellar cache stat|list|evict|pin|unpin` as a user does.
 #include <filesystem>
 
 #include <gtest/gtest.h>

@@ -87,7 +87,7 @@ TEST_F(KeptFramesTest, NoMoreIsKeptThanThereIsRoomFor) {
     EXPECT_EQ(drawn_, 4) << "the third frame is drawn twice";
     kept.next_loop();
     (void)frame(kept, all[2]);
-    EXPECT_EQ(kept.count(), 2U) << "room is made between loops, not in them";
+    EXPECT_EQ(kept.count(), 2U) << "frames are dropped between loops, not during a loop";
     kept.next_loop();
     (void)frame(kept, all[2]);
     EXPECT_EQ(kept.count(), 1U);
@@ -101,7 +101,7 @@ TEST_F(KeptFramesTest, WhatCannotBeDrawnIsNotKept) {
         grid("a"), {}, []() -> Result<render::Image> { return fail(ErrorCode::io, "broken"); });
     EXPECT_FALSE(failed);
     EXPECT_TRUE(frame(kept, directory_ / "a"));
-    ASSERT_TRUE(frame(kept, directory_ / "none")) << "gone, but still open";
+    ASSERT_TRUE(frame(kept, directory_ / "none")) << "the file is gone, but still open";
     EXPECT_EQ(kept.count(), 1U);
 }
 

@@ -1,4 +1,4 @@
-// `stormcellar fetch` against a bucket on loopback.
+// Runs `stormcellar fetch` as a user does, with a bucket on loopback.
 #include <filesystem>
 
 #include <gmock/gmock.h>

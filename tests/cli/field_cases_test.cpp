@@ -61,8 +61,8 @@ TEST_F(FieldCases, RadialsMayNameTheirStationInLowerCase) {
     EXPECT_EQ(lower["sweeps"], whole["sweeps"]);
 }
 
-// One volume makes no frame, because two must be near its instant. The program reports that and
-// does not crash.
+// A frame needs two volumes near its instant, so one volume makes no frame. The program reports
+// that and does not crash.
 TEST_F(FieldCases, AMosaicAboutACenterNeedsNoStationOfTheTable) {
     const std::string catalog = out("catalog");
     for (const auto& [drop, status] :
@@ -149,7 +149,8 @@ TEST_F(FieldCases, OldFilesAreNamedAndPlacedByTheirNameOrByOptions) {
     EXPECT_THAT(no_name.err, HasSubstr("--station"));
 }
 
-// 2026-11-28: such files were cataloged under an unknown station, so a loop did not find them.
+// 2026-11-28: files of a station that no table has were cataloged under an unknown station, so a
+// loop did not find them.
 TEST_F(FieldCases, AStationThatNoTableHasIsFiledByWhatItsFileSays) {
     fs::create_directory(directory_ / "drop");
     fs::copy_file(in("files/6-station-not-in-the-table/ROP420240601_220000_V06"),

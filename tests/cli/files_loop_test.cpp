@@ -1,4 +1,4 @@
-// stormcellar loop FILE..., run as a user runs it.
+// Runs `stormcellar loop FILE...` as a user does.
 #include <cstdlib>
 #include <fstream>
 

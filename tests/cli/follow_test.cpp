@@ -1,4 +1,4 @@
-// stormcellar loop --follow, run as a user runs it.
+// Runs `stormcellar loop --follow` as a user does.
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -105,7 +105,7 @@ TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
     EXPECT_EQ(program.err(), "");
 }
 
-// Frames are kept from loop to loop, which must not change the result. The test types the view,
+// Frames are kept from loop to loop, which must not change the result. The options fix the view,
 // because a followed loop keeps its first view as long as that view fits.
 TEST_F(Follow, IsTheLoopThatOneMakesAtOnce) {
     const Words view = words(
@@ -232,7 +232,8 @@ TEST_F(Follow, WhatCanNeverBeMadeIsRefusedAtOnce) {
 
 TEST_F(Follow, EndsWithItsParent) {
     commit("20050822_024400", 22);
-    // The program is not a child of process 1, so it assumes that its parent has ended.
+    // The program is not a child of process 1, its stated parent, so it assumes that its parent has
+    // ended.
     const auto orphan =
         testing::run_stormcellar(arguments({"--with-parent", "1", "-o", out("a.gif")}));
     EXPECT_EQ(orphan.status, 0);

@@ -1,4 +1,4 @@
-// Pictures of files, without a daemon, and where commands find the service's directories.
+// Tests pictures of files without a daemon, and where commands find the service's directories.
 #include <cstdlib>
 #include <fstream>
 

@@ -266,7 +266,7 @@ TEST_F(Frame, NonsensicalProbesAreBadUsage) {
                                    "is outside the picture of 796 x 532 pixels: 0,0 to 795,531"))
             << pixel;
     }
-    EXPECT_EQ(run("--domain KBGM --probe 1,2"), exit_bad_usage) << "in the header";
+    EXPECT_EQ(run("--domain KBGM --probe 1,2"), exit_bad_usage) << "the pixel is in the header";
     EXPECT_EQ(run("--domain KBGM --probe-at 10,10"), exit_bad_usage) << "outside the grid";
 }
 

@@ -114,7 +114,8 @@ TEST_F(ScratchDirectoryDeathTest, ASecondSignalBesideAnInterruptRemovesItToo) {
     EXPECT_FALSE(fs::exists(made()));
 }
 
-// 2026-11-29: a signal between making the directory and watching for signals left it behind.
+// 2026-11-29: a signal that came before the program watched for signals left a new directory
+// behind.
 TEST(ScratchDirectory, IsRemovedByASignalThatComesAtOnce) {
     const testing::TemporaryDirectory directory;
     ::setenv("TMPDIR", directory.path().c_str(), 1);

@@ -1,4 +1,5 @@
-// tests/cli/loop_fixture.h -- a cache of small grids, and `stormcellar loop` run as a user runs it.
+// tests/cli/loop_fixture.h -- a cache of small grids, and runs of `stormcellar loop` as a user
+// starts it.
 #pragma once
 
 #include <algorithm>

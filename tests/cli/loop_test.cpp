@@ -1,4 +1,4 @@
-// stormcellar loop, run as a user runs it.
+// Runs `stormcellar loop` as a user does.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -43,7 +43,7 @@ TEST_F(Loop, WritesTheSameFramesToEveryOutput) {
     EXPECT_THAT(webp.metadata.at("XMP"), HasSubstr("KBGM 2005-08-22T02:44:00Z"));
 }
 
-// Options for a view that is not fitted; a loop would fit it to all of its grids.
+// Fixes the view, which a loop would otherwise fit to all of its grids.
 const Words plain_view =
     words("--zoom 1 --field-of-view 0 --exaggeration 5 --opacity 1 --light none --tilt 55");
 
@@ -96,7 +96,7 @@ TEST_F(Loop, WhatLiesInTheFutureIsNotTheNewest) {
     };
     EXPECT_EQ(frames({"--last", "1"}), "2005-08-22T02:56:00Z");
     EXPECT_EQ(frames({}), "2005-08-22T02:56:00Z");
-    EXPECT_EQ(frames({"--to", "2100-01-01"}), "2099-12-31T00:00:00Z") << "asked for";
+    EXPECT_EQ(frames({"--to", "2100-01-01"}), "2099-12-31T00:00:00Z") << "within --to";
     const auto frame =
         testing::run_stormcellar({"frame", "KBGM", "--cache", (directory_ / "cache").string(),
                                   "--slices", "16", "--json", "-o", out("b.png")});
@@ -125,7 +125,6 @@ TEST_F(Loop, ColorsAndViewAreThoseOfAllFrames) {
         const auto first = render::decode_png_file(out("f/frame_0000.png"));
         const auto second = render::decode_png_file(out("f/frame_0001.png"));
         ASSERT_EQ(first.rgba.size(), second.rgba.size());
-        // Compare the color bar and its numbers.
         std::size_t differing = 0;
         for (int y = 60; y < first.height - 20; ++y) {
             for (int x = first.width - 110; x < first.width; ++x) {
@@ -437,7 +436,7 @@ TEST_F(Loop, GridsThatAreCutWhileTheyAreDrawnAreLeftOut) {
     const auto result = run({"KBGM", "--quiet", "-o", out("a.webp")});
     done = true;
     vandal.join();
-    EXPECT_TRUE(result.status == 0 || result.status == 1) << "a signal ended it";
+    EXPECT_TRUE(result.status == 0 || result.status == 1) << "a signal ended the program";
     EXPECT_THAT(result.err, HasSubstr("frame left out"));
     EXPECT_THAT(result.err, HasSubstr("cut"));
     EXPECT_EQ(fs::exists(out("a.webp")), result.status == 0);

@@ -1,4 +1,4 @@
-// stormcellar catalog and stormcellar cache, run as a user runs them on two real volumes.
+// Runs `stormcellar catalog` and `stormcellar cache` as a user does, on two real volumes.
 #include <fstream>
 #include <set>
 
@@ -78,7 +78,7 @@ TEST_F(QueryTest, GetCopiesRawBytesAndLeavesWhatIsThere) {
     EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.gz"),
               *read_file(testing::real_file("sequence-kbgm/KBGM20050822_024414.gz")));
     EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 1);
-    EXPECT_EQ(run(get).status, 2) << "it exists";
+    EXPECT_EQ(run(get).status, 2) << "the file exists";
     auto forced = get;
     forced.emplace_back("--force");
     EXPECT_EQ(run(forced).status, 0);

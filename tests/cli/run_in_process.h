@@ -12,7 +12,7 @@
 
 namespace stormcellar::cli {
 
-// Runs a subcommand. Blanks separate the arguments, of which the first is the subcommand.
+// Runs a subcommand. Blanks separate the arguments; the first is the subcommand.
 inline testing::ProgramResult run_in_process(const std::string& arguments) {
     CLI::App app;
     const Subcommand* subcommand =

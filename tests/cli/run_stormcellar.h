@@ -49,7 +49,6 @@ using testing::with;
 using testing::words;
 using testing::Words;
 
-// Returns the path of a real volume.
 inline std::string volume(const std::string& name) {
     return testing::real_file("volumes") / name;
 }

@@ -219,7 +219,7 @@ TEST(FactsOf, SaysWhatTheGridSays) {
     EXPECT_EQ(facts.local_time, "1999-05-03 18:56:21 CDT");
     EXPECT_THAT(facts.radar_troubles, ::testing::ElementsAre("KTLX: on auxiliary power"));
     EXPECT_EQ(facts.left_out, description().provenance.left_out);
-    EXPECT_FALSE(facts.antenna_to_picture) << "an archive";
+    EXPECT_FALSE(facts.antenna_to_picture) << "the volume is old";
 }
 
 TEST(FactsOf, UtcIsSaidOnceAndANameThatIsNoZoneNotAtAll) {

@@ -1,5 +1,5 @@
-// Tests a scene file together with typed options. Some exclude each other; some options override
-// keys.
+// Tests a scene file together with typed options. Some options exclude keys of the file; others
+// override them.
 #include <utility>
 
 #include <gmock/gmock.h>

@@ -39,7 +39,6 @@ class SceneFileTest : public ::testing::Test {
         EXPECT_TRUE(status.error().message.starts_with(directory)) << status.error().message;
         return status.error().message.substr(directory.size());
     }
-    // Commits a grid of REF about KBGM.
     void commit() {
         auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;

@@ -1,10 +1,11 @@
 // grid_costs: grids a volume in two functions whose executed instructions can be counted.
 //
-// usage: grid_costs FILE usual|cheapest MOMENT EAST_DEG The grid has 512 x 512 x 32 cells at 1 km
-// and is centered EAST_DEG east of the site. One thread makes it, by the default chain (usual) or
-// with every effect off (cheapest). Prints one line, "CHECKSUM STATION MOMENT CHAIN", with a
-// checksum of the bits of the cells. scripts/check-costs runs the program under callgrind, once
-// with a library of every rung and once with a library of that chain alone
+// usage: grid_costs FILE usual|cheapest MOMENT EAST_DEG
+//
+// One thread makes a grid of 512 x 512 x 32 cells at 1 km, centered EAST_DEG east of the site, by
+// the default chain (usual) or with every effect off (cheapest). The program prints one line,
+// "CHECKSUM STATION MOMENT CHAIN", with a checksum of the bits of the cells. scripts/check-costs
+// runs it under callgrind with the usual library and with a library that can make only this chain
 // (stormcellar/grid/chosen.h), and compares the instructions of counted_geometry() and
 // counted_grid(). Exit status: 0 done, 1 the work failed, 2 bad usage.
 #include <cstdio>

@@ -33,7 +33,7 @@ class CacheKeeperTest : public ::testing::Test {
     [[nodiscard]] bool has_ended(int rolls) const {
         return testing::eventually([&] { return woken_ >= rolls; });
     }
-    // Polls, each time after `later`, until a roll brings news.
+    // Advances the clock by `later` and polls, until a poll returns the usage of a roll.
     std::optional<cache::StoreUsage> next_news(seconds later = {}) {
         std::optional<cache::StoreUsage> usage;
         (void)testing::eventually([&] {

@@ -17,7 +17,7 @@ class ConfigFile : public ::testing::Test {
         write_file(file(), text);
         return load_config(file());
     }
-    // The message without the directory, which differs in each run.
+    // Returns the message without the directory, which differs in each run.
     std::string complaint(const std::string& text) {
         const Result<Config> config = load(text);
         if (config) return "no complaint";

@@ -325,7 +325,7 @@ TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
     write_file(file, "[paths]\ndorp = \"drop\"\n");
     daemon.signal(SIGHUP);
     EXPECT_TRUE(daemon.wait_for_log("the service keeps its previous configuration"));
-    EXPECT_EQ(daemon.terminate(), 0) << "a bad file does not end it";
+    EXPECT_EQ(daemon.terminate(), 0) << "a bad file does not end the daemon";
 }
 
 // A reload lowers the budget: the oldest grids must go, and the newest must stay.

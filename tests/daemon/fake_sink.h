@@ -1,4 +1,4 @@
-// tests/daemon/fake_sink.h -- a sink that acts as the test says, and records its calls.
+// tests/daemon/fake_sink.h -- a sink whose results a test sets, and which records its calls.
 #pragma once
 
 #include <array>
@@ -14,7 +14,6 @@
 
 namespace stormcellar::daemon {
 
-// A sink that does nothing.
 class IdleSink : public Sink {
   public:
     Result<Taken> take(const std::filesystem::path&, bool, pipeline::Tries /*tries*/) override {

@@ -50,7 +50,7 @@ TEST_F(Growing, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_TRUE(files_.add_new("x1", small, t0));
     EXPECT_TRUE(files_.add_new("x2", small, t0));
     EXPECT_TRUE(files_.add_incomplete("x3", small, t0));
-    EXPECT_FALSE(files_.add_new("x4", small, t0)) << "a file of no station, like the kept files";
+    EXPECT_FALSE(files_.add_new("x4", small, t0)) << "files of no station fill all places";
     EXPECT_TRUE(files_.add_new("a", small, t0, "KTLX"));
     EXPECT_TRUE(files_.contains("a"));
     EXPECT_EQ(files_.take_displaced(), (std::vector<std::filesystem::path>{"x1"}));

@@ -18,7 +18,6 @@ namespace stormcellar::daemon {
 
 inline constexpr std::int64_t second_ns = 1'000'000'000;
 
-// Time passes only when the test advances it.
 class IntakeTest : public ::testing::Test {
   protected:
     static Config config() {

@@ -22,7 +22,7 @@ TEST_F(IntakeTest, FollowedFilesGoWithTheirDirectory) {
     intake_.directory_gone(at("day"), false);
     EXPECT_FALSE(intake_.follows(at("day/a")));
     EXPECT_TRUE(intake_.follows(at("day2")));
-    EXPECT_EQ(next(), "a") << "so that the rows of the file are marked";
+    EXPECT_EQ(next(), "a") << "the rows of the file must be marked";
     EXPECT_TRUE(intake_.needs_scan())
         << "RowKeeper must mark the rows of files that are not followed";
     EXPECT_EQ(intake_.pending().growing, 1U);
@@ -206,7 +206,7 @@ TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
     EXPECT_EQ(intake_.look_again_at(), now_ + seconds{1});
     now_ += seconds{1};
     EXPECT_TRUE(intake_.needs_scan());
-    // Two scans fail: the first reads nothing, the second not everything.
+    // Two scans fail: the first reads nothing, and the second reads only a part.
     intake_.begin_scan();
     EXPECT_FALSE(intake_.needs_scan());
     intake_.end_scan(false);
@@ -221,8 +221,8 @@ TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
     intake_.end_scan(true);
     EXPECT_FALSE(intake_.look_again_at());
     EXPECT_FALSE(intake_.needs_scan());
-    // After a success, delays begin at a second again. A missing drop directory requests no such
-    // retry.
+    // After a success, the delay of retries begins at one second again. A missing drop directory
+    // requests no such retry.
     intake_.begin_scan();
     intake_.end_scan(false);
     EXPECT_FALSE(intake_.look_again_at());

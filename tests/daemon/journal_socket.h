@@ -1,5 +1,5 @@
-// tests/daemon/journal_socket.h -- the journal's end of its socket, with a reader of entries that
-// follows the description of the protocol and shares no code with our writer.
+// tests/daemon/journal_socket.h -- a socket that receives entries as systemd's journal does. Its
+// reader of entries follows the description of the protocol and shares no code with our writer.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
     LineLimiter limiter;
     EXPECT_EQ(allowed_of(limiter, Event::rejected, "KTLX", 1254, t0), 20);
     EXPECT_EQ(allowed_of(limiter, Event::rejected, "KBGM", 5, t0), 5);
-    EXPECT_EQ(allowed_of(limiter, Event::no_moment, "KTLX", 5, t0), 5) << "another kind";
+    EXPECT_EQ(allowed_of(limiter, Event::no_moment, "KTLX", 5, t0), 5) << "another kind of event";
     EXPECT_TRUE(limiter.take_held_back(t0 + milliseconds{59'999}).empty());
     const auto held = limiter.take_held_back(t0 + seconds{60});
     ASSERT_EQ(held.size(), 1U);
@@ -57,11 +57,11 @@ TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
     EXPECT_EQ(held[0].lines, 1234U);
     EXPECT_TRUE(limiter.take_held_back(t0 + seconds{61}).empty()) << "the count is reported once";
     EXPECT_EQ(allowed_of(limiter, Event::rejected, "KTLX", 30, t0 + seconds{62}), 20)
-        << "a new minute";
+        << "a new minute has begun";
 }
 
 // A feed can use any names. 100,000 names must not cause more lines or take more memory than a few
-// names. Simulates an hour, with a line of each name once a minute.
+// names. The test simulates an hour, with a line of each name once a minute.
 TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
     LineLimiter limiter;
     std::uint64_t written = 0;

@@ -40,7 +40,7 @@ TEST(ListeningSocket, SaysWhyItCannotBe) {
     EXPECT_EQ(reason(""), ErrorCode::bad_argument);
     EXPECT_EQ(reason("/" + std::string(107, 'x')), ErrorCode::bad_argument);
     EXPECT_EQ(reason(directory / "none/s"), ErrorCode::not_found);
-    EXPECT_EQ(reason(directory.path()), ErrorCode::io) << "a directory";
+    EXPECT_EQ(reason(directory.path()), ErrorCode::io) << "the path is a directory";
     const auto first = ListeningSocket::at_path(directory / "s");
     ASSERT_TRUE(first);
     EXPECT_EQ(reason(directory / "s"), ErrorCode::busy) << "a program answers at the path";

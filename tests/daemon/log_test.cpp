@@ -42,7 +42,6 @@ class LogTest : public ::testing::Test {
         set_up_logging("info");
         ::unsetenv("JOURNAL_STREAM");
     }
-    // Returns how many entries have arrived.
     int count() {
         int entries = 0;
         while (socket_->receive())

@@ -137,8 +137,8 @@ TEST_F(LoopKeeperTest, OnlyWhatChangesIsStoppedAndStarted) {
     ASSERT_TRUE(wait_for([&] { return starts().size() == 4; }));
     EXPECT_THAT(starts().back(), HasSubstr("ZZZZ"));
     ASSERT_TRUE(wait_for([&] { return ::kill(c, 0) != 0; }));
-    EXPECT_NE(::kill(b, 0), 0) << "the new one waits for the end of the old one";
-    EXPECT_EQ(::kill(a, 0), 0) << "goes on undisturbed";
+    EXPECT_NE(::kill(b, 0), 0) << "the changed loop starts after its old process ends";
+    EXPECT_EQ(::kill(a, 0), 0) << "an unchanged loop goes on";
     ASSERT_TRUE(wait_for([&] { return states_.size() == 2; }));
     EXPECT_EQ(states_[0].restarts + states_[1].restarts, 0U);
 }
@@ -180,8 +180,8 @@ TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
     EXPECT_NE(::kill(process_of(starts()[0]), 0), 0);
 }
 
-// The thread must be at rest between its turns, however long the time between two turns is.
-// Otherwise the watchdog would see a hang.
+// The thread must be at rest between the passes of its loop (turns), however long the time between
+// two turns is. Otherwise the watchdog would see a hang.
 TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     keep(program("sleep 100\n"));
     EXPECT_FALSE(keeper_->pulse().since()) << "without loops there is no thread that could hang";

@@ -1,4 +1,4 @@
-// The dashboard, the alerts and the manual name only metrics that the daemon exports.
+// Tests that the dashboard, the alerts and the manual name only metrics that the daemon exports.
 #include <cstdlib>
 #include <fstream>
 #include <map>

@@ -1,4 +1,5 @@
-// tests/daemon/notify_socket.h -- the service manager's end of sd_notify.
+// tests/daemon/notify_socket.h -- receives the messages that a service sends to its manager
+// (sd_notify).
 #pragma once
 
 #include <array>

@@ -137,8 +137,8 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
 }
 
-// 2026-11-28: one part with other codes, or with an impossible position, prevented all frames near
-// its time, and the log blamed honest stations.
+// 2026-11-28: one partial with other codes, or with an impossible position, prevented all frames
+// near its time, and the log blamed honest stations.
 TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
     std::vector<std::pair<InventedPartial, std::string>> parts(
         4, {{.minute = 44}, "its codes are not those of REF"});
@@ -160,8 +160,8 @@ TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
     }
 }
 
-// 2026-11-28: a machine brought parts of 158 invented stations in 40 s, and each frame merged them
-// all.
+// 2026-11-28: a machine brought partials of 158 invented stations in 40 s, and each frame merged
+// them all.
 TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
     const InventedPartial invented{"QAAA", 44, 0, 20}, listed{"QAAB", 44, 0, 20};
     stations_ = {{"north", {"QAAB"}}};
@@ -174,7 +174,7 @@ TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
     EXPECT_TRUE(is_kept(listed));
 }
 
-// 2026-11-28: any machine could replace parts of another machine's stations.
+// 2026-11-28: any machine could replace partials of another machine's stations.
 TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     stations_ = {{"north", {"KBGM"}}};
     start();
@@ -188,8 +188,8 @@ TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     EXPECT_EQ(south().refused, 1U);
 }
 
-// 2026-11-28: an empty part with the time of an honest part and a later end replaced the honest
-// part in every frame, and nothing was logged.
+// 2026-11-28: an empty partial with the time of an honest partial and a later end replaced the
+// honest one in every frame, and nothing was logged.
 TEST_F(PartialsKeeperTest, APartThatReplacesThatOfAnotherMachineIsNamed) {
     start();
     bring("north", early);

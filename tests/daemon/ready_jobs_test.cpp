@@ -47,8 +47,8 @@ TEST_F(ReadyJobsTest, WhatIsLiveGoesBeforeTheBacklogWhichIsNewestFirst) {
     EXPECT_EQ(all(), "live newer older older-too");
 }
 
-// Without this order, files that lost their places in the queue, and that each scan finds again,
-// would delay new files.
+// Files that an event reported come before files that a scan found. Otherwise files that lost their
+// places in the queue, and that each scan finds again, would delay new files.
 TEST_F(ReadyJobsTest, WhatAnEventToldOfGoesBeforeWhatALookFound) {
     for (int i = 0; i < 10; ++i) {
         ReadyJobs::Key found = live("KAAA", 1000 + i);

@@ -29,7 +29,7 @@ struct Section {
     std::vector<Key> keys;
 };
 
-// Every key at least once. A key that excludes another key has a table of its own.
+// Returns every key at least once. A key that excludes another key has a table of its own.
 const std::vector<Section>& all_sections() {
     using enum Counts;
     static const std::vector<Section> sections = {

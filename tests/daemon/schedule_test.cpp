@@ -178,7 +178,7 @@ TEST(Schedule, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_EQ(schedule.offer(job_of("tlx1", "KTLX")), Offered::queued);
     EXPECT_EQ(schedule.offer(job_of("tlx2", "KTLX")), Offered::queued);
     EXPECT_EQ(schedule.offer(job_of("tlx3", "KTLX")), Offered::refused)
-        << "the station has as many jobs";
+        << "KTLX has as many jobs as the flood";
     EXPECT_EQ(schedule.offer(job_of("flood9", "")), Offered::refused);
     EXPECT_EQ(schedule.offer(job_of("okx", "KOKX")), Offered::queued);
     using Paths = std::vector<std::filesystem::path>;

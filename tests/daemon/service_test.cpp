@@ -384,8 +384,8 @@ class HangingThread : public ServiceTest, public ::testing::WithParamInterface<c
     }
 };
 
-// The service takes a turn whenever the watchdog is due, and reads its clock several times in each
-// turn.
+// The main loop of the service makes a pass (a turn) whenever the watchdog is due, and reads its
+// clock several times in each turn.
 TEST_P(HangingThread, StarvesTheWatchdog) {
     constexpr std::chrono::milliseconds period{200};
     constexpr int a_turn = 50, many_turns = 150;  // readings of the clock
@@ -442,7 +442,7 @@ TEST_P(SteppingThread, DoesNot) {
     // The watchdog is fed four times a period.
     EXPECT_TRUE(testing::eventually([&, before = meals(notifier_)] {
         return meals(notifier_) >= before + 12;
-    })) << "for more than two periods, and never at one step";
+    })) << "a thread that makes steps does not hang";
     hangs_ = false;
 }
 
@@ -469,7 +469,7 @@ TEST_F(ServiceTest, ReloadsOnHangUpAndStopsOnTermination) {
     EXPECT_TRUE(testing::eventually([&] {
         const auto sent = notifier_.sent();
         return std::count(sent.begin(), sent.end(), "READY=1") == 2;
-    })) << "ready again";
+    })) << "the reload has ended";
     ::pthread_kill(thread_.native_handle(), SIGTERM);
     thread_.join();
     EXPECT_EQ(stopped_, Stopped::cleanly);

@@ -9,7 +9,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Uses the kernel's names of the types, as far as the kernel's headers define them.
+// Uses the kernel's names of the types of file systems, as far as the kernel's headers define them.
 TEST(SilentFileSystems, ThoseThatOtherMachinesWriteTo) {
     EXPECT_EQ(silent_file_system(NFS_SUPER_MAGIC), "NFS");
     EXPECT_EQ(silent_file_system(SMB_SUPER_MAGIC), "SMB");

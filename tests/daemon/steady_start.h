@@ -1,4 +1,4 @@
-// tests/daemon/steady_start.h -- the steady time at which tests with a clock of their own begin.
+// tests/daemon/steady_start.h -- the steady time at which tests with a simulated clock begin.
 #pragma once
 
 #include <chrono>

@@ -28,7 +28,6 @@ WorkerPool::Work work_of(Sink& sink) {
     };
 }
 
-// Waits until `count` jobs have ended.
 std::vector<Finished> collect(WorkerPool& pool, std::size_t count) {
     std::vector<Finished> all;
     (void)testing::eventually([&] {
@@ -169,7 +168,7 @@ TEST(WorkerPool, DrainingEndsRunningJobsAndBeginsNone) {
         is_held = false;
         EXPECT_TRUE(pool.drain(seconds{20}));
         EXPECT_EQ(pool.collect().size(), 1U);
-        EXPECT_FALSE(pool.has_free_worker()) << "so the caller submits no other job";
+        EXPECT_FALSE(pool.has_free_worker()) << "the caller must submit no other job";
     }
     EXPECT_EQ(sink.calls(), std::vector<std::string>{"a"}) << "the threads of the pool have ended";
 }

@@ -1,4 +1,4 @@
-// Tests what a reader finds in the file; tests/export/check_cfradial.py opens real ones in Python.
+// Tests what a reader finds in a file; tests/export/check_cfradial.py reads real volumes in Python.
 #include "stormcellar/export/cfradial.h"
 
 #include <algorithm>

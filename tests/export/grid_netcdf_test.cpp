@@ -1,4 +1,5 @@
-// Tests what a reader finds in the file; tests/export/check_grid.py opens real ones in Python.
+// Tests what a reader finds in a file; tests/export/check_grid.py reads grids of real volumes in
+// Python.
 #include "stormcellar/export/grid_netcdf.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// LD_PRELOAD loads this into the daemon; see failing_calls.h. It links nothing of the product.
+// LD_PRELOAD loads this library into the daemon (failing_calls.h). It links no code of the product.
 #include "tests/fault/failing_calls.h"
 
 #include <cerrno>

@@ -14,7 +14,8 @@
 
 namespace stormcellar::fault {
 
-// True for a build with a sanitizer, which must be loaded first and takes memory of its own.
+// True for a build with a sanitizer, whose library must be loaded first and takes memory of its
+// own.
 #if defined(STORMCELLAR_SANITIZED)
 inline constexpr bool is_sanitized = true;
 #else

@@ -24,8 +24,8 @@ struct Claims {
     float latitude_deg = 0, longitude_deg = 0;
     unsigned sweeps = 1, radials = 360, gates = 100;
     unsigned word_bits = 8;
-    unsigned code = 100;     // the code of every gate,
-    bool is_varied = false;  // or a different one for each radial
+    unsigned code = 100;     // of the gates
+    bool is_varied = false;  // true: instead, each radial has a code of its own
     float scale = 2, offset = 66;
 };
 
@@ -37,7 +37,7 @@ struct Claims {
 [[nodiscard]] std::string invented_station(std::size_t number);
 [[nodiscard]] Claims invented_claims(std::size_t number, UtcTime start);
 
-// the 24 bytes before the first record
+// Returns the 24 bytes before the first record.
 [[nodiscard]] Bytes file_header(const Claims& claims, int number = 1);
 // Returns the radials of sweep number `sweep`; the first is 0.
 [[nodiscard]] Bytes sweep_messages(const Claims& claims, unsigned sweep);

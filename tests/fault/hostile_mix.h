@@ -2,10 +2,10 @@
 //
 // The attacker writes into a drop directory at a given rate, beside honest writers, below its own
 // directories and below the directories of stations. Its files claim invented or known stations,
-// including the stations of the real feed, at times that no real volume has. It never touches the
-// files and directories of the honest writers, because no daemon could repair that. Only a limited
-// number of its files exist at a time; the oldest are removed first, and remove_all() removes
-// everything. The bytes are made in advance, so that writing costs little.
+// including the stations of the real feed, at times that no real volume has. The attacker never
+// touches the files and directories of the honest writers, because no daemon could repair that.
+// Only a limited number of its files exist at a time; the oldest are removed first, and
+// remove_all() removes everything. The bytes are made in advance, so that writing costs little.
 //
 // Threads   begin() and end() from one thread; one thread writes between them.
 #pragma once

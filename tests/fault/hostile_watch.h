@@ -36,9 +36,9 @@ struct CatalogRow {
 [[nodiscard]] std::set<std::string> invented_among(const std::set<std::string>& names);
 
 [[nodiscard]] std::size_t open_descriptors(pid_t process);
-// processor time in user and system mode
+// Returns the processor time in user and system mode.
 [[nodiscard]] double cpu_seconds(pid_t process);
-// size on disk of the unnamed files that the process holds open
+// Returns the size on disk of the unnamed files that the process holds open.
 [[nodiscard]] std::uint64_t unnamed_bytes(pid_t process);
 [[nodiscard]] std::uint64_t disk_bytes_below(const std::filesystem::path& directory);
 

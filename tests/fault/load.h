@@ -49,7 +49,6 @@ class Shipments {
     // Allows shipments that lack chunks. The daemon waits for missing chunks, so such a test takes
     // longer.
     void have_patience() { has_patience_ = true; }
-    // Returns a whole simulated volume.
     Shipment volume(Way way);
     Shipment junk();
     Shipment part(Way way);

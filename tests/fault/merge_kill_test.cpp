@@ -1,6 +1,6 @@
-// The daemon merges parts of other machines. The tests kill it after it has stored a part but not
-// yet made the frames, or make its disk fail once at that point. Afterward, the mosaic must have
-// the same bytes as without the fault.
+// The daemon merges partials of other machines. The tests kill it after it has stored a partial but
+// not yet made the frames, or make its disk fail once at that point. Afterward, the mosaic must
+// have the same bytes as without the fault.
 #include <cerrno>
 #include <map>
 #include <utility>
@@ -25,7 +25,7 @@ using Files = std::map<fs::path, std::vector<std::byte>>;
 
 constexpr int parts = 12;
 
-// Merges the parts of two stations into some twenty frames.
+// Merges the partials of two stations into some twenty frames.
 class Merging : public ::testing::Test {
   protected:
     Merging() {
@@ -64,7 +64,7 @@ class Merging : public ::testing::Test {
     [[nodiscard]] Files undisturbed() const {
         daemon::RunningDaemon daemon;
         daemon.start(configuration());
-        // A slow disk looks like rest, so count the parts first.
+        // A daemon that waits for a slow disk seems to rest, so count the partials first.
         EXPECT_TRUE(testing::eventually([&] { return parts_taken(daemon) == parts; }))
             << daemon.log();
         EXPECT_TRUE(comes_to_rest(daemon, 60)) << daemon.log();

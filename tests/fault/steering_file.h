@@ -1,4 +1,4 @@
-// tests/fault/steering_file.h -- the test's side of failing_calls.h.
+// tests/fault/steering_file.h -- lets a test steer failing_calls.so (failing_calls.h).
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,6 @@ class SteeringFile {
     // end().
     void fail(std::uint64_t from, std::uint64_t count, int error_number);
     void end() { steering_->to = 0; }
-    // Returns the environment variables for the daemon.
     [[nodiscard]] std::map<std::string, std::string> environment() const;
 
   private:

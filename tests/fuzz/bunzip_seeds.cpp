@@ -8,8 +8,7 @@ namespace {
 
 using bunzip::Bytes;
 
-// Returns the bytes after a byte that gives their kind: a stream, contents, contents and damage, or
-// a plan.
+// Returns the byte `kind` and then the bytes: a stream, contents, contents and damage, or a plan.
 Bytes behind(char kind, const Bytes& bytes) {
     Bytes seed{static_cast<std::byte>(kind)};
     seed.insert(seed.end(), bytes.begin(), bytes.end());

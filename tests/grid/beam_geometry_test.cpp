@@ -62,7 +62,7 @@ Quad gaussian_radius(double latitude_deg) {
     return sqrtq(meridian * prime_vertical);
 }
 
-// The textbook's formula, in which 113 bits survive the cancellation.
+// The textbook's formula. Its terms cancel, which floats of 113 bits survive.
 struct Exact {
     Quad arc_m, height_m;
 };

@@ -1,5 +1,5 @@
-// Tests the rungs of the beam against their definitions, and the figures that docs/geometry.md
-// gives for the 4/3 earth.
+// Tests each model of the beam against its definition, and the figures that docs/geometry.md gives
+// for the 4/3 earth.
 #include "stormcellar/grid/beam_model.h"
 
 #include <algorithm>
@@ -183,8 +183,8 @@ TEST(BeamModel, DifferenceOfAModelFromItselfIsNothing) {
     EXPECT_EQ(none.gate_m, 0);
 }
 
-// Checks every 10 m that, between the compared points 500 m apart, the difference exceeds the
-// result by no more than the stated limit.
+// greatest_difference() compares points 500 m apart. Between them, the test compares every 10 m;
+// the result may be exceeded only by the stated limit.
 TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
     const std::vector<RefractivityLevel> levels = {{0, 330},    {300, 300},  {350, 294},
                                                    {1500, 250}, {6000, 140}, {12e3, 60}};

@@ -1,4 +1,4 @@
-// Tests quiet stretches against a search of every code.
+// Tests is_quiet() against a search of every code.
 #include "grid/sweep/busy_blocks.h"
 
 #include <algorithm>

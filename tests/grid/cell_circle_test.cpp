@@ -22,7 +22,7 @@ level2::Volume volume_of(level2::Moment moment, float lower_mps, float upper_mps
     return volume;
 }
 
-// Differences at 60 km, at heights below, between and above the beams.
+// Differences of two values at 60 km, at heights below, between and above the beams.
 struct Differences {
     double below = 0, between = 0, above = 0;
 };

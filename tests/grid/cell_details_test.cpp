@@ -204,7 +204,6 @@ TEST(CellDetails, OfSweepsFromSitesAllOverTheEarth) {
     }
 }
 
-// Uses a grid with one cell at the center of a gate.
 TEST(CellDetails, ACellAtAGatesCentreIsAtTheGate) {
     const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
     SweepPlan plan;

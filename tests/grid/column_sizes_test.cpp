@@ -65,8 +65,8 @@ class ColumnSizes : public ::testing::TestWithParam<std::size_t> {
     std::optional<GridScene> scene_;
 };
 
-// Regression of 2026-11-25: a column was never drawn if its only echo was a gate between its
-// points.
+// Regression of 2026-11-25: a column was never drawn for a sample if its only echo was a gate
+// between its points.
 TEST_P(ColumnSizes, NoColumnWithAValueIsLeftOut) {
     const Grid exact = whole(exact_of(effects_of(level2::Moment::ref)));
     const std::size_t nz = spec_.levels_m.size();

@@ -1,4 +1,5 @@
-// Tests that the bounds of the site frame's rungs always hold and are at most twice the error.
+// Tests the error bounds of the ways to compute coordinates about a site (rungs of the site frame).
+// The bounds must always hold and be at most twice the error.
 #include "stormcellar/grid/frame_ladder.h"
 
 #include <cmath>

@@ -104,7 +104,8 @@ TEST(PredictedCosts, AreSaidOfEveryStepAndOfWhatInterpolationAndExtentTakeTogeth
                 exact.rungs.push_back(step.effects.size());
             }
             EXPECT_GT(accuracy::cost_s(chain, exact), accuracy::cost_s(chain, cheapest));
-            // For a grid about the site, every frame is in closed form.
+            // For a grid centered at the site, every site frame has a closed form, which costs
+            // nothing.
             EXPECT_EQ(chain.steps[0].effects[1].cost_s, 0);
         }
     }

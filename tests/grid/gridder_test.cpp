@@ -75,7 +75,7 @@ TEST(Gridder, BelowTheLowestBeamIsNotSeen) {
     // At 250 km, the lower edge of the 0.5 degree beam is near 4.1 km.
     EXPECT_EQ(status_at(grid, 250, 0, 3.5), CellStatus::not_seen);
     EXPECT_EQ(status_at(grid, 250, 0, 4.5), CellStatus::value);
-    EXPECT_EQ(status_at(grid, 50, 0, 0.5), CellStatus::not_seen) << "edge near 560 m";
+    EXPECT_EQ(status_at(grid, 50, 0, 0.5), CellStatus::not_seen) << "the beam's edge is near 560 m";
     EXPECT_EQ(status_at(grid, 50, 0, 1), CellStatus::value);
 }
 

@@ -1,4 +1,4 @@
-// tests/grid/method_of.h -- makes a method from the members that most tests vary.
+// tests/grid/method_of.h -- makes a method of gridding from the members that most tests vary.
 #pragma once
 
 #include "stormcellar/grid/method.h"

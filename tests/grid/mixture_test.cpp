@@ -1,4 +1,5 @@
-// Tests each case of the status rule (docs/geometry.md), and means on a circle.
+// Tests each case of the status rule (docs/geometry.md), and means on a circle. In the messages, v,
+// n, f and u are the weights of values, no echo, range folded and not seen.
 #include "grid/sweep/mixture.h"
 
 #include <random>

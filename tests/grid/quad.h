@@ -1,4 +1,5 @@
-// tests/grid/quad.h -- floats of 113 bits, for closed forms whose terms cancel in double.
+// tests/grid/quad.h -- floats of 113 bits, for formulas that are inexact in double because their
+// terms cancel.
 //
 // Declares functions of libquadmath, because clang lacks their header.
 #pragma once

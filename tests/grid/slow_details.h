@@ -1,5 +1,6 @@
-// tests/grid/slow_details.h -- the oracle of stormcellar/grid/cell_details.h for point samples of
-// the nearest gates: one column at a time, in long double, without tables.
+// tests/grid/slow_details.h -- a slow and obvious form (oracle) of stormcellar/grid/cell_details.h
+// for point samples of the nearest gates. It computes one column at a time, in long double, without
+// tables.
 #pragma once
 
 #include <optional>

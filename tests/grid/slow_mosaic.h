@@ -1,5 +1,6 @@
-// tests/grid/slow_mosaic.h -- the oracle of merging: one cell at a time, in long doubles, with a
-// geodesic for every site and column and a list of what each site sees of the cell.
+// tests/grid/slow_mosaic.h -- a slow and obvious form (oracle) of merging. It computes one cell at
+// a time, in long doubles, with a geodesic for every site and column and a list of what each site
+// sees of the cell.
 #pragma once
 
 #include <span>

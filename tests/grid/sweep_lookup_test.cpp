@@ -153,7 +153,7 @@ struct Case {
     const char* file;
     Moment moment;
     std::optional<double> elevation_deg;
-    std::size_t sweep;  // the expected sweep, by `stormcellar info`
+    std::size_t sweep;  // number of the expected sweep in `stormcellar info`
 };
 
 // Returns cases of message 1, with gates of 1 km and 250 m, and of message 31, with radials of half

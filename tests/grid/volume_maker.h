@@ -86,7 +86,6 @@ struct SweepPlan {
     return volume;
 }
 
-// Calls change(radial) for each radial of the volume.
 template <class Change>
 void change_radials(level2::Volume& volume, Change change) {
     for (level2::Sweep& sweep : volume.sweeps) {

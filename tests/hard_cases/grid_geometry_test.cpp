@@ -285,7 +285,8 @@ TEST(LevelsBelowAndAboveEverything, AreNotSeen) {
     }
 }
 
-// A level is exactly as high as a beam, where one bracket ends and the next begins.
+// A level is exactly as high as a beam, where the interval between two beams ends and the next
+// begins.
 TEST(LevelsAtABeamsHeight, HoldThatBeamAndDivideByNothing) {
     std::vector<SweepPlan> plans = plans_at({0.5, 1.5, 2.5}, patchy_plan());
     for (SweepPlan& plan : plans) {

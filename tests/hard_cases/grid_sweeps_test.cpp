@@ -21,8 +21,8 @@ std::ptrdiff_t count_of(const Grid& grid, CellStatus status) {
     return std::count(grid.status.begin(), grid.status.end(), status);
 }
 
-// Two cuts of the VCP were measured at exactly the same elevation, so every bracket between them
-// has height 0.
+// Two cuts of the VCP were measured at exactly the same elevation, so the distance between their
+// beams is 0 everywhere.
 TEST(EqualElevations, NoBracketDividesByZero) {
     GridCase given = about({patchy_plan(0.5, 1), patchy_plan(0.5, 2), patchy_plan(1.5, 3)});
     given.volume.sweeps[0].vcp_elevation_deg = 0.3F;
@@ -70,8 +70,8 @@ TEST(ReversedElevations, AboutTheHighestLevel) {
     }
 }
 
-// The plan of a tile leaves out a quiet sweep between two quiet sweeps, but must keep it if radials
-// of another sweep are between them.
+// The plan of a tile leaves out a quiet sweep (one without echo) between two quiet sweeps, but must
+// keep it if radials of another sweep are between them.
 TEST(ReversedElevations, AmongSweepsOfNoEcho) {
     GridCase given = with_reversed_radials();
     for (const std::size_t quiet : {0U, 1U, 2U}) {

@@ -205,8 +205,9 @@ TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     EXPECT_FALSE(decoded->report.problems.empty());
 }
 
-// 2026-11-21: the clutter map of KMPX20060106 has no date, so the reader did not recognize it. The
-// reader accepted a radial before the map that had lost bytes, with a part of the map as its gates.
+// 2026-11-21: the clutter map of KMPX20060106 has no date, so the reader did not recognize it. A
+// radial before the map had lost bytes, and the reader accepted this radial with a part of the map
+// as its gates.
 TEST(FoundByMutants, HalfARadialBeforeUndatedFramesDoesNotComeOut) {
     Bytes half = wire::message_1({});
     half.resize(664);

@@ -28,8 +28,8 @@ using wire::Bytes;
 std::vector<std::uint32_t> odd_values(std::size_t width) {
     if (width == 1) return {0, 1, 2, 3, 77, 127, 128, 255};
     if (width == 2) return {0, 1, 2, 77, 7304, 40'001, 0x7FFF, 0x8000, 0xFFFF};
-    // These include NaN, infinity, 1e30, text in lower case, text without letters, and a time after
-    // midnight.
+    // The values include NaN, infinity, 1e30, text in lower case, text without letters, and a time
+    // after midnight.
     return {0,          1,          0x7FFFFFFF, 0xFFFFFFFF, 0x7FC00000,
             0x7F800000, 0x7149F2CA, 0x6B746C78, 0x2A2A2A2A, 90'000'000};
 }

@@ -36,7 +36,8 @@ class SyntheticPicture : public ::testing::TestWithParam<std::string> {
     Picture picture_;
 };
 
-// The pictures with a camera, and below, those with text around the picture and those with a map.
+// Tests the pictures with a camera. The next classes test those with text around them, and with a
+// map.
 class CameraPicture : public SyntheticPicture {};
 class LabelledPicture : public SyntheticPicture {};
 class SitePicture : public SyntheticPicture {};
@@ -138,7 +139,7 @@ TEST_P(SyntheticPicture, AMoveByAPixelIsFound) {
     EXPECT_TRUE(found(image));
 }
 
-// A site that moved moves its rings, its mark and its name.
+// If a site moves, its rings, its mark and its name move, too.
 TEST_P(SitePicture, ASiteThatMovedIsFound) {
     picture_.facts.sites[0].latitude_deg += 0.05;
     EXPECT_TRUE(found(draw(picture_)));

@@ -27,7 +27,6 @@ struct Picture {
 
 // Mirrors the grid east-west; the site does not move.
 void mirror(grid::Grid& grid);
-// Exchanges the colors of two neighboring classes of the scene.
 void swap_classes(render::Scene& scene, std::size_t first);
 
 }  // namespace stormcellar::images

@@ -46,7 +46,7 @@ TEST(SweepMoment, ClutterFilterPowerHasEightFlagCodes) {
 
 TEST(SweepMoment, GatesOutsideTheRadialHoldNoData) {
     const SweepMoment m = two_radials(Moment::ref);
-    EXPECT_EQ(m.status(1, 2), GateStatus::no_data) << "a shorter radial";
+    EXPECT_EQ(m.status(1, 2), GateStatus::no_data) << "the radial is shorter";
     EXPECT_EQ(m.status(0, 3), GateStatus::no_data);
     EXPECT_EQ(m.status(0, -1), GateStatus::no_data);
     EXPECT_EQ(m.status(2, 0), GateStatus::no_data);

@@ -1,4 +1,5 @@
-// Compares frames between grids with synthetic echoes, which are known at any instant.
+// Compares mosaics (frames) of instants between grids with synthetic echoes, which are known at any
+// instant.
 #include "pipeline/mosaic/between_grids.h"
 
 #include <gmock/gmock.h>

@@ -124,7 +124,7 @@ TEST_F(Claims, AnyTakesSoManyFurtherStations) {
     EXPECT_EQ(store_.domains(), (std::vector<std::string>{"KTLX", "XAAA", "XBBB"}));
 }
 
-// Reading the file again and again while it grows would be useless.
+// A growing file of an unknown station is not read again and again, because it has no living grid.
 TEST_F(Claims, AGrowingFileOfAnotherStationIsReadWhenItIsQuiet) {
     Ingestor& ingestor = with(std::make_shared<StationRule>());
     const fs::path path = put("KTLX_a", endless_sweep("XAAA", 2));

@@ -125,7 +125,7 @@ TEST_F(Hostile, LinksAmongChunksAreNotRead) {
 
 constexpr std::uintmax_t tebibyte = std::uintmax_t{1} << 40U;
 
-// Such files are rejected by their size, so that nobody reads a tebibyte of zeros.
+// Huge files are rejected by their size, so that nobody reads a tebibyte of zeros.
 TEST_F(Hostile, HugeSparseFilesAreRefusedUnread) {
     const std::string why =
         "rejected: has 1099511627776 bytes, more than the 268435456 that a raw file may have; it "

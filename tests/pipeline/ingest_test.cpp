@@ -122,7 +122,7 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
               IngestResult::unchanged);
 }
 
-// golden: this file has 4 volumes.
+// The golden file says that this file has four volumes.
 TEST_F(IngestTest, FileOfSeveralVolumesGivesAGridForEach) {
     STORMCELLAR_NEED_DATA();
     const auto outcome =

@@ -180,8 +180,8 @@ TEST_F(LivingChunks, AnEndThatIsCutDoesNotKeepTheVolumeWaiting) {
     EXPECT_EQ(take(house_, names_.size() - 2, true).result(), IngestResult::incomplete);
 }
 
-// 2026-11-22: the representative of a volume was deleted before the volume was due, and the volume
-// was not polled again before the next start.
+// 2026-11-22: the chunk by which a volume is polled (its representative) was deleted before the
+// volume was due, and the volume was not polled again before the next start.
 TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i != 20) take(house_, i);
@@ -311,7 +311,7 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
         << "a quiet volume is read again";
 }
 
-// 2026-11-25: such a volume was only gridded after it had been quiet.
+// 2026-11-25: a volume that was given up was only gridded after it had been quiet.
 TEST_F(LivingChunks, AVolumeThatWasGivenUpIsGriddedWhenItsEndComes) {
     begin_again_with(4'000'000);
     std::uint64_t given_up = 0;

@@ -105,7 +105,6 @@ class LivingChunks : public Living {
             const std::size_t from = i == 0 ? 0 : ends[i - 1];
             parts_.push_back(std::span{bytes_}.subspan(from, ends[i] - from));
         }
-        // Grid the whole file, for comparison.
         const fs::path file = directory_ / "KLOT20220317_000842_V06";
         append_to(file, bytes_);
         ASSERT_EQ(whole_.ingestor->ingest(file, false)->result(), IngestResult::gridded);

@@ -1,4 +1,4 @@
-// Tests volumes that grow record by record: the living grids in the cache, and that none of them is
+// Tests the grids of volumes that grow record by record (living grids), and that no living grid is
 // left at the end.
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
     const level2::Volume volume = level2::decode(bytes)->volume;
     EXPECT_EQ(shown, volume.sweeps.size() - 1);  // the last sweep ends the volume
 
-    // Another house ingests the complete file.
+    // A second House, with its own catalog and cache, ingests the complete file.
     House whole(directory_ / "whole", false);
     ASSERT_EQ(whole.ingestor->ingest(path, false)->result(), IngestResult::gridded);
     ASSERT_EQ(house_.grids("KLOT").size(), 1U);
@@ -100,8 +100,8 @@ TEST_F(Living, RecordsInTheWrongOrderGiveTheGridsOfTheRightOrder) {
     EXPECT_TRUE(rows->at(0).volume.complete);
 }
 
-// At every record of two volumes, each moment's grids equal those of a house that grids only this
-// moment, even while old sweeps stand in for some moments.
+// At every record of two volumes, each moment's grids equal the grids of a House that grids only
+// this moment, even while old sweeps stand in for some moments.
 TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
     using level2::Moment;
     const std::vector<Moment> moments = {Moment::ref, Moment::vel, Moment::rho};

@@ -1,4 +1,4 @@
-// Tests frames of several sites, with real and synthetic volumes.
+// Tests mosaics (frames) of several sites, with real and synthetic volumes.
 #include "pipeline/mosaic/mosaic_frame.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Compares mosaics that are updated as volumes come with mosaics that are made at once.
+// Compares mosaics (frames) that are updated as volumes come with mosaics that are made at once.
 #include "pipeline/mosaic/mosaic_maker.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Tests partials that other machines made. The mosaic equals the mosaic that one machine makes from
-// all volumes. A late machine is left out and named, until it has caught up.
+// Tests partials that other machines made. The frames of the mosaic equal the frames that one
+// machine makes from all volumes. A late machine is left out and named, until it has caught up.
 #include <fstream>
 #include <functional>
 #include <map>

@@ -44,7 +44,7 @@ void* operator new(std::size_t size) {
 void* operator new(std::size_t size, std::align_val_t alignment) {
     return stormcellar::pipeline::allocate(size, static_cast<std::size_t>(alignment));
 }
-// The operator of AddressSanitizer would not call the one above.
+// AddressSanitizer's own nothrow operator would not call our operator above.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     try {
         return stormcellar::pipeline::allocate(size, 0);

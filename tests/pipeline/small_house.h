@@ -30,7 +30,6 @@ class SmallHouse : public ::testing::Test {
   protected:
     explicit SmallHouse(const IngestOptions& options = small_grid())
         : ingestor_(catalog_, store_, options) {}
-    // The grids of reflectivity.
     std::vector<cache::StoreEntry> grids(const std::string& domain) {
         return *store_.list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
     }

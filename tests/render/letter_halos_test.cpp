@@ -1,5 +1,5 @@
-// The halo of a text is made of copied letters. These tests compare it with the same text drawn as
-// one path, which is slow and obvious.
+// The halo of a text is made of copied letters. These tests compare this halo with the same text
+// drawn as one path, which is slow and obvious.
 #include "render/image/letter_halos.h"
 
 #include <algorithm>

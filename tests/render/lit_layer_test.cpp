@@ -66,7 +66,7 @@ TEST(LitColor, DarkensAndLightens) {
     EXPECT_GT(ok_lab_of_srgb(lit_color(green, 1.3F)).l, 1.1 * ok_lab_of_srgb(green).l);
 }
 
-// The layer of a picture with light, before it is lit.
+// A layer before light is applied to it, and the memory that the slicer uses.
 struct Found {
     SlicerRoom room;
     Layer plain;

@@ -74,7 +74,7 @@ TEST(MapLayer, LongSegmentsFollowTheirCurve) {
                 worst = std::max(worst, distance_px(p, layer, MapKind::country));
             }
             EXPECT_LT(worst, 0.2 + 0.3) << static_cast<int>(projection);
-            // No more points than the curve requires.
+            // The line has no more points than the curve requires.
             EXPECT_LT(layer.strokes.front().points.size(), 400U);
         }
     }

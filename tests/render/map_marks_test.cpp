@@ -241,7 +241,7 @@ TEST(MapCache, MakesTheMapAgainWhenTheViewIsAnother) {
     EXPECT_EQ(keeper.get(spec, view, 1).value()->strokes.size(), strokes);
     EXPECT_EQ(keeper.times_made(), 1);
     static_cast<void>(keeper.get(spec, view, 2).value());
-    EXPECT_EQ(keeper.times_made(), 2) << "another scale";
+    EXPECT_EQ(keeper.times_made(), 2) << "the scale has changed";
     for (const Camera& camera : {Camera{90, 0, 1}, Camera{90, 30, 1}, Camera{90, 30, 2}}) {
         const int before = keeper.times_made();
         static_cast<void>(keeper.get(spec, {spec, camera, 1, 300, 300}, 2).value());
@@ -251,7 +251,7 @@ TEST(MapCache, MakesTheMapAgainWhenTheViewIsAnother) {
     other.center_longitude_deg += 1;
     const int before = keeper.times_made();
     static_cast<void>(keeper.get(other, {other, Camera{90, 30, 2}, 1, 300, 300}, 2).value());
-    EXPECT_EQ(keeper.times_made(), before + 1) << "another place";
+    EXPECT_EQ(keeper.times_made(), before + 1) << "the place has changed";
 }
 
 TEST(DistanceText, SaysMetresAndKilometres) {

@@ -96,8 +96,8 @@ TEST_F(ProbeTest, CountsPixelsOfTheWholePicture) {
     const auto at_pixel = [&](int x, int y) {
         return probe_pixel(bricks_.view(), facts_of(grid_), scene_, x, y, 1);
     };
-    EXPECT_FALSE(at_pixel(300, 40)) << "the header";
-    EXPECT_FALSE(at_pixel(790, 300)) << "the panel";
+    EXPECT_FALSE(at_pixel(300, 40)) << "the pixel is in the header";
+    EXPECT_FALSE(at_pixel(790, 300)) << "the pixel is in the panel";
     // The map is square and in the middle of the picture, with a margin of 4 %.
     const auto layout =
         lay_out_labels(*Fonts::load(), scene_, facts_of(grid_), {legend_of(scene_), 50e3, {}});

@@ -40,7 +40,6 @@ inline RealVolume real_volume(const std::string& path, const level2::Selection& 
     return real;
 }
 
-// Grids the reflectivity about the site of a file.
 inline grid::Grid real_reflectivity(const std::string& path, double spacing_m, int side) {
     level2::Selection selection;
     selection.moments = {level2::Moment::ref};

@@ -1,4 +1,4 @@
-// Stills are read back by libjpeg, libwebp and libpng. tests/render/still_gdal_test.cpp opens maps
+// Reads stills back with libjpeg, libwebp and libpng. tests/render/still_gdal_test.cpp opens maps
 // with GDAL.
 #include "stormcellar/render/still.h"
 

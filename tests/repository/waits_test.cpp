@@ -23,7 +23,7 @@ constexpr const char* the_one_place = "testing/waiting.h";
 // random moment.
 const std::set<std::string> with_a_pace = {
     "cache/processes_test.cpp",         // kills a writer at a random moment
-    "catalog/durability_test.cpp",      // likewise
+    "catalog/durability_test.cpp",      // kills a process at a random moment
     "cli/loop_test.cpp",                // truncates and restores a file in turn
     "daemon/end_to_end_test.cpp",       // appends pieces as LDM does
     "daemon/hostile_drop_test.cpp",     // swaps names

@@ -13,7 +13,6 @@ namespace stormcellar::testing {
 // Returns the path of a file below data_directory(), which must exist.
 [[nodiscard]] std::filesystem::path real_file(const std::filesystem::path& name);
 
-// Returns the root of the source tree.
 [[nodiscard]] std::filesystem::path source_directory();
 
 }  // namespace stormcellar::testing

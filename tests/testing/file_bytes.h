@@ -1,4 +1,4 @@
-// tests/testing/file_bytes.h -- reads, writes and damages files as tests need it.
+// tests/testing/file_bytes.h -- reads, writes and damages files for tests.
 #pragma once
 
 #include <cstddef>

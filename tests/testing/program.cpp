@@ -25,7 +25,8 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments,
     for (std::string& copy : copies)
         argv.push_back(copy.data());
     argv.push_back(nullptr);
-    // A test in the background of a script inherits an ignored SIGINT, which its programs must not.
+    // A test that a script runs in the background inherits an ignored SIGINT, but the programs that
+    // the test starts must not ignore SIGINT.
     sigset_t ends;
     sigemptyset(&ends);
     sigaddset(&ends, SIGINT);

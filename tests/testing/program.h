@@ -38,7 +38,6 @@ class RunningProgram {
     ~RunningProgram();
 
     [[nodiscard]] pid_t id() const { return child_; }
-    // Returns the output of the program so far.
     [[nodiscard]] std::string out() const;
     [[nodiscard]] std::string err() const;
     // Waits at most a minute until `seen` returns true. Returns false if it never does.

@@ -34,7 +34,7 @@ async function first(browser) {
   row('bytes on the wire until then', median(pictures.map(({ bytes }) => bytes)));
 }
 
-// Turns the view, and measures the frames per second and the rung of the last frame.
+// Turns the view, and measures the frames per second and the quality (rung) of the last frame.
 async function turning({ page }) {
   await page.evaluate(() => {
     window.frames_ = [];

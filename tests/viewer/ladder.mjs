@@ -1,6 +1,6 @@
-// Measures the viewer's ladder in Chromium (scripts/viewer-ladder). For each rung and scene, measures the time of a
-// frame, the texels that a pixel reads, and the difference from the slicer with many slices. Prints a table, and with
-// --write puts the figures into viewer/src/renderer/ladder.ts.
+// Measures the viewer's ladder of qualities (rungs) in Chromium (scripts/viewer-ladder). For each rung and scene,
+// measures the time of a frame, the texels that a pixel reads, and the difference from the slicer with many slices.
+// Prints a table, and with --write puts the figures into viewer/src/renderer/ladder.ts.
 import { readFileSync, writeFileSync } from 'node:fs';
 
 import { Slicer, viewOf } from './slicer.mjs';

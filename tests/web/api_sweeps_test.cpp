@@ -17,7 +17,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Doors of the data server over a catalog.
+// Doors (handlers of a path) of the data server, which answer from one catalog.
 class OpenDoors {
   public:
     explicit OpenDoors(const ServedVolumes& volumes,

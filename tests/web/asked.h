@@ -1,4 +1,5 @@
-// tests/web/asked.h -- asks doors without a server, and reads what they answer.
+// tests/web/asked.h -- sends requests to doors (handlers of paths) without a server, and reads
+// answers.
 #pragma once
 
 #include <string>

@@ -50,7 +50,7 @@ TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
         try {
             watch->catch_up();
         } catch (const std::bad_alloc&) {
-            // This thread called the listener that threw.
+            // catch_up() called the listener, which threw.
         }
         return has_told(CacheEvent::everything);
     }));

@@ -1,4 +1,4 @@
-// tests/web/door_test.h -- a test that asks one door, without a server.
+// tests/web/door_test.h -- a test that calls one door (the handler of a path), without a server.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Tests what a client of the hub hears while real volumes come chunk by chunk.
+// Tests which events a client of the event hub gets while real volumes come chunk by chunk.
 #include "web/data/events/event_feed.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests the door of events over sockets.
+// Tests the stream of events over sockets.
 #include "web/doors/events/events.h"
 
 #include <gtest/gtest.h>

@@ -49,7 +49,7 @@ class PictureTest : public ::testing::Test {
     std::shared_ptr<const PicturedStorm> storm_;
 };
 
-// A test of a door that serves maps of the storm.
+// A test of a door (the handler of a path) that serves maps of the storm.
 template <class AnyDoor>
 class MapDoorTest : public DoorTest<AnyDoor, PictureTest> {
   protected:

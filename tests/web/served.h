@@ -1,4 +1,4 @@
-// tests/web/served.h -- a server on loopback whose answers a test makes.
+// tests/web/served.h -- a server on loopback whose answers come from functions of a test.
 #pragma once
 
 #include <chrono>

@@ -88,7 +88,7 @@ inline ServedVolumes& served_volumes() {
     return served;
 }
 
-// A test of a door to these shared volumes.
+// A test of a door (the handler of a path) that serves these shared volumes.
 template <class AnyDoor>
 class VolumesDoorTest : public DoorTest<AnyDoor> {
   protected:

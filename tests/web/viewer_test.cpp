@@ -31,7 +31,7 @@ TEST_F(Viewer, ThePageNamesOnlyFilesThatThereAre) {
         for (auto at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
             const auto from = at + before.size();
             const std::string name = text.substr(from, text.find('"', from) - from);
-            // The page requests these early; other doors answer them.
+            // The page requests these files early; other handlers of the server answer them.
             if (name.starts_with("data:") || name.starts_with("../api/")) continue;
             EXPECT_EQ(get("/view/" + name).status, 200u) << name;
             ++count;

@@ -123,7 +123,7 @@ TEST_F(Volumes, ADroppedFileIsFoundByItsOwnNameAndGoneWhenItIsDeleted) {
     EXPECT_TRUE(body_of(get("/volumes/KTLX/Level2_KTLX_20170101_0300.ar2v")) ==
                 bytes_of_file(new_name));
     std::filesystem::remove(served.drop() / "Level2_KTLX_20170101_0300.ar2v");
-    // The server keeps an open file for two seconds; a new door has no open file.
+    // A door (the handler of a path) keeps files open for two seconds; a new door has no open file.
     EXPECT_EQ(
         VolumesDoor(RawFiles::open_catalog({.catalog = served.state() / "catalog", .scratch = {}}))
             .answer(request_for("/volumes/KTLX/" + name))

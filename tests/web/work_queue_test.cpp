@@ -50,7 +50,7 @@ TEST_F(SharedQueue, AClientThatAsksForLessGetsAPlaceAndTheNextTurn) {
     EXPECT_FALSE(ask("greedy", "5"));
     EXPECT_TRUE(ask("modest", "a"));
     EXPECT_EQ(refused_, (std::vector<std::string>{"4"}))
-        << "the newest request of the other client";
+        << "the newest request of the greedy client";
     go_on();
     EXPECT_EQ(served_, (std::vector<std::string>{"a", "1", "2", "3"}));
 }
@@ -65,8 +65,8 @@ TEST_F(SharedQueue, ClientsTakeTurns) {
     EXPECT_TRUE(refused_.empty());
 }
 
-// 2026-11-28: among clients with one request at a time, the one whose name sorts first always went
-// first, and others waited for as long as it sent requests.
+// 2026-11-28: among clients with one request at a time, the client whose name sorts first always
+// went first, and the others waited for as long as this client sent requests.
 TEST_F(SharedQueue, WhoCameFirstGoesFirstWhateverItsName) {
     for (const char* name : {"z", "m", "a"})
         ASSERT_TRUE(ask(name, name));

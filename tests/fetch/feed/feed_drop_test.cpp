@@ -124,7 +124,7 @@ TEST_F(Dropping, AfterAPowerCutNoChunkIsThereInPart) {
     disk.power_cut();
     std::ofstream(root() / "KTLX/494/20261128-120000-002-I");  // empty, as after a power cut
     FeedDrop again = open();
-    EXPECT_FALSE(again.has(key("KTLX", 494, drop_now, 1), 100)) << "so the chunk is fetched again";
+    EXPECT_FALSE(again.has(key("KTLX", 494, drop_now, 1), 100)) << "the chunk is fetched again";
     EXPECT_TRUE(files_below(root()).empty());
 }
 

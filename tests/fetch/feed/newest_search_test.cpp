@@ -1,4 +1,5 @@
-// The search must find the newest volume in rings of every shape, with few questions.
+// The numbers of volumes go around a ring from 1 to 999. Wherever the newest volume is in the ring,
+// the search must find it with few questions.
 #include "fetch/feed/newest_search.h"
 
 #include <array>
@@ -58,7 +59,7 @@ TEST(NewestSearch, FindsTheNewestOfAnyRing) {
             ASSERT_TRUE(found.start) << newest << ' ' << kept;
             EXPECT_EQ(found.start->number, before(newest)) << newest << ' ' << kept;
             EXPECT_LE(found.questions, 13);
-            // From that time on, the directory has only the volume before the newest.
+            // Volumes before `from` count as an earlier round.
             const UtcTime wanted = noon - minutes{6};
             EXPECT_LE(found.start->from, wanted);
             EXPECT_GT(found.start->from, wanted - minutes{5 * 999});

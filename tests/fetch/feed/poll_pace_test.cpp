@@ -13,7 +13,7 @@ using std::chrono::seconds;
 
 constexpr milliseconds every{4000};
 
-// Returns the largest number of times within one minute.
+// Returns the largest number of these times that are within one minute.
 std::size_t most_a_minute(const std::vector<SteadyTime>& times) {
     std::size_t most = 0;
     for (std::size_t first = 0, last = 0; last < times.size(); ++last) {

@@ -115,7 +115,7 @@ TEST_F(Following, AChunkThatNeverComesIsCounted) {
     (void)turns(20);
     EXPECT_EQ(follower_->missing(), 2U) << "number 3, and the end";
     EXPECT_LE(std::ranges::count(questions_, "KTLX/494/"), 12)
-        << "the left volume is listed for a minute";
+        << "the old volume is listed for another minute";
 }
 
 TEST_F(Following, AnEndThatNeverComesHoldsUpNothing) {

@@ -68,8 +68,8 @@ TEST(GridList, LeavesOutWhatMakesNoSense) {
     }
 }
 
-// Only names of parts of these domains may be accepted, and no path may lead elsewhere, whatever a
-// machine sends.
+// Only names of partials of these domains may be accepted, and no path may lead elsewhere, whatever
+// a machine sends.
 TEST(GridList, OfMutantsOnlyPossibleNamesAreLeft) {
     const std::string good = R"({"grids":[)" + entry("us.KTLX", "REF", "2026-11-27T11:50:00Z") +
                              "," + entry("us.KINX", "VEL", "2026-11-27T11:55:00.250Z") +

@@ -54,7 +54,7 @@ TEST(PullService, OneMachineThatHangsHoldsUpNoOther) {
     EXPECT_TRUE(testing::eventually([&] {
         const auto now = (*service)->longest_silence();
         return std::exchange(silence, now) > now;
-    })) << "a transfer that hangs is seen to be alive";
+    })) << "the thread still takes steps while a transfer hangs";
     service->reset();  // must not wait for the machine, which would take an hour
 }
 

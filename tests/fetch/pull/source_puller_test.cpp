@@ -97,7 +97,7 @@ class OtherMachine {
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
     std::vector<cache::GridName> names_;
-    ScriptedServer server_;  // the last: it uses the members above
+    ScriptedServer server_;  // last, because it uses the members above
 };
 
 class Pulling : public ::testing::Test {
@@ -170,8 +170,8 @@ TEST_F(Pulling, AYoungGridThatWasMadeAgainComesAgain) {
     EXPECT_TRUE(pulled(1) == other_.file(1));
 }
 
-// 2026-11-28: a turn fetched up to 1,000 young grids again without checking the limit of bytes. A
-// machine that made its grids again, but larger, filled the disk.
+// 2026-11-28: a turn (one list and the grids in it) fetched up to 1,000 young grids again without
+// checking the limit of bytes. A machine that made its grids again, but larger, filled the disk.
 TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
     other_.add(std::chrono::minutes{5}, 2);
     ASSERT_TRUE(puller()->turn());
@@ -184,7 +184,7 @@ TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
         << "only one of two young grids";
 }
 
-// 2026-11-28: at the limit of bytes, each turn fetched only one new grid and one grid again, so the
+// 2026-11-28: at the limit of bytes, each turn fetched one new grid and replaced one grid, so the
 // puller fell behind for good.
 TEST_F(Pulling, AtItsLimitAllThatIsNewComesAndTheOldestGo) {
     reach_the_limit();
