@@ -36,7 +36,8 @@ EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
 }
 
 // From the antenna, the point is (a + h) sin t away and (a + h) cos t - a up, where t is the angle
-// at the center. The height up also equals h - 2 (a + h) sin^2(t / 2).
+// at the center of the earth, whose radius is a. The height up also equals h - 2 (a + h) sin^2(t /
+// 2).
 AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     const double angle = point.arc_m / radius_m_;
     const double above_antenna_m = point.height_m - altitude_m_;
@@ -47,8 +48,8 @@ AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     return {std::hypot(along_m, up_m), std::atan2(up_m, along_m) / degree};
 }
 
-// The law of sines in the triangle of center, antenna and point gives range = a sin t / cos(e + t),
-// and the height above the antenna = 2 a sin(e + t/2) sin(t/2) / cos(e + t).
+// The law of sines in the triangle of the earth's center, antenna and point gives range = a sin t /
+// cos(e + t), and the height above the antenna = 2 a sin(e + t/2) sin(t/2) / cos(e + t).
 BeamGeometry::BeamPoint BeamGeometry::over(double arc_m, double elevation_deg) const noexcept {
     const double elevation = elevation_deg * degree;
     const double angle = arc_m / radius_m_;

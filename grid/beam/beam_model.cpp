@@ -30,7 +30,7 @@ EarthPoint BeamPath::at(double range_m) const noexcept {
 }
 
 BeamGeometry::BeamPoint BeamPath::over(double arc_m) const noexcept {
-    // Filling an ArcTable calls this often, so test the usual beam first.
+    // The code that fills an ArcTable calls over() often, so test the usual beam first.
     if (kind_ == BeamKind::four_thirds) return four_thirds_.over(arc_m, elevation_deg_);
     if (kind_ == BeamKind::traced) return ray_->over(arc_m);
     if (!(cosine_ > 0)) return {nan, nan};

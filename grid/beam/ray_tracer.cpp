@@ -71,8 +71,8 @@ class Tracer {
     double layer_bottom_m_ = 0;
 };
 
-// The ray by Bouguer's law: d(sine) = cos^2 (1 / r + n' / n) ds. The state holds the sine and not
-// the angle, so no sine needs to be computed.
+// Applies Bouguer's law: d(sine) = cos^2 (1 / r + n' / n) ds. The state holds the sine and not the
+// angle, so no sine needs to be computed.
 State Tracer::rate(const State& state) const {
     const auto air = layer_.at(state.height_m);
     const double n = 1 + 1e-6 * air.n_units;

@@ -1,8 +1,8 @@
 // grid/cells/code_block.h -- the codes of a rectangle of columns and sixteen levels, unpacked.
 //
 // A block holds 16-bit codes, or the code of a state, for every kind of brick (uniform, states,
-// codes of one or two bytes). Places beyond the grid are not seen. Only code inside grid/ that
-// reads the neighbors of a cell uses a CodeBlock.
+// codes of one or two bytes). Places beyond the grid have the code of "not seen". Only code inside
+// grid/ uses a CodeBlock, to read the neighbors of cells.
 //
 // Threads   One thread for each object.
 #pragma once

@@ -87,7 +87,7 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
         box.y.add(at.y);
         last = at;
     }
-    // The box around the image of the circle holds the image of the circle's inside, unless the
+    // The box around the projected circle also holds the projected inside of the circle, unless the
     // projection turns the circle inside out.
     const ColumnPoint middle = projection.to_column({site.latitude_deg, site.longitude_deg});
     const bool inside = is_within(middle.x, box.x.least, box.x.greatest) &&

@@ -1,6 +1,6 @@
 // grid/cells/moment_rules.h -- how grids treat the values of each moment.
 //
-// Extends stormcellar/level2/moment.h by one row for each moment.
+// A table here has one row for each moment, and extends the table of stormcellar/level2/moment.h.
 //
 // Threads   Constants.
 #pragma once

@@ -1,6 +1,6 @@
 // grid/cells/value_tally.h -- counts the values of places in many grids.
 //
-// A place is a cell, or a column, whose value is the greatest value in it
+// A place is a cell or a column. The value of a column is the greatest value of its cells
 // (grid/cells/grid_tally.h). All sums are integers, so the tallies of the parts of a period, added
 // in any order, equal the tally of the whole period bit for bit.
 //

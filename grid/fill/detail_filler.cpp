@@ -36,7 +36,7 @@ struct SeenBeam {
     std::optional<NearGate> gate;
 };
 
-// The sweeps that make up a height, and their weights; none if the height is not seen.
+// A sweep that makes up a height, and its weight; no sweep if the height is not seen.
 struct Share {
     const SeenBeam* beam = nullptr;
     float weight = 0;
@@ -51,8 +51,9 @@ struct Shares {
     }
 };
 
-// Returns the sweeps and weights that grid/fill/column.h uses. Heights of beams rise; `above` is
-// the number of the first beam above the level, or the number of beams.
+// Returns the one or two sweeps that make up a level, with the weights by which grid/fill/column.h
+// fills it. Heights of beams rise; `above` is the index of the first beam above the level, or the
+// number of beams.
 Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level_m, bool nearest) {
     const SeenBeam* const low = above > 0 ? &beams[above - 1] : nullptr;
     const SeenBeam* const high = above < beams.size() ? &beams[above] : nullptr;

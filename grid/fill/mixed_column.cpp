@@ -72,7 +72,7 @@ void MixedColumn::find(float height_m) {
 }
 
 // Mixes all beams in reach of a height by the antenna's pattern. `nearest` is the beam that would
-// count if only one did.
+// count if only one beam counted.
 Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width_deg) {
     const auto weight_of = [&](const BeamMixture& beam) {
         return beam_pattern((height_m - beam.height_m) / rise_of(beam), width_deg);
@@ -92,9 +92,9 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
     }
     if (!(total > 0)) return of_one(beams_[nearest], blending_);
     // If values wrap, the first beam added is the reference, so the first beam must have the
-    // largest weight. Usually the nearest beam has it. If neighbors are far apart and rise
-    // differently, the nearest beam may be out of reach; then the first beam with a weight is the
-    // reference.
+    // largest weight. Usually the nearest beam has the largest weight. If neighbors are far apart
+    // and rise differently, the nearest beam may be out of reach; then the first beam with a weight
+    // is the reference.
     std::size_t first = nearest;
     if (!(weights_[nearest - run.first] > 0)) {
         const auto heavy =

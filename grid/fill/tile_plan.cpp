@@ -24,8 +24,8 @@ void TilePlan::make(std::span<const PolarSweep> sweeps, const std::vector<bool>&
         uniform_.push_back(sweep.uniform_status(wider));
 
     // Drop a sweep if it and all sweeps around it are uniform with the same status and no lost cut
-    // is between them. Do not sample a uniform sweep if no sweep around it is sampled. The sweep
-    // then has a status without a detection limit, because no value can be mixed with this status.
+    // is between them. Do not sample a uniform sweep if all sweeps around it are uniform too. No
+    // value is then mixed with its status, so the status needs no detection limit.
     planned_.clear();
     const std::size_t count = sweeps.size();
     for (std::size_t at = 0; at < count; ++at) {

@@ -1,5 +1,5 @@
 // grid/frame/sphere_frame.h -- great circles from one point of a sphere of 6371 km that keeps the
-// latitudes of WGS84. This is the cheap rung of the site frame.
+// latitudes of WGS84. SphereFrame is the cheap alternative to the exact SiteFrame.
 //
 // Units     Meters along the sphere; degrees; azimuths are clockwise from north, [0, 360).
 // Accuracy  Against the same sphere in 113-bit floats (tests/grid/frame_ladder_test.cpp): 1e-7 m on

@@ -41,7 +41,7 @@ float shorter_way(float difference, float period) {
     return period > 0 ? std::remainder(difference, period) : difference;
 }
 
-// The grid at a gate, and its difference.
+// The status of the grid at a gate, and the difference between grid and gate.
 struct Finding {
     CellStatus status = CellStatus::not_seen;
     float difference = 0;  // grid minus gate; 0 unless both are values

@@ -29,7 +29,8 @@ Result<Gridded> grid_one(const TimedVolume& timed, const ColumnGeometry& geometr
     return Gridded{BrickGrid::from(*made, default_quantization(options.moment)), middle};
 }
 
-// Returns the sweeps of the lowest elevation that the gridder would choose for some time.
+// Returns the sweeps that the gridder chooses at the lowest elevation if it prefers, in turn, the
+// middle time of each sweep of the volume.
 std::set<std::size_t> lowest_sweeps(const level2::Volume& volume, const SitePosition& site,
                                     level2::Moment moment) {
     std::set<std::size_t> found;

@@ -23,7 +23,7 @@ struct TimedVolume {
     std::string name;
 };
 
-// The fewest volumes of which one can be held out: it needs a neighbor before and a neighbor after.
+// The least number of volumes in a sequence: a held-out volume and a neighbor on each side.
 inline constexpr std::size_t least_sequence = 3;
 
 // Returns each of the repeated cuts (SAILS, MRLE) of the volume's lowest elevation as a volume of

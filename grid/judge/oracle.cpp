@@ -106,7 +106,8 @@ class Outline {
     double azimuth_deg = 0, arc_m = 0, radius_m = 0;
 
   private:
-    // Other projections have their own oracle (tests/grid/projection_test.cpp).
+    // Converts the azimuthal equidistant projection anew. Trusts GridProjection for other
+    // projections, which have their own oracle (tests/grid/projection_test.cpp).
     [[nodiscard]] PolarPoint as_seen(double x, double y) const {
         const MaskedTraps masked;
         GeoPoint place = projection_.to_geo({x, y});
@@ -177,7 +178,7 @@ OracleColumn::OracleColumn(const level2::Volume& volume, const std::vector<Chose
 }
 
 // Returns the rise per degree from the edges that are on their proper side of the beam's center. If
-// both are lost, returns the width of a degree at this range.
+// neither is, returns the width of a degree at this range.
 double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) {
     const bool has_lower = std::islessequal(beam.lower_edge_m, beam.height_m);
     const bool has_upper = std::isgreaterequal(beam.upper_edge_m, beam.height_m);

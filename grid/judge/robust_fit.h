@@ -4,9 +4,10 @@
 // Method    One step of Gauss and Newton with iterated weights (Huber 1964): squares within 1.345
 //           deviations, linear beyond. The deviation is 1.4826 times the median of the residuals'
 //           magnitudes.
-// Errors    Neighboring cells have similar errors, so many cells say little. Each row belongs to a
-//           block. The standard errors come from the jackknife over blocks (each left out in turn;
-//           Efron and Stein 1981), so rows of one block may have anything in common.
+// Errors    Neighboring cells have similar errors, so they say less than as many independent cells.
+//           Each row belongs to a block. The standard errors come from the jackknife over blocks
+//           (each left out in turn; Efron and Stein 1981), so rows of one block may have anything
+//           in common.
 // Threads   Pure functions, with the same bits every time.
 #pragma once
 

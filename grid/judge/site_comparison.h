@@ -64,7 +64,7 @@ struct ComparisonOptions {
     double least_range_m = 20e3;
     double greatest_range_m = 200e3;
     double least_correlation = 0.5;  // of A and B, after removing the faults
-    int most_columns = 6000;         // of more columns, every n-th is compared
+    int most_columns = 6000;         // if there are more, every n-th is compared
 };
 
 struct Estimate {

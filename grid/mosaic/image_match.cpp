@@ -15,7 +15,7 @@ struct Correlation {
 
 Correlation correlate(const EchoImage& before, const EchoImage& after, const PixelBox& box, int dx,
                       int dy) {
-    // The shift rounds toward minus infinity, so that the two halves add up to the whole.
+    // The operator >> rounds toward minus infinity. The other half, dx - back_x, gets the rest.
     const int back_x = dx >> 1, back_y = dy >> 1;
     double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
     std::size_t echoes = 0;

@@ -146,7 +146,8 @@ void InstantBrick::find_box(std::size_t end) {
             }
         }
     }
-    // No volume lasts long enough to move farther. Without this bound, a frame could take minutes.
+    // During a volume, no echo moves farther than this. Without the bound, a frame could take
+    // minutes.
     constexpr float most_columns = 256;
     const bool is_too_wide = east - west > most_columns || north - south > most_columns;
     if (is_too_wide && *early != *late) {
@@ -216,8 +217,8 @@ Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     return mix(source, x, y, cell);
 }
 
-// Returns the weight of the later end, linear between the times of the two ends. The instant is at
-// 0.
+// Returns the weight of the later end at the instant, linear between the times of the two ends,
+// which are relative to the instant.
 float InstantBrick::weight_of_after(std::size_t cell) const {
     const float before = sources_[0].seconds[cell], after = sources_[1].seconds[cell];
     if (!(after > before)) return 0.5F;

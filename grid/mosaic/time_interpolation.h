@@ -1,7 +1,7 @@
 // grid/mosaic/time_interpolation.h -- makes a grid for an instant between two volumes of one site.
 //
-// The volumes of a site come at irregular times, but a loop needs frames at regular times. The
-// rungs, from cheap to exact:
+// The volumes of a site come at irregular times, but a loop needs frames at regular times. There
+// are three methods, from cheap to exact:
 //   nearest   The volume whose middle is nearer to the instant, unchanged.
 //   blend     The two volumes, with weights linear in time.
 //   advected  The two volumes, each moved with its echo to the instant (semi-Lagrangian, bilinear

@@ -11,10 +11,10 @@ namespace {
 
 constexpr int widest_step = 8;
 constexpr double tolerance_m = 0.05;   // the greatest error of an arc that a check accepts
-constexpr double least_arc_m = 100e3;  // the square of a shorter arc may err as much as here
+constexpr double least_arc_m = 100e3;  // shorter arcs may err more
 // Patches whose nodes are all farther away are not checked, because no caller uses them.
 constexpr double farthest_asked_m = 2000e3;
-constexpr int patches_to_ask = 1024;  // of more patches, every fourth along x and y is checked
+constexpr int patches_to_ask = 1024;  // if there are more, every fourth along x and y
 
 // The weights of three nodes at -1, 0 and 1.
 using Weights = std::array<double, 3>;

@@ -59,7 +59,7 @@ Result<double> stratum_s(GridScene& scene, const Method& method,
     return *took_s * static_cast<double>(stratum.count) / static_cast<double>(stratum.tiles.size());
 }
 
-// Estimates the time of a geodesic for every column, from the times of some.
+// Estimates how long the geodesics of all columns take, by timing some of them.
 double geodesics_s(const GridScene& scene) {
     constexpr int a_side = 16;
     const GridSpec& spec = scene.spec();
@@ -127,8 +127,8 @@ void set_joint_costs(const Fills& fills, std::size_t interpolation, std::size_t 
     }
 }
 
-// Returns the step with this name. Only the circle may be missing in a grid's chain; callers check
-// for it.
+// Returns the step with this name, which the chain must have. Only step::circle may be missing in a
+// grid's chain.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }

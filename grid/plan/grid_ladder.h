@@ -1,10 +1,10 @@
 // grid/plan/grid_ladder.h -- measures the time and the error of each rung on one scene.
 //
-// Each rung of each step has a row. The row's error is against the exact form of the chain, with
-// every other step exact, over sampled columns. The row's time is the time of a whole grid with the
-// other steps at their default, so a difference of two rows is what a user pays for the better
-// rung. Rows of the step "chain" are whole chains, including the default methods, with their own
-// times and errors.
+// A step of gridding, such as the beam, can be done in several ways, its rungs. Each rung of each
+// step has a row. The row's error is against the exact form of the chain, with every other step
+// exact, over sampled columns. The row's time is the time of a whole grid with the other steps at
+// their default, so a difference of two rows is what a user pays for the better rung. Rows of the
+// step "chain" are whole chains, including the default methods, with their own times and errors.
 //
 // Position errors of the frame cover the sampled columns, position errors of the beam cover the
 // gates of the sweeps, and position errors of the elevation cover the radials. Times are

@@ -25,7 +25,7 @@
 
 namespace stormcellar::grid {
 
-// One rung of each step.
+// A choice of one rung for each step of gridding (grid/plan/grid_effects.h).
 struct SceneChoice {
     FrameKind frame = FrameKind::table;
     Method method;

@@ -65,10 +65,10 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     return {};
 }
 
-// Returns how many columns are needed for a good bound of the 99th percentile. A bound exists from
-// 900 columns on, if each holds as many errors as it may (accuracy/quantile_bound.h), but it is
-// then just the greatest error. Three times as many columns make the bound good. How much a column
-// holds is estimated from a sample that serves nothing else.
+// Returns how many columns are needed for a good bound of the 99th percentile. With 900 columns
+// that hold as many errors as they may (accuracy/quantile_bound.h), the bound is just the greatest
+// error; three times as many make it good. If columns hold less, more are needed in proportion; a
+// separate sample shows how much they hold.
 Result<std::size_t> columns_for_a_bound(GridScene& scene, const SceneChoice& exact,
                                         const PlanOptions& options) {
     constexpr double full_columns = 3 * 900;

@@ -100,7 +100,7 @@ class Mixture {
     [[nodiscard]] CellResult result_as(Blending blending) const;
     [[nodiscard]] float weight() const { return valued_ + quiet_ + folded_ + unseen_; }
     [[nodiscard]] float unseen() const { return unseen_; }
-    // These return true if no sample has another status than no echo, or than not seen.
+    // Return true if every sample is no echo, or if every sample is not seen.
     [[nodiscard]] bool is_all_quiet() const { return valued_ + folded_ + unseen_ == 0; }
     [[nodiscard]] bool is_all_unseen() const { return valued_ + quiet_ + folded_ == 0; }
 

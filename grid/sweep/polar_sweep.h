@@ -55,7 +55,8 @@ class PolarSweep {
         return gates_.sample(position, place, beam.gate_and_half);
     }
     // Returns the status of all samples within the bounds if all are no echo or all are not seen,
-    // else none. A status also holds for mixtures, which take one more gate and one more radial.
+    // else none. The status also holds for mixtures, although they take a gate and a radial beyond
+    // the bounds.
     [[nodiscard]] std::optional<CellStatus> uniform_status(const PolarBounds& bounds) const;
 
   private:

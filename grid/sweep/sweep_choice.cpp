@@ -31,7 +31,8 @@ struct Pattern {
     std::vector<double> angles_deg;
 };
 
-// Federal Meteorological Handbook 11, part C, chapter 5.
+// Returns the patterns of radars that sent no message with their pattern (Federal Meteorological
+// Handbook 11, part C, chapter 5).
 const std::vector<Pattern>& early_patterns() {
     static const std::vector<Pattern> patterns = {
         {11, {0.5, 1.45, 2.4, 3.35, 4.3, 5.25, 6.2, 7.5, 8.7, 10, 12, 14, 16.7, 19.5}},

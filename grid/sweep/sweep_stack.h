@@ -32,7 +32,7 @@ struct SweepStack {
 struct StackOptions {
     level2::Moment moment = level2::Moment::ref;
     double beam_width_deg = 0.95;
-    Method method;  // only beam, averaging, on_circle and cell count
+    Method method;  // only its beam, averaging, on_circle and cell are used
     // The profile for traced beams; none: the exponential reference atmosphere.
     std::optional<RefractivityProfile> profile = std::nullopt;
 };

@@ -40,9 +40,9 @@ class BzipBlocks {
         std::span<const std::byte> data;                // valid until the next call
         std::size_t position = 0;                       // of the first byte of the block in `bytes`
         std::size_t compressed_bytes = 0;
-        // The sum of waste_of() over the failed tries for this block. The bytes of failed tries
-        // count as output, because unpacking took time, but only by half, because a damaged block
-        // costs several tries and a good block costs one.
+        // The sum of waste_of() over the failed tries for this block. Failed tries count as output,
+        // because unpacking took time. They count half, because a damaged block costs several
+        // tries.
         std::uint64_t wasted_bytes = 0;
     };
     static constexpr std::uint64_t least_try_bytes = std::uint64_t{256} << 10;

@@ -2,10 +2,10 @@
 // limit.
 //
 // A moment of a sweep may come in several kinds, which differ in gates, scale or word size. For
-// each kind, a sweep takes one row for each radial, as long as the longest row of the kind, and
-// some fixed bytes. The count is the same if radials come one by one or in pieces. The pieces of a
-// sweep together count for no more than the sweep, because a piece that may continue a sweep does
-// not count the fixed bytes. So the count does not depend on how a volume is cut into fragments.
+// each kind, a sweep takes some fixed bytes, and one row for each radial, as long as the longest
+// row of the kind. The radials of a sweep may come in several pieces
+// (level2/decode/fragment_builder.h). A piece that may continue a sweep does not count the fixed
+// bytes again, so the count does not depend on how a volume is cut into fragments.
 //
 // Units     Bytes.
 // Threads   One thread at a time.

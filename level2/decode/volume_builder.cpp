@@ -169,7 +169,7 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
 bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
     const std::size_t sweep = volume_.sweeps.size();
     DecodeReport::FurtherPattern pattern = pattern_of(piece);
-    // split_volumes() gives each volume the pattern and the block.
+    // Count a pattern and a block for each volume, because split_volumes() copies them.
     const std::uint64_t bytes = sizeof(Volume) + sizeof(pattern) +
                                 sizeof(DecodeReport::FurtherHeader) +
                                 (pattern.message ? bytes_of(*pattern.message) : 0) +

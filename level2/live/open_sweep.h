@@ -36,7 +36,8 @@ struct OpenSweep {
 [[nodiscard]] std::vector<OpenSweep> sweeps_of(const std::map<int, LiveChunk>& chunks);
 
 // Joins the pieces in the same way as VolumeBuilder. Returns a sweep without radials if the sweep
-// exceeds the limit. `depot` may be null if no sweep is in a depot. Errors: those of the depot.
+// exceeds the limit. `depot` may be null if no sweep is stored in a SweepDepot. Errors: those of
+// the depot.
 [[nodiscard]] Result<Sweep> join(const OpenSweep& sweep, std::uint64_t limit_bytes,
                                  const SweepDepot* depot);
 

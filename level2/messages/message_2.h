@@ -3,8 +3,8 @@
 //
 // The decoder drops no data because of this status; a radial marks bad data in its own status. The
 // message has 40 halfwords up to build 17 and 60 from build 18 on; optional members are none if the
-// build lacks them. Legacy RDAs, which the Open RDA replaced in 2005 and 2006, have other contents
-// in halfwords 6 and 10 to 15.
+// build lacks their halfwords. Legacy RDAs, which the Open RDA replaced in 2005 and 2006, have
+// other contents in halfwords 6 and 10 to 15.
 //
 // Threads   Plain data and pure functions.
 #pragma once

@@ -76,8 +76,8 @@ using RadialResult = tl::expected<RadialMessage, std::string_view>;
 // If it is unproven, a fault in any block may mean that the message has lost bytes.
 enum class Framing : std::uint8_t { unproven, proven };
 
-// Read a radial. `body` is the message after its 28 bytes of header. With unproven framing, they
-// refuse the whole radial at the first fault in a block, and lost_moments stays empty.
+// Read a radial. `body` is the message after its 28 bytes of header. With unproven framing, the
+// functions refuse the whole radial at the first fault in a block, and lost_moments stays empty.
 [[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body,
                                           Framing framing = Framing::unproven);
 [[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body,

@@ -18,8 +18,8 @@ constexpr std::chrono::hours header_tolerance{1};
 
 constexpr double altitude_tolerance_m = 30;
 constexpr double position_tolerance_deg = 0.01;
-// Within this distance, the position from the radar is taken, because sites have moved by some
-// kilometers. A position farther off is wrong.
+// If the radar sends a position within this distance of the station table, the sent position is
+// used, because sites have moved by some kilometers. A position farther off is wrong.
 constexpr double position_limit_deg = 1;
 
 std::optional<AntennaPosition> position_of_block(const VolumeBlock& block) {

@@ -28,7 +28,7 @@ struct Field {
 template <class Part, class Value>
 Field(std::string_view name, Value Part::*value) -> Field<Part, Value>;
 
-// The fields of all parts, in the order in which they are compared.
+// The fields of all parts of a volume (radials, sweeps and others), in the order of comparison.
 constexpr std::tuple fields = {
     Field{"time", &Radial::time},
     Field{"azimuth", &Radial::azimuth_deg},
