@@ -18,8 +18,8 @@ constexpr std::chrono::hours header_tolerance{1};
 
 constexpr double altitude_tolerance_m = 30;
 constexpr double position_tolerance_deg = 0.01;
-// If the radar sends a position within this distance of the station table, the sent position is
-// used, because sites have moved by some kilometers. A position farther off is wrong.
+// If the radar sends a position within this distance of the station table, the sent latitude and
+// longitude are used, because sites have moved by some kilometers. A position farther off is wrong.
 constexpr double position_limit_deg = 1;
 
 std::optional<AntennaPosition> position_of_block(const VolumeBlock& block) {
@@ -56,7 +56,7 @@ AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) 
     if (step_deg > position_limit_deg) {
         position = position_of_station(station);
     } else if (altitude_differs && step_deg <= position_tolerance_deg) {
-        // A site that has moved has another height, too.
+        // The site has not moved, so the altitude of the station table is right.
         position.altitude_m = station.antenna_altitude_m;
         position.from_table = true;
     }

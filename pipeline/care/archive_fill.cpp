@@ -176,7 +176,7 @@ std::uint64_t bytes_of_grids(const ArchiveOptions& options, std::size_t volumes,
     if (options.domain) {
         const grid::GridSpec& spec = options.domain->spec;
         const auto all = static_cast<double>(spec.cell_count());
-        // Count the part of the domain that one site reaches.
+        // Count only the share of the domain that one site reaches.
         const double side = 2 * grid::site_reach_m;
         const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
                                std::min(1.0, side / (spec.ny * spec.cell_height_m()));

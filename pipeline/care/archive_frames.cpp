@@ -15,9 +15,9 @@ namespace {
 // A worker takes this many consecutive instants, so that it can reuse what it has just read.
 constexpr std::size_t instants_a_turn = 4;
 
-// State of the frame at one instant, and problems found when it was made.
+// The state in which the frame of one instant was found, and the problems of making it.
 struct FrameOutcome {
-    FrameStanding standing = FrameStanding::not_due;  // before it was made
+    FrameStanding standing = FrameStanding::not_due;  // before this run
     std::vector<std::string> problems;
 };
 

@@ -25,7 +25,7 @@ constexpr std::chrono::minutes most_ahead{10};
 
 struct Finding {
     Error error;
-    bool opened = false;  // the contents are wrong or cannot be read
+    bool opened = false;  // true: the file opened, and the error is in its contents
 };
 
 std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
@@ -111,7 +111,7 @@ std::string CacheMender::why_not_again(const std::string& station, UtcTime time)
 
 Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto found = look_at(entry.path, depth);
-    // The grid was evicted or replaced in the meantime, which is not damage.
+    // The grid is sound, or was evicted in the meantime.
     if (!found || found->error.code == ErrorCode::not_found) return MendedGrid{};
     const MosaicMaker& mosaics = ingestor_.mosaics();
     if (mosaics.find(entry.domain, entry.moment) != nullptr) {
@@ -185,7 +185,8 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     return mended;
 }
 
-// Makes the frame again. It replaces the damaged one at once and continues its count of revisions.
+// Makes the frame again. The new frame replaces the damaged frame at once and continues its count
+// of revisions.
 Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const Error& damage) {
     MendedGrid mended{GridCondition::made_again, damage.message, {}, {}};
     std::vector<std::string> problems;
@@ -248,7 +249,7 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
                                                          std::chrono::milliseconds newest) {
     std::vector<MissingGrid> missing;
     auto entries = catalog_.list(station, {{}, now_utc() + most_ahead, false});
-    // The catalog reports a database that cannot be read as a trouble of its own station.
+    // Skip a station whose database cannot be read; the catalog reports it (troubles()).
     if (!entries || entries->empty()) return missing;
     const auto standing = standing_of(station, *entries->back().volume.start_time - newest);
     if (!standing) return pass_on(standing);

@@ -81,7 +81,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
 
 Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     RebuildReport report;
-    // The daemon stores absolute paths without links; rows are found by them.
+    // Rows are found by their paths, and the daemon stores absolute paths without links.
     std::error_code error;
     const fs::path drop = fs::canonical(options.drop, error);
     if (error) {

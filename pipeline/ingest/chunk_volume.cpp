@@ -143,7 +143,8 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
     former_representative_.clear();  // no job was told to poll it
     const auto now = level2::LiveVolume::Clock::now();
     if (!all && !fails_since_) fails_since_ = now;
-    // One bad sector must not keep the rest of the volume back.
+    // After two minutes, go on without the files that fail, so that one bad sector does not hold
+    // back the rest of the volume.
     if (!all && now - *fails_since_ < longest_failing) return all;
     return {};
 }

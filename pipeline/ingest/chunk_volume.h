@@ -114,7 +114,7 @@ class ChunkVolume {
     std::vector<level2::Moment> moments_;
     std::filesystem::path beneath_;
     std::unique_ptr<ShelvedVolume> kept_;
-    std::unique_ptr<level2::SweepDepot> depot_;  // on the shelf of kept_
+    std::unique_ptr<level2::SweepDepot> depot_;  // stores sweeps on the shelf of kept_
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::uint64_t read_bytes_ = 0;

@@ -83,7 +83,7 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
         if (Status settled = settle_others(); !settled) return pass_on(settled);
         return context.reject(facts, decoded.error(), std::move(outcome));
     }
-    // From now on the first chunk's row describes the whole volume.
+    // Register the other chunks; the first chunk's row then describes the whole volume.
     const std::string taken_station = context.taken_station(station);
     if (Status seen = context.catalog.register_files(taken_station, as_seen(others)); !seen)
         return pass_on(seen);

@@ -17,8 +17,8 @@ using Added = ChunkVolume::Added;
 
 }  // namespace
 
-// Returns the chunks of the volume that are still expected. Once a file is quiet and the volume's
-// end has come, none are, so that a volume that found no place is read then.
+// Returns the chunks of the volume that are still expected. None are expected once a file is quiet
+// and the volume's end has come; a volume that found no place is then read.
 ChunkVolumes::Expected TakeChunk::expected() const {
     using Expected = ChunkVolumes::Expected;
     switch (file_.finish) {

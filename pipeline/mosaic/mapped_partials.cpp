@@ -80,7 +80,7 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
             if (bad_.contains(entry.path)) continue;
             auto file = cache::GridFile::open(entry.path);
             if (!file && file.error().code == ErrorCode::io)
-                file = cache::GridFile::open(entry.path);  // a disk may fail once
+                file = cache::GridFile::open(entry.path);  // try again: a disk may fail once
             if (!file && ends_it(file.error()))
                 return fail(is_shortage(file.error().code) ? file.error().code : ErrorCode::io,
                             "{}", file.error().message);

@@ -30,7 +30,7 @@ inline constexpr std::string_view codes = "codes";
 }  // namespace step
 [[nodiscard]] bool is_of_merging(const accuracy::Step& step);
 
-// One rung for every step.
+// A choice of one rung for every step.
 struct MosaicChoice {
     grid::SceneChoice gridding;
     grid::TimeMethod time = grid::TimeMethod::advected;

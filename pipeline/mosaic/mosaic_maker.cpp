@@ -42,7 +42,8 @@ PartialOptions partial_options(const Domain& domain, level2::Moment moment,
     return options;
 }
 
-// The time from the site's previous volume to its next one, or less; the frames in it change.
+// The span of the frames that a new volume changes: from the previous volume of its site to the
+// next, but at most greatest_frame_gap to each side, and within the times of all partials.
 struct Span {
     UtcTime from, to;
 };

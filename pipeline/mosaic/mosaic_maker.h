@@ -14,9 +14,9 @@
 // use. A partial that cannot be read, or is damaged, is left out of frames and named in the
 // problems.
 //
-// If the process ends or a disk fails between a partial and its frames, the frames lack the
-// partial. So the frames around each partial of another machine that the store already has are
-// checked again (make_stale()).
+// If the process ends or a disk fails after a partial was stored and before its frames were made,
+// the frames lack the partial. So the frames around each partial of another machine that the store
+// already has are checked again (make_stale()).
 //
 // A frame leaves out the stations of late machines (pipeline/options/partial_sources.h); its
 // provenance names them.
@@ -98,7 +98,7 @@ class MosaicMaker {
 
     // Makes the partials of a volume and the frames that they change. Does nothing if no domain
     // uses the volume. Uses `threads` threads. Errors: only temporary ones, for example if the
-    // system refuses a write; the other domains have the volume nevertheless. Lasting ones are
+    // system refuses a write; the other domains have the volume nevertheless. Lasting errors are
     // among the problems.
     Result<Kept> take_in(const VolumeSource& source, int threads);
     // Copies a partial that another machine made into the store, and makes the frames that the

@@ -14,10 +14,10 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Limits of a part, far above real parts. They keep the texts of a frame's parts small and quick to
-// process.
-constexpr std::size_t most_notes = 64;  // and as many troubles of the radar
-constexpr std::size_t most_files = 8;   // and as many stations
+// Limits of a partial (a part of its frames), far above real ones. They keep the texts of a frame
+// small and quick to process.
+constexpr std::size_t most_notes = 64;  // of notes, and of troubles of the radar
+constexpr std::size_t most_files = 8;   // of source files, and of stations
 constexpr std::size_t most_sweeps = 256;
 constexpr std::size_t most_audit_rows = 64;
 constexpr std::size_t most_text_bytes = 1024;
@@ -25,7 +25,7 @@ constexpr std::size_t most_text_bytes = 1024;
 // The first and the last radial of a volume are within minutes of its start.
 constexpr std::chrono::hours farthest_radial_of_part{1};
 
-// Returns the name of a list in which a part exceeds a limit; empty if there is none.
+// Returns the name of a list that is too long in a partial's provenance; empty if there is none.
 std::string_view excess_of(const grid::Provenance& part) {
     if (part.notes.size() > most_notes || part.radar_troubles.size() > most_notes) return "notes";
     if (part.source_files.size() > most_files || part.stations.size() > most_files) return "names";
@@ -62,7 +62,7 @@ Status check_records(const OthersPartial& partial, const cache::GridDescription&
     return {};
 }
 
-// Checks that the grid's description fits its name, and that the grid is a part of this domain.
+// Checks that the grid's description fits its name, and that the grid is a window of this domain.
 Status check(const OthersPartial& partial, const cache::GridDescription& grid,
              const Domain& domain) {
     const std::string station = partial.name.domain.substr(domain.name.size() + 1);
@@ -91,8 +91,8 @@ bool is_within(const grid::GridWindow& one, const grid::GridWindow& other) {
            one.end_x() <= other.end_x() && one.end_y() <= other.end_y();
 }
 
-// Checks that the part can be merged with others; a merge refuses the whole frame if one part does
-// not match.
+// Checks that the partial can be merged with others, because a merge refuses the whole frame if one
+// partial does not match.
 Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
                    const Domain& domain) {
     const cache::GridDescription& grid = file.description();

@@ -42,7 +42,7 @@ Result<std::optional<SiteWatch::CompleteFrame>> SiteWatch::newest_complete(
     for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry) {
         if (++looked_at > frames_looked_at) break;
         const auto file = cache::GridFile::open(entry->path);
-        if (!file) continue;  // damaged: others repair it
+        if (!file) continue;  // damaged; CacheMender repairs it
         const grid::Provenance& provenance = file->description().provenance;
         if (provenance.provisional || provenance.parts.empty()) continue;
         return CompleteFrame{&domain, file->description()};

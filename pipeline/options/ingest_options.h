@@ -54,8 +54,8 @@ struct LivingGrids {
     // Limit of sweeps on disk, applied like most_shelf_bytes. Beyond it, growing volumes are given
     // up (pipeline/ingest/growing_set.h) and read again from their files.
     std::uint64_t shelf_bytes = most_shelf_bytes;
-    // Limit of the number of followed files, of volumes of chunks, and of last volumes of sites,
-    // separately. Each holds a descriptor.
+    // The same limit for three numbers: of followed files, of volumes of chunks, and of last
+    // volumes of sites. Each file or volume holds a descriptor.
     std::size_t count = 320;
 };
 

@@ -18,8 +18,8 @@ namespace stormcellar::pipeline {
 // The ways in which ingesting a file can end. ended::X below has the facts that belong to only one
 // ending.
 enum class IngestResult {
-    // Registered, and the cache has the site's own grid of some volume, or its limits do not keep
-    // it. If no own grids are made, a partial counts instead.
+    // Registered, and the cache has the site's own grid of some volume, or the cache's limits do
+    // not keep that grid. If no own grids are made, a partial counts instead.
     gridded,
     no_moment,      // registered; there is nothing to grid, for example no sweep of the moments
     no_position,    // registered; neither the file nor the table gives the position of the radar

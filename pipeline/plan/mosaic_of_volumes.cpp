@@ -58,7 +58,8 @@ grid::Grid dense_grid_of(const MosaicFrame& frame) {
     grid.frame_time = frame.description.time;
     grid.sites = frame.description.sites;
     grid.provenance = frame.description.provenance;
-    // If no site sees a cell, both are 0, which is how to_dense() leaves cells without a value.
+    // The count and the weight of a cell that no site sees are 0, the value that to_dense() gives
+    // cells without a value.
     if (frame.mosaic.counts) {
         const grid::Grid counts = grid::to_dense(frame.mosaic.counts->view());
         grid.site_counts.assign(counts.values.begin(), counts.values.end());

@@ -153,7 +153,7 @@ constexpr ColorClass safe_rho_classes[] = {
     {0.97F, 0xFFE0A5}, {0.98F, 0xFFEFCB}, {0.99F, 0xFFFBEB},
 };
 
-// Classes without blending. Nothing draws the table of a product that is not a moment as a volume.
+// A table of classes without blending. Only a table with a moment is drawn as a volume.
 struct SteppedTable {
     std::string_view name;
     std::optional<Moment> moment;

@@ -58,7 +58,7 @@ Result<Probe> probe_column(const grid::BrickView& view, const FrameFacts& facts,
                            std::size_t column, grid::GeoPoint place, int threads) {
     if (view.sweep != nullptr) return probe_sweep(*view.sweep, scene, place);
     Scene map = scene;
-    // In a volume, the ground shows the column under the pixel.
+    // For a volume, read the maximum of the column over the ground under the pixel.
     if (view_of(scene.product) == View::volume) map.product = Product::composite;
     const auto field = map_field(view, facts, map, summarize_columns(view, threads), threads);
     if (!field) return pass_on(field);

@@ -22,7 +22,7 @@ struct TownLook {
 };
 constexpr std::array towns = {TownLook{400'000, 10.5, true}, TownLook{100'000, 9.5, true},
                               TownLook{0, 8.5, false}};
-// If there are more sites than this, their names are small, and fewer.
+// If there are more sites than this, their names are small and pale.
 constexpr std::size_t few_sites = 3;
 constexpr double north_radius = 17;
 // Bounds of the steps in the scale of heights: 1 to 10 km, 5 to 50 thousand feet.
@@ -86,7 +86,7 @@ class Planner {
     }
 
     // Chooses the corner for the arrow and the bar: the first corner without a site, or else the
-    // first. Marks under them are not drawn.
+    // first corner. Sites under the arrow or the bar are not drawn.
     void plan_corner() {
         const double w = scaled(2 * north_radius + 8);
         const double h = scaled(2 * north_radius + 28);

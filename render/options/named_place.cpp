@@ -98,13 +98,14 @@ Error unknown(std::string_view option, std::string_view text, const Asked& asked
         return Error{ErrorCode::bad_argument,
                      fmt::format("{}: there is no place '{}'{}", option, printable(text), meant)};
     };
-    // The state of "Moore, Oklahoma" is wrong, or not written with two letters.
+    // If a town of this name exists elsewhere, the state is wrong or is not written with two
+    // letters.
     if (!asked.region.empty()) {
         const Candidates elsewhere = towns_called({asked.name, {}});
         if (!elsewhere.empty()) return said("; there is " + list_of(elsewhere));
     }
     std::vector<std::string> names;
-    // A town in that state is preferred over a town elsewhere with the same letters.
+    // Suggest a similar name, first among the towns of the given state and then among all towns.
     for (const bool in_state : {true, false}) {
         if (in_state && asked.region.empty()) continue;
         names.clear();

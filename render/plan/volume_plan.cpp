@@ -104,7 +104,7 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene, const Ch
     const Image& truth = scene.draw(volume_choice(chain, exact)).picture;
     std::vector<accuracy::LadderRow> rows;
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        if (exact.rungs[i] == 0) continue;  // the scene asks for none of its effects
+        if (exact.rungs[i] == 0) continue;  // the scene asks for no effect of this step
         for (std::size_t k = 0; k <= exact.rungs[i]; ++k) {
             const auto& drawn = scene.draw(volume_choice(chain, with_rung(exact, i, k)));
             const auto off = difference(drawn.picture, truth);

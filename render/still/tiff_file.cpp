@@ -266,7 +266,7 @@ std::string layout_text() {
         "BLOCK_ORDER=ROW_MAJOR\n"
         "BLOCK_LEADER=SIZE_AS_UINT4\n"
         "BLOCK_TRAILER=LAST_4_BYTES_REPEATED\n"
-        "KNOWN_INCOMPATIBLE_EDITION=NO\n ";  // the blank can become YES in place
+        "KNOWN_INCOMPATIBLE_EDITION=NO\n ";  // with room for YES in place of NO
     return fmt::format("GDAL_STRUCTURAL_METADATA_SIZE={:06} bytes\n{}", lines.size(), lines);
 }
 

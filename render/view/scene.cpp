@@ -55,7 +55,7 @@ Status check_colors(const Scene& scene) {
     }
     const std::string wanted = unit_shown(scene);
     const std::string& unit = scene.colors->unit;
-    // A table of RHO has no unit either.
+    // A table that states no unit fits any picture. A table for RHO states that values have none.
     const bool of_numbers = unit_of(scene.colors->moment).empty();
     if (unit == wanted || (unit.empty() && !of_numbers)) return {};
     return fail(ErrorCode::bad_argument, "color table {} is {}, but the picture is {}",

@@ -72,7 +72,8 @@ Result<const UnitFacts*> unit_named(std::string_view name) {
 // The units that were named so far, in the order of `quantities`.
 using NamedUnits = std::array<const UnitFacts*, quantities.size()>;
 
-// Makes the unit the unit of each of its quantities for which none is named yet.
+// Takes the unit for each quantity that it measures and that has no unit yet. Errors: bad_argument
+// if all these quantities have units.
 Status take(const UnitFacts& facts, NamedUnits& named) {
     bool is_used = false;
     const Quantity* taken = nullptr;

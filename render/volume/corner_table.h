@@ -35,7 +35,8 @@ class CornerTable {
     [[nodiscard]] const std::byte* words() const {
         return reinterpret_cast<const std::byte*>(words_.get());
     }
-    // Returns the words from one cell to the next; along z it is 1.
+    // Return how many words the next cell along x or y is away. The next cell along z is the next
+    // word.
     [[nodiscard]] std::int32_t stride_x() const { return stride_x_; }
     [[nodiscard]] std::int32_t stride_y() const { return stride_y_; }
 

@@ -34,8 +34,8 @@ HWY_INLINE Number load_as(const std::byte* from) {
     return number;
 }
 
-// The numbers of a vector one by one. Some compilers would replace the memory by shuffles, which
-// are slower than reading the vector back; the asm statement prevents this.
+// Stores a vector, so that its numbers can be read one by one. The asm statement keeps compilers
+// from reading them with shuffles instead, which is slower.
 class LaneNumbers {
   public:
     HWY_INLINE explicit LaneNumbers(IntVec numbers) {
@@ -79,8 +79,8 @@ HWY_INLINE auto blocks_from(int first, Block block) {
     }
 }
 
-// Returns the halves of word(lane) for all lanes. Everything stays in registers, because a vector
-// that is read over stores of single numbers would have to wait for them.
+// Returns the halves of word(lane) for all lanes. Everything stays in registers, because reading a
+// vector from memory must wait if its numbers were just stored one by one.
 template <class Word>
 HWY_INLINE Halves halves_of(Word word) {
     const hn::Full64<std::uint64_t> one;

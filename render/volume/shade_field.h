@@ -4,11 +4,12 @@
 // On a grid of 2 x 2 columns and single levels, made once for each time step, the field holds the
 // factor
 //   shade = S T + 0.25 s (1 - |n v|)^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)
-// where n is the direction in which the values fall, v the view and u the sun. s = g / (g + 1.5 dB
-// per km of drawn space) tells how much of a surface there is where the values fall by g. t is the
-// light that gets through from the sun and the sky (render/volume/light_volume.h). s belongs to
-// `gradient`, and t to `shadow` and `scattering` (stormcellar/render/light.h). If a scene does not
-// ask for these kinds of light, s = 0 or T = 1. A factor of 1 does not change a color.
+// where n is the direction in which the values fall, v the direction of the view and u of the sun.
+// With g the gradient of the values, s = g / (g + 1.5 dB per km of drawn space) says how much like
+// a surface the place is. t is the light that gets through from the sun and the sky
+// (render/volume/light_volume.h). s belongs to `gradient`, and t to `shadow` and `scattering`
+// (stormcellar/render/light.h). If a scene does not ask for these kinds of light, s = 0 or T = 1. A
+// factor of 1 does not change a color.
 //
 // The value of a cell is its reflectivity above 0 dBZ (or above the lowest color of the table, if
 // that is below 0), counted up to 60 dBZ; any value of another moment counts as 30. Values are

@@ -61,7 +61,7 @@ void reach(int first, int past, int cells, double edge_low, double edge_high, Ce
 
 }  // namespace
 
-// A range of cells, along each axis from the first to before the last.
+// A range of cells: along each axis from `first` to before `past`.
 struct SliceMask::Cells {
     int first[3], past[3];
 };
