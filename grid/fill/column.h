@@ -2,9 +2,9 @@
 //
 // Between the beams of adjacent sweeps, a cell is blended from both, linear in height, or takes the
 // nearer beam (Interpolation::nearest). Elsewhere (below the lowest beam, above the highest, and
-// between sweeps with a lost cut between them), a cell takes the sample of the nearer beam if the
-// cell is within the edges of that beam; if not, the cell is not seen. grid/sweep/mixture.h has the
-// rule for a blend of two samples.
+// between sweeps with a lost cut between them), a cell takes the sample of the beam whose edges
+// enclose it, or of the nearer beam if the edges of both do. If no beam encloses the cell, it is
+// not seen. grid/sweep/mixture.h has the rule for a blend of two samples.
 //
 // Threads   Pure functions.
 #pragma once

@@ -102,8 +102,8 @@ struct FaultLimits {
 [[nodiscard]] std::vector<std::string> faults(const SiteComparison& comparison,
                                               const FaultLimits& limits = {});
 // Returns sentences such as "KB against KA: time cannot be determined: the motion is not known",
-// one for each fault that has no estimate, or whose standard error is so large that a fault of
-// twice its limit would not be named.
+// one for each fault that has no estimate or an uncertain one: with its standard error, even a
+// fault of twice the limit would not be named.
 [[nodiscard]] std::vector<std::string> untold(const SiteComparison& comparison,
                                               const FaultLimits& limits = {});
 

@@ -28,7 +28,7 @@ struct SitePair {
     ColumnPoint column;  // in B's grid, without any fault
     double height_m = 0;
     SiteShift by_azimuth, by_elevation, by_time;  // per degree, degree and second
-    double apart_s = 0;                           // how much later B looked than A
+    double apart_s = 0;                           // how much later B measured the echo than A
     std::uint32_t block = 0;
 };
 

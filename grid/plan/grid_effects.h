@@ -1,4 +1,5 @@
-// grid/plan/grid_effects.h -- the steps, rungs and effects of a grid, for the accuracy planner.
+// grid/plan/grid_effects.h -- the steps of gridding, the ways to do each (rungs), and the effects
+// that better rungs include; for the accuracy planner.
 //
 //   step           rungs, from cheap to exact                      effects that reach them
 //   frame          sphere, table, geodesic                         ellipsoid, exact_geodesic

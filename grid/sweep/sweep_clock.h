@@ -7,9 +7,9 @@
 // Model     The antenna turns clockwise at constant speed. The time of a cell is the mean of the
 //           two sweeps whose beams (4/3 earth) pass next below and above it, with weights linear in
 //           height. Above and below all beams, only the nearest sweep counts.
-// Accuracy  For real volumes, the 95th percentile over cells: the larger of 2 s and 6 % of the
-//           longest time from one sweep to the next, against the mean time of the cell's gates
-//           (Detail::age). The causes are radials above or below the median of their sweep, and
+// Accuracy  In real volumes, 95 % of the cells differ from the mean time of their gates
+//           (Detail::age) by less than 2 s or 6 % of the longest time from one sweep to the next,
+//           whichever is more. The causes are radials above or below the median of their sweep, and
 //           sweeps of more than a turn, which see some azimuths twice. Enforced by
 //           tests/grid/sweep_clock_test.cpp.
 // Threads   Immutable.

@@ -52,8 +52,7 @@ void ReportWriter::add(Problem problem) {
     problems.push_back(std::move(problem));
 }
 
-// Adds a problem with a count, without a limit, because there are few kinds of them whatever the
-// input.
+// Adds a problem with a count. There is no limit, because there are few kinds of such problems.
 void ReportWriter::add_counted(Problem problem) {
     if (problem.severity == Severity::error) report_.errors += problem.count;
     const auto same = [&](const Problem& other) {

@@ -2,13 +2,14 @@
 // does.
 //
 // The daemon's own chain (pipeline/ingest/ingest.h) reads, grids and commits the volumes, several
-// at a time. For a domain, the sites' partials are made first and then each frame once
-// (pipeline/mosaic/mosaic_maker.h). A volume's grid that the cache already has is kept if it was
-// made from the present file and has the requested grid spec. A frame is kept if it was made from
-// the present partials by the present rules. So a second call continues where the first one ended,
-// even after a crash, because grids appear whole. The report names files that are left out: files
-// that are gone, have nothing to grid, or are no longer the cataloged ones
-// (stormcellar/catalog/read_cataloged.h). Open the store so that no one else writes to it.
+// at a time. For a domain, the partials (grids of single sites) are made first, then each frame
+// (the merged grid of an instant) once (pipeline/mosaic/mosaic_maker.h). A volume's grid that the
+// cache already has is kept if it was made from the present file and has the requested grid spec. A
+// frame is kept if it was made from the present partials by the present rules. So a second call
+// continues where the first one ended, even after a crash, because grids appear whole. The report
+// names files that are left out: files that are gone, have nothing to grid, or are no longer the
+// cataloged ones (stormcellar/catalog/read_cataloged.h). Open the store so that no one else writes
+// to it.
 //
 // Memory    As many decoded volumes as there are workers (at most most_workers), and their grids.
 // Threads   An ArchiveFill is for one thread at a time. `progress` is called from its workers, one

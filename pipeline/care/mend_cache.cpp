@@ -66,9 +66,8 @@ bool may_have_a_grid(const CatalogEntry& entry) {
            entry.volume.start_time && entry.volume.radial_count > 0;
 }
 
-// Returns the file from which the volume's grid must be made: a complete file before an incomplete
-// one, then the file with the later end, then the file with the larger hash, because the age of
-// files must not matter.
+// Returns the file from which the volume's grid must be made. Prefers a complete file, then the
+// later end, then the larger hash. The age of files does not matter.
 std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
                                 std::span<const CatalogEntry> of_one_volume) {
     using Rank = std::tuple<bool, std::optional<UtcTime>, std::uint64_t>;

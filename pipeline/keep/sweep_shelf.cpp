@@ -129,7 +129,7 @@ tl::unexpected<Error> system_failure(std::string_view what, int number) {
     return failed;
 }
 
-// Calls move(done), which reads or writes the bytes behind those that are done, until all are done.
+// Calls move(done) until all bytes are read or written; `done` is the number of bytes so far.
 template <class Move>
 Status move_all(std::uint64_t bytes, std::string_view verb, const Move& move) {
     for (std::uint64_t done = 0; done < bytes;) {

@@ -11,7 +11,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-// The number of open partials of a station beyond which those that cannot count are closed.
+// If a station has more open partials than this, the partials that cannot count are closed.
 constexpr std::size_t most_open = 24;
 
 UtcTime middle_of_file(const OpenPartial& partial) {

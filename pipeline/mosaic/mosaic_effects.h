@@ -1,6 +1,6 @@
-// pipeline/mosaic/mosaic_effects.h -- the steps, rungs and effects of a frame of several sites. The
-// steps of gridding (grid/plan/grid_effects.h), the same for all volumes, come first. The steps of
-// merging follow:
+// pipeline/mosaic/mosaic_effects.h -- the steps of making a frame of several sites, the ways to do
+// each (rungs), and the effects that better rungs include. The steps of gridding
+// (grid/plan/grid_effects.h), the same for all volumes, come first. The steps of merging follow:
 //
 //   step      rungs, from cheap to exact                     effects that reach them
 //   time      nearest, blend, advected                       time_blend, echo_motion

@@ -59,9 +59,9 @@ inline constexpr double greatest_color_value = 1e6;
 // bad_argument for an unknown name.
 [[nodiscard]] Result<ColorTable> colors_from(const std::string& name_or_file);
 
-// Returns the extinction for a table whose stops are set: default_extinction() if the table is for
-// a moment, else a rise from 0.02 to 0.5 per km over the table; either is multiplied by the alpha
-// of the table's colors.
+// Returns the extinction for a table whose stops are set. A table for a moment gets
+// default_extinction(), any other table a rise from 0.02 to 0.5 per km. The alpha of the table's
+// colors multiplies both.
 [[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colors(const ColorTable& table,
                                                                 bool of_moment);
 

@@ -1,4 +1,5 @@
-// render/plan/volume_effects.h -- the ladder of a volume's picture: its steps, rungs and effects.
+// render/plan/volume_effects.h -- the steps of drawing a volume, the ways to do each (rungs), and
+// the effects that lead from rung to rung.
 //
 // Each step has a lowest rung and effects. Each effect turns on the next rung. The list gives the
 // lowest rung of each step, then each effect with its rung:

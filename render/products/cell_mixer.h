@@ -45,7 +45,8 @@ class CellMixer {
 };
 
 // The two levels around a height, and the share of the upper one. Both are the same level if the
-// height is at a level, or below the first or above the last level but within its cells.
+// height is at a level. For heights below the first level or above the last, but within its cells,
+// both are that level.
 struct LevelPair {
     int lower = 0, upper = 0;
     double upper_share = 0;

@@ -6,9 +6,9 @@
 //   state    If all four cells are a value or no echo, the result is a value if the cells with
 //            values weigh half or more (bilinear weights), else no echo. Otherwise the result has
 //            the state of the nearest cell.
-//   value    In the cubic, each of the four cells without a value has the mean of the others, and
-//            each of the twelve cells around them without a value has the value of the nearest of
-//            the four.
+//   value    For the cubic, cells without a value get one: each of the four gets the mean of the
+//            others, and each of the twelve cells around them gets the value of the nearest of the
+//            four.
 // At the center of a cell, the result is exactly the cell. Beyond the outermost centers, the cells
 // at the edge are repeated.
 //

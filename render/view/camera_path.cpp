@@ -122,7 +122,7 @@ CameraPath::PlaceCurves CameraPath::place_curves(const std::vector<Eye>& places)
         y.push_back(place.y_m);
         height.push_back(place.height_m);
     }
-    // A camera that stays for a while neither leaves early nor arrives late.
+    // If two keys in a row have one place, the camera is at rest at both, so that it stays there.
     std::vector<bool> is_held(places.size(), false);
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         if (x[i] != x[i + 1] || y[i] != y[i + 1]) continue;

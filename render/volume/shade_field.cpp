@@ -119,7 +119,8 @@ class ShadeField::Baker {
         count += seen ? 1.0F : 0.0F;
     }
 
-    // Fills the levels of a coarse column that were not seen from those that were seen.
+    // Gives each unseen level of a coarse column the mean of the next seen level below, or of the
+    // lowest seen level.
     static void fill_holes(std::span<float> means, std::span<const float> counts) {
         std::size_t first = 0;
         while (first < counts.size() && counts[first] == 0)

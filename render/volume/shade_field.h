@@ -14,8 +14,9 @@
 // The value of a cell is its reflectivity above 0 dBZ (or above the lowest color of the table, if
 // that is below 0), counted up to 60 dBZ; any value of another moment counts as 30. Values are
 // averaged over 2 x 2 columns and smoothed along each axis by 1-4-6-4-1. Air without echo counts as
-// 0. Cells that were not seen or are range folded take the value of the nearest seen cell of their
-// column, so that neither the cone of silence nor the lowest beam looks like a surface.
+// 0. Cells that were not seen or are range folded take the value of the next seen cell below them,
+// or of the lowest seen cell of their column if there is none below, so that neither the cone of
+// silence nor the lowest beam looks like a surface.
 //
 // Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
 // Threads   Immutable. The same bits for any number of threads.
