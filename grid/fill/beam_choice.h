@@ -3,7 +3,8 @@
 //
 // Between two adjacent beams both count, with the shares of upper_share(). Elsewhere (below the
 // lowest beam, above the highest, beside a lost cut) at most one beam counts, which beam_alone()
-// returns. A beam is any type with `height_m`, `lower_edge_m` and `upper_edge_m`.
+// returns (beam_weighted adds its neighbors). A beam is any type with `height_m`, `lower_edge_m`
+// and `upper_edge_m`.
 //
 // Threads   Pure functions.
 #pragma once

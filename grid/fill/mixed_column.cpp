@@ -156,7 +156,7 @@ Mixture MixedColumn::between(float height_m) {
 }
 
 // Returns the mixture at a height that is not between adjacent beams: the nearer beam whose edges
-// enclose the height.
+// enclose the height, for beam_weighted with its neighbors in reach.
 Mixture MixedColumn::outside(float height_m) {
     const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
     const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;
@@ -183,8 +183,8 @@ bool MixedColumn::are_outside(float lowest_m, float highest_m) const {
     return clear_below && clear_above;
 }
 
-// Returns the mean over the heights of a cell with an extent. Between two beams the shares are
-// linear in height, so the mean over several heights equals the mixture in their middle.
+// Returns the mean over the heights of a cell with an extent. If the shares of two beams are linear
+// in height, the mean over several heights between the beams equals the mixture in their middle.
 CellResult MixedColumn::mean_at(std::span<const float> heights_m) {
     const float lowest_m = heights_m.front();
     const float highest_m = heights_m.back();

@@ -10,9 +10,10 @@
 //                                 axis is the difference in height divided by the beam's rise per
 //                                 degree.
 // Elsewhere (below the lowest beam, above the highest, beside a lost cut) the sweep whose edges
-// enclose the height counts, or the nearer one if two do. If none does, the height is not seen. A
-// cell with an extent is the mean over four heights, which are the middles of the quarters of its
-// level. A level reaches half way to its neighbors.
+// enclose the height counts, or the nearer one if two do; beam_weighted adds the neighbors of this
+// sweep. If no edges enclose the height, it is not seen. A cell with an extent is the mean over
+// four heights, which are the middles of the quarters of its level. A level reaches half way to its
+// neighbors.
 //
 // Threads   A MixedColumn may be used by one thread at a time.
 #pragma once

@@ -120,8 +120,8 @@ std::size_t MessageReader::read_fill(std::span<const std::byte> rest, bool last)
     return frame.size();
 }
 
-// Reads a message with a plausible header, and checks that the message really ends where its header
-// says.
+// Reads a message whose header is plausible or may be odd, and checks that the message really ends
+// where its header says.
 std::size_t MessageReader::read_message(const MessageHeader& header,
                                         std::span<const std::byte> rest, bool last) {
     const std::size_t length = header.length_bytes();

@@ -132,7 +132,8 @@ std::optional<FollowedFile::Growing> FollowedFile::growing(const fs::path& path,
     const auto header = level2::read_archive_header(head);
     if (!header) return std::nullopt;
     Growing growing{header->icao, 0};
-    // Only the header has come. It proves nothing, but the file may be growing.
+    // Little more than the header has come, which does not show what will follow. The file may be
+    // growing.
     if (known <= level2::archive_header_bytes + 16) return growing;
     if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
     const RecordChain chain = chain_of(file, static_cast<std::uint64_t>(facts->st_size));
@@ -271,7 +272,8 @@ Result<level2::Decoded> FollowedFile::finish() {
     if (!decoded) return decoded;
     kept_->facts = decoded->volume;
     kept_->facts.sweeps.clear();
-    // The last sweep closes only now, and late sweeps are in their places.
+    // Shelve the last sweep, which closes only now, and sweeps whose index changed because sweeps
+    // were put in order.
     for (std::size_t index = 0; index < decoded->volume.sweeps.size(); ++index) {
         const level2::Sweep& sweep = decoded->volume.sweeps[index];
         const auto before = kept_->sweeps.find(index);

@@ -1,4 +1,4 @@
-// pipeline/ingest/open_archives.h -- archives whose members are ingested in turns.
+// pipeline/ingest/open_archives.h -- archives whose members are ingested a few at a time, in turns.
 //
 // Inside the pipeline room only. Thread contract: any thread uses OpenArchives; one thread uses an
 // OpenArchive.
@@ -42,7 +42,7 @@ class OpenArchives {
 
   private:
     static constexpr std::size_t most_open = 4;
-    static constexpr std::chrono::hours longest_wait{24};  // after this its turns have ended
+    static constexpr std::chrono::hours longest_wait{24};  // then an archive is closed
 
     struct Waiting {
         OpenArchive archive;

@@ -90,8 +90,9 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
 
 Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                         const std::string& station) {
-    // If the volume cannot be stored, it is joined again. It stays known until it is finished, so
-    // that other jobs wait for it; two objects of one volume would overwrite each other's rows.
+    // Close the volume, so that its files are joined anew if it cannot be stored. It stays known
+    // until it is finished, so that other jobs wait for it; two objects of one volume would
+    // overwrite each other's rows.
     volume.close();
     auto finished =
         finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));

@@ -48,7 +48,7 @@ class BetweenGrids {
 
     // Keeps a copy of the store. Grids that cannot be read are named in `problems` and left out.
     // Errors: not_found if there is no grid, or a mosaic's sites have none; unsupported for a
-    // mosaic whose rules the defaults cannot express.
+    // mosaic whose rules the defaults cannot express; those of the store.
     static Result<BetweenGrids> open(const cache::StoreReader& store, const std::string& domain,
                                      level2::Moment moment, const BetweenOptions& options,
                                      std::vector<std::string>& problems);

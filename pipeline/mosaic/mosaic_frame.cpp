@@ -44,8 +44,8 @@ bool is_pair(const PartialView& before, const PartialView& after) {
            before.view.quantization == after.view.quantization;
 }
 
-// Returns a site's share. The share is the nearer partial, unchanged, if the method asks for that
-// or there is only one partial.
+// Returns a site's share. The share is the nearer partial, unchanged, if the method asks for that,
+// if there is only one partial, or if the two are no pair (is_pair()).
 SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime instant,
                    grid::TimeMethod method) {
     SiteShare share;
@@ -129,7 +129,7 @@ Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options
 }
 
 // Collects texts, each once, in order. Texts beyond a limit are only counted, because a frame's
-// file holds at most 1 MiB of texts and each part adds some.
+// file holds at most 1 MiB of texts and each partial adds some.
 class TextsOnce {
   public:
     TextsOnce(std::size_t most_bytes, std::string_view kind)
@@ -155,8 +155,8 @@ class TextsOnce {
     std::vector<std::string> texts_;
 };
 
-// The texts of a frame, with their limits. A thousand parts with the usual notes and radar troubles
-// need less.
+// The texts of a frame, with their limits. A thousand partials with the usual notes and radar
+// troubles need less.
 struct FrameTexts {
     TextsOnce source_files{std::size_t{192} << 10, "volumes"};
     TextsOnce stations{std::size_t{32} << 10, "stations"};
@@ -245,7 +245,7 @@ Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameO
     return {};
 }
 
-// Describes everything but the cells, including the notes by which each share can be recognized.
+// Describes everything but the cells, and sets the key of each share for the InstantCache.
 Result<cache::GridDescription> describe_shares(const grid::GridSpec& domain,
                                                std::vector<SiteShare>& shares, UtcTime instant,
                                                const FrameOptions& options) {
