@@ -24,9 +24,9 @@ class Filler {
         fill_to(levels_.first_from(lowest.height_m), lowest.sample);
     }
 
-    // Fills the levels from `low` to below `high`. If both beams see no echo, or both are not seen,
-    // all levels between the beams have that state. Such levels form a run, which is only noted
-    // here. end_run() fills the run when it ends.
+    // Fills the levels from `low` to below `high`. If two adjacent beams have one state that is no
+    // value, all levels between them have it. Such levels form a run, which is only noted here;
+    // end_run() fills it when it ends.
     void between(const BeamSample& low, const BeamSample& high) {
         const bool same_state = low.sample.status == high.sample.status;
         if (same_state && low.adjacent_to_next && low.sample.status != CellStatus::value) {

@@ -146,8 +146,8 @@ void InstantBrick::find_box(std::size_t end) {
             }
         }
     }
-    // During a volume, no echo moves farther than this. Without the bound, a frame could take
-    // minutes.
+    // If echo would come from a wider box than this, use one time for the whole volume. Without the
+    // bound, a frame could take minutes.
     constexpr float most_columns = 256;
     const bool is_too_wide = east - west > most_columns || north - south > most_columns;
     if (is_too_wide && *early != *late) {

@@ -104,9 +104,9 @@ class Slab {
         if (weights_) weights_->put_codes(to, counted.weights.data(), extent);
     }
 
-    // Merges a brick for which the overlap rule and the weights do not matter: only one site sees
-    // the brick, or no site has values or range folded in it. In the latter case, a cell is no echo
-    // if any site sees no echo there.
+    // Merges a brick if the overlap rule and the weights do not matter: only one site sees the
+    // brick, or no site has values or range folded in it. In the latter case, a cell is no echo if
+    // any site sees no echo there. Returns false for other bricks.
     bool merge_by_rule_of_thumb(std::size_t to, const BrickExtent& extent) {
         if (layers_.size() == 1) {
             cells_.copy(to, *layers_[0].view, layers_[0].brick);

@@ -25,8 +25,8 @@ class BandCaster::Tiles {
         const auto words = words_of(tile);
         return std::any_of(words.begin(), words.end(), [](std::uint64_t w) { return w != 0; });
     }
-    // Requests the ray of a pixel. The ray is cast when the packet is full, or when the row of
-    // tiles ends.
+    // Requests the ray of a pixel. The packet of rays is cast when it is full, when the fourth tile
+    // after its first one is entered, or when the row of tiles ends.
     void want(int x, int y) {
         if (!has_joined_) join();
         wanted_[count_++] = {x, y};
