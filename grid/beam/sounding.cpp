@@ -153,7 +153,6 @@ Result<Reader::Row> Reader::read_row(std::string_view line) const {
     return row;
 }
 
-// Checks conditions between two numbers of a row.
 Status Reader::check(const Row& row) const {
     if (below_ && !(row[height] > (*below_)[height])) {
         return wrong("column height_m: {} is not above the one before, {}", row[height],

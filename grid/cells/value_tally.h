@@ -74,7 +74,6 @@ class ValueTally {
     std::vector<std::uint64_t> power_of_;        // the Z of each code, in thousandths
 };
 
-// Appends the bytes of all numbers.
 template <class Number>
 void append_numbers(const std::vector<Number>& numbers, std::vector<std::byte>& bytes) {
     const auto more = std::as_bytes(std::span(numbers));
@@ -87,7 +86,6 @@ void take_numbers(std::span<const std::byte>& bytes, std::vector<Number>& number
     std::copy_n(bytes.begin(), target.size(), target.begin());
     bytes = bytes.subspan(target.size());
 }
-// Adds each number of `more` to the number at the same index of `sums`.
 template <class Number>
 void add_numbers(const std::vector<Number>& more, std::vector<Number>& sums) {
     std::transform(more.begin(), more.end(), sums.begin(), sums.begin(), std::plus<>{});

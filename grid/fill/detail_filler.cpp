@@ -27,7 +27,6 @@ struct NearGate {
     double across_map_m = 0;  // distance from the column in the plane about the site
 };
 
-// One sweep over one column.
 struct SeenBeam {
     float height_m = 0, lower_edge_m = 0, upper_edge_m = 0;
     bool adjacent_to_next = true;

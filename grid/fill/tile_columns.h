@@ -29,7 +29,6 @@ struct FillWork {
     Grid& grid;
 };
 
-// A column of a tile, and its place in the tables.
 struct TileColumn {
     int ix = 0;
     int iy = 0;

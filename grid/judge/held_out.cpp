@@ -15,7 +15,6 @@ constexpr float counted_dbz = 5;
 constexpr float strong_dbz = 20;
 constexpr float weak_dbz = 10;
 
-// Compares the cells of two views, brick by brick.
 class Comparison {
   public:
     Comparison(const BrickView& made, const BrickView& seen) : made_(made), seen_(seen) {}

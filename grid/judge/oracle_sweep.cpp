@@ -182,7 +182,6 @@ void OracleSweep::add_radials(double azimuth_deg, std::size_t nearest, double ra
         for (const std::size_t at : joined)
             weights.push_back(oracle_pattern(offset(at), width_deg));
     } else {
-        // Find the nearest radial on the other side of the azimuth.
         double other_deg = 1e9;
         for (const std::size_t at : joined) {
             const bool other_side = at != nearest && (offset(at) > 0) != (offset(nearest) > 0);

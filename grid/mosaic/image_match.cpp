@@ -7,7 +7,6 @@
 namespace stormcellar::grid {
 namespace {
 
-// The correlation of two sets of numbers.
 struct Correlation {
     double value = -1;
     std::size_t echoes = 0;

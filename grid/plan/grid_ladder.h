@@ -33,7 +33,6 @@ struct LadderOptions {
     std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
-// A whole chain with its name.
 struct NamedChain {
     std::string name;
     SceneChoice choice;

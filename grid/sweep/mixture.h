@@ -39,7 +39,6 @@ enum class Blending {
 // velocity is unknown (0 or not finite).
 [[nodiscard]] float half_period_of(level2::Moment moment, float nyquist_mps);
 
-// One gate.
 struct Sample {
     CellStatus status = CellStatus::not_seen;
     float value = 0;        // if the status is `value`

@@ -38,7 +38,6 @@ struct LayerOutput {
     bool messages = false;
 };
 
-// One decode, from the outermost layer inward.
 class Decoder {
   public:
     explicit Decoder(const DecodeOptions& options) : options_(options) {}

@@ -62,7 +62,6 @@ bool VolumeBuilder::header_is_repeated() const {
            own->date == pending_header_->date && own->ms == pending_header_->ms;
 }
 
-// Fetches the sweep back if it was dropped.
 Status VolumeBuilder::fetch_back(std::size_t index) {
     if (!volume_.sweeps[index].radials.empty()) return {};
     if (!dropped_) return fail(ErrorCode::internal, "a sweep that was dropped is missing");

@@ -202,7 +202,6 @@ void MessageReader::close_damage() {
     open_damage_.reset();
 }
 
-// Reads the content of a message by its type.
 void MessageReader::take(const MessageHeader& header, std::span<const std::byte> message,
                          Framing framing, bool firm) {
     if (is_radial(header)) {

@@ -70,7 +70,6 @@ struct Stretch {
     std::size_t end = 0;
 };
 
-// Makes the records of one volume.
 class RecordMaker {
   public:
     RecordMaker(const Volume& volume, const EncodeOptions& options)

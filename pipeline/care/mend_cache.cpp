@@ -53,7 +53,6 @@ std::string joined(const std::vector<std::string>& texts) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-// Returns true if the file is settled with its present size and modification time.
 bool is_settled_as_it_is(const catalog::CatalogReader& catalog, const fs::path& path) {
     const auto stamp = stamp_of(path);
     if (!stamp || !stamp->regular) return false;

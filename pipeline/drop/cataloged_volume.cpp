@@ -19,7 +19,6 @@ using catalog::CatalogReader;
 
 constexpr std::size_t most_chunks = 2000;
 
-// Returns the bytes of a file.
 Result<std::vector<std::byte>> read(const CatalogReader& catalog, const CatalogEntry& entry,
                                     CatalogedVolume& volume) {
     auto read = catalog::read_cataloged(catalog, entry);

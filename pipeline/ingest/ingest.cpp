@@ -25,7 +25,6 @@ struct Ingestor::Impl {
 
 namespace {
 
-// Ingests one file with the handler of its kind.
 struct Taker {
     IngestContext& context;
     const OfferedFile& file;

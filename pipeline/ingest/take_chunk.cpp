@@ -120,7 +120,6 @@ Status TakeChunk::record(const ChunkVolume& volume, const fs::path& path,
     return context_.record(std::move(facts));
 }
 
-// Shows a volume that continues to grow.
 Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                       const std::string& station) {
     if (Status stored = record(volume, chunk_.path, station); !stored) return pass_on(stored);

@@ -16,7 +16,6 @@ namespace stormcellar::pipeline {
 // Tells take() if it may grid a volume that has not ended; otherwise the file waits for more.
 enum class MayBePartial : bool { no, yes };
 
-// Takes the volumes of one file. An object is used once.
 class TakeVolumes {
   public:
     // `facts` describes the file, with the hash of its contents. take() completes `outcome`.

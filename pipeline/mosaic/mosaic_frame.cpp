@@ -219,7 +219,6 @@ std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* 
     return changed_windows(was.provenance.parts, now.provenance.parts);
 }
 
-// Drops the sites that no changed brick needs.
 void drop_untouched(const grid::GridSpec& domain, const std::vector<grid::GridWindow>& changed,
                     std::vector<SiteShare>& shares) {
     std::erase_if(shares, [&](const SiteShare& share) {

@@ -55,7 +55,6 @@ struct HeaderTexts {
 // Places the header of a picture of this shape over its whole width, in pixels.
 void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
                     const HeaderTexts& texts);
-// The texts of a footer.
 struct FooterTexts {
     std::string view, age, seen, credit;
 };

@@ -318,7 +318,6 @@ class WaterPainter {
         }
     }
 
-    // Draws land first, then the lakes in it.
     WaterMask finish() {
         area_.put(true);
         for (const std::vector<Point>& lake : lakes_)
@@ -357,7 +356,6 @@ class WaterPainter {
     std::vector<std::vector<Point>> lakes_;
 };
 
-// A line of the map that the picture may show.
 struct ShownLine {
     MapKind kind;
     const MapLine* line;

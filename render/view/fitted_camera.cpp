@@ -107,7 +107,6 @@ std::optional<Region> region_of(const EchoOutline& outline) {
     return region;
 }
 
-// A column of the shown region, at the middle of a tile.
 struct Column {
     double x_m, y_m, half_m, top_m;
     double weight;

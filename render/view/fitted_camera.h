@@ -61,7 +61,6 @@ struct FittedView {
 // Returns the camera of a fitted view, turned around its focus. Positive turns go clockwise seen
 // from above.
 [[nodiscard]] Camera turned(const FittedView& fitted, double by_deg, bool curved_earth = false);
-// Gives a scene the fitted view.
 void apply(const FittedView& fitted, Scene& scene);
 
 }  // namespace stormcellar::render

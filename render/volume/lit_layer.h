@@ -29,7 +29,6 @@ using Rgb = std::array<float, 3>;  // sRGB, 0..1
 // Returns the exposure; 1 for a layer without echo. `light` has, for each pixel, the sum of the
 // factors weighted by the seen opacity, so that it is the mean factor times alpha.
 [[nodiscard]] float exposure_of(const Layer& layer, const std::vector<float>& light);
-// Lights the layer.
 void apply_light(Layer& layer, const std::vector<float>& light, int threads);
 
 }  // namespace stormcellar::render

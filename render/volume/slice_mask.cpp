@@ -209,7 +209,6 @@ SliceMask::Outline SliceMask::parallel_outline(const Box& box) const {
             p.y + down / per_pixel, 0};
 }
 
-// In perspective the outline encloses the eight projected corners.
 SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
     constexpr double far_off = 1e9;
     Outline outline{far_off, -far_off, far_off, -far_off, -std::numeric_limits<double>::infinity()};
