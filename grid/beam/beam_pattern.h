@@ -5,8 +5,8 @@
 // on the axis and 0 from `reach` on:
 //   weight(x) = (G(x) - G(reach)) / (1 - G(reach)),   G(x) = exp(-4 ln 2 (x / width)^2)
 // Here width = reach = the larger of the beam width and the distance between neighboring radials or
-// sweeps. So between two neighboring radials or sweeps both count. On the axis of a radial or
-// sweep, it alone counts, unless its neighbors are nearer than the beam width.
+// sweeps. So between two neighboring radials or sweeps both count. On its own axis, a radial or
+// sweep counts alone, unless its neighbors are nearer than the beam width.
 //
 // Source    Probert-Jones (1962), who takes the main lobe as a Gaussian.
 // Accuracy  1e-6 (tests/grid/sweep_mixture_test.cpp).

@@ -5,7 +5,7 @@
 // accuracy ladder compare the gridder with it. For each column it solves the geodesic and the beams
 // anew and searches every radial. A cell lists all its gates, each with its weight.
 //
-// Within its stated accuracy the gridder may take another gate as the nearest than the oracle.
+// Within its stated accuracy, the gridder may choose a different nearest gate than the oracle.
 // is_doubtful() returns true for a column whose result would change by a shift of less than
 // doubt_range_m or doubt_azimuth_deg, or with the order of beams whose heights differ by less than
 // doubt_height_m.

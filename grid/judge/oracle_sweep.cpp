@@ -15,7 +15,7 @@ double turn_to(double from_deg, double to_deg) {
     return turn > 180 ? turn - 360 : turn;
 }
 
-// Returns the angle between two azimuths, either of which may be two turns outside [0, 360).
+// Returns the angle between two azimuths, each of which may be up to two turns outside [0, 360).
 double apart_deg(double a_deg, double b_deg) {
     double apart = std::abs(a_deg - b_deg);
     while (apart > 360)

@@ -14,9 +14,9 @@
 //
 // There is no place for a new member if all others are active, because giving up active members for
 // new ones would mean reading everything again and again. A member is active for a minute after it
-// has grown. For a new member it is five seconds, until a sweep has closed and data came after the
-// first look. At the total limit, however, a station with fewer members takes a place from the
-// station with most.
+// has grown. A new member is active for only five seconds, until a sweep has closed and data came
+// after the first look. At the total limit, however, a station with fewer members takes a place
+// from the station with most.
 //
 // Threads   One thread at a time; the owner locks.
 #pragma once
