@@ -149,7 +149,7 @@ void AzimuthTable::visit_all(float azimuth_deg, float reach_deg, Visit visit) co
 template <class Visit>
 void AzimuthTable::visit_between(float from_deg, float to_deg, Visit visit) const {
     std::size_t at = sector_at(from_deg);
-    float turned_deg = 0;  // 360 beyond north
+    float turned_deg = 0;  // 360 after north was passed
     while (true) {
         if (!visit(radials_[at])) return;
         if (ends_deg_[at] + turned_deg > to_deg) return;

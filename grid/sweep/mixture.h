@@ -110,7 +110,7 @@ class Mixture {
     float sum_ = 0;  // of weight times value, limits included; circular: of weight times difference
     float sum_weight_ = 0;   // the weight of the samples in sum_
     float reference_ = 0;    // circular: the value from which differences are taken
-    float half_period_ = 0;  // circular
+    float half_period_ = 0;  // circular: half of the circle
 };
 
 }  // namespace stormcellar::grid

@@ -35,7 +35,7 @@ namespace stormcellar::pipeline {
 struct MissingGrid {
     std::string station;
     UtcTime time;
-    std::filesystem::path raw;  // the best file of this volume: a complete one, then the newest
+    std::filesystem::path raw;  // a complete file of this volume, else the one with the latest end
     std::vector<cache::GridName> names;  // the missing grids
 };
 

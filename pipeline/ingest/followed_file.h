@@ -83,7 +83,7 @@ class FollowedFile {
     // The start of a growing file.
     struct Growing {
         std::string station;            // from its header; empty if it names none
-        std::uint64_t last_record = 0;  // its start; 0 if the file ends within the record
+        std::uint64_t last_record = 0;  // start of the last record; 0 if the file ends within it
     };
     // Examines a file by the lengths of its records. Returns the start of a growing file, which is
     // a file of LDM records whose last record has not come; none for any other file, or if it
@@ -164,8 +164,8 @@ class LivingSweeps {
   private:
     struct One {
         level2::Sweep sweep;
-        MomentSet moments;    // for which it counts
-        bool stands = false;  // it is from the last volume
+        MomentSet moments;    // moments for which the sweep counts
+        bool stands = false;  // the sweep is from the last volume
     };
     Status add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
                bool stands);

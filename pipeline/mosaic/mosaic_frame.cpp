@@ -26,7 +26,7 @@ struct SiteShare {
     const PartialView* nearest = nullptr;
     const PartialView* before = nullptr;  // `before` and `after` are both set, or neither
     const PartialView* after = nullptr;
-    bool nothing_after = false;  // its site has no volume after the instant yet
+    bool nothing_after = false;  // the site has no volume after the instant yet
     InstantCache::Key key;       // the key of `made`
     std::shared_ptr<const grid::BrickGrid> made;
 

@@ -379,7 +379,7 @@ std::vector<ShownLine> shown_lines(const BaseMap& map, const Box& degrees, doubl
 
 struct TracedLine {
     std::vector<MapStroke> strokes;
-    std::vector<Point> cells;  // of an area, in its raster
+    std::vector<Point> cells;  // the ring of an area, in cells of the raster
     std::optional<Error> error;
 };
 

@@ -16,7 +16,7 @@ namespace stormcellar::render {
 struct PanelLayout {
     std::vector<Rect> pictures;  // in whole pixels, in the order of the panels
     double scale = 1;            // of lines and letters in them
-    LabelLayout labels;          // of the whole picture; it has no picture of its own
+    LabelLayout labels;          // around all panels; without the place of a single picture
 };
 
 // Lays out panels with these legends in a picture of the scene's size and theme. `facts` and

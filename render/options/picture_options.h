@@ -50,7 +50,7 @@ struct WholeValue {
 struct NumberValue {
     double* (*field)(PictureSettings) = nullptr;
     NumberRange range{};  // in the unit of the option
-    double unit = 1;      // the option's unit in the field's unit: 1000 for kilometers and meters
+    double unit = 1;      // units of the field in a unit of the option: 1000 for m and km
     bool or_zero = false;
     Checked checked = Checked::with_the_scene;
 };
@@ -103,7 +103,7 @@ struct ProductUse {
 
 struct PictureOption {
     std::string_view option{};      // "--tilt"
-    std::string_view old_option{};  // an older spelling, which is taken and not shown
+    std::string_view old_option{};  // an older spelling, accepted but not shown
     std::string_view section{};     // of a scene file; empty: no scene file has the option
     std::string_view key{};
     std::string_view old_key{};

@@ -30,6 +30,6 @@ struct DegreePicture {
                                                     const FlatField& field, const ColorTable& table,
                                                     int threads);
 
-inline constexpr int most_degree_pixels = 4096;  // along a side, as globe programs take it
+inline constexpr int most_degree_pixels = 4096;  // along a side; globe programs take no more
 
 }  // namespace stormcellar::render

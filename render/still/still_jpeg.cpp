@@ -18,7 +18,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr int quality = 92;
-constexpr std::size_t most_marker_bytes = 65533;  // a marker's length has two bytes of 65535
+constexpr std::size_t most_marker_bytes = 65533;  // 65535, less two for the length itself
 
 struct JpegErrors {
     jpeg_error_mgr manager{};  // the first member: libjpeg hands back its address

@@ -35,10 +35,10 @@ struct TiffRaster {
 // A key of GeoTIFF: a short number, a double or a text.
 struct GeoKey {
     std::uint16_t id = 0;
-    std::uint16_t number = 0;  // of a short
+    std::uint16_t number = 0;  // if the key is a short number
     bool is_double = false;
     double value = 0;
-    std::string text = {};  // not empty: a text
+    std::string text = {};  // not empty if the key is a text
 };
 
 struct TiffFacts {
