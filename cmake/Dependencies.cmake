@@ -1,10 +1,10 @@
-# Every package that the project uses, with the targets that it provides. Why each is here:
-# docs/dependencies.md. Rooms link the ones they need, so a program carries only what it uses.
+# Finds every package that the project uses. docs/dependencies.md says why each is used. A room links only
+# the targets that it needs, so a program loads only the libraries that it uses.
 #
-# An installed package reads this file too: STORMCELLAR_WANTED, if it is set, lists the targets that the
-# chosen components need, and the other packages are not looked for (stormcellarConfig.cmake).
+# The installed CMake package reads this file, too. It sets STORMCELLAR_WANTED to the targets that the chosen
+# components need; packages of other targets are then not searched for (stormcellarConfig.cmake.in).
 
-# stormcellar_package(TARGET COMMAND ARGUMENTS...): the command that finds the package of a target.
+# stormcellar_package(TARGET COMMAND ARGUMENTS...): runs the command, which finds the package of the target.
 macro(stormcellar_package target command)
   if(NOT DEFINED STORMCELLAR_WANTED OR "${target}" IN_LIST STORMCELLAR_WANTED)
     cmake_language(CALL ${command} ${ARGN})

@@ -1,11 +1,12 @@
-# The CMake package: find_package(stormcellar COMPONENTS level2) gives stormcellar::level2 and what it uses.
+# Installs the CMake package. find_package(stormcellar COMPONENTS level2) then provides stormcellar::level2 and
+# the targets that it links.
 include(CMakePackageConfigHelpers)
 set(STORMCELLAR_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/stormcellar)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/stormcellarConfig.cmake.in
   ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake INSTALL_DESTINATION ${STORMCELLAR_CMAKE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
-# The rooms in the order in which they link, and what each links.
+# List the rooms, each after the rooms that it links, and the targets that each room links.
 get_property(rooms GLOBAL PROPERTY STORMCELLAR_ROOMS)
 set(facts "set(stormcellar_rooms ${rooms})\n")
 foreach(room IN LISTS rooms)
@@ -22,27 +23,26 @@ install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
   ${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
   DESTINATION ${STORMCELLAR_CMAKE_DIR} COMPONENT development)
-# Every document, so that each link from one to another leads somewhere
-# (tests/repository/documents_test.cpp).
+# Install every document, so that no link between documents is broken.
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md GLOSSARY.md SECURITY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES bunzip/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/bunzip)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
-# The Debian package says it in its copyright file.
+# The Debian package leaves out LICENSE, because its copyright file has the license.
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
-# Scenes of pictures, for stormcellar frame and loop.
+# These scenes are for `stormcellar frame` and `stormcellar loop`.
 install(FILES scenes/picture-midwest.toml scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
   scenes/fly-supercell.toml scenes/storm-colours.toml scenes/clear-air-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
-# For one release: headers that moved within their room are found at their old place too.
+# Until the next release, the old paths of headers that moved within their room can still be included.
 foreach(moved animation/animation products/product volume/integration volume/light)
   get_filename_component(name ${moved} NAME)
   file(WRITE ${PROJECT_BINARY_DIR}/old-headers/render/${moved}.h
-    "// This header moved to stormcellar/render/${name}.h; this place goes with the next release.\n"
+    "// This header moved to stormcellar/render/${name}.h. The next release removes the old path.\n"
     "#include \"stormcellar/render/${name}.h\"\n")
 endforeach()
 foreach(old colour_table colour/colour_table)
   file(WRITE ${PROJECT_BINARY_DIR}/old-headers/render/${old}.h
-    "// This header is stormcellar/render/color_table.h now; this name goes with the next release.\n"
+    "// This header moved to stormcellar/render/color_table.h. The next release removes the old path.\n"
     "#include \"stormcellar/render/color_table.h\"\n"
     "namespace stormcellar::render { using ColourTable = ColorTable; }\n")
 endforeach()

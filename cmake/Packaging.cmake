@@ -1,5 +1,5 @@
-# The Debian package: `cpack --config build/release/CPackConfig.cmake`, or the target `package`. It is
-# laid out below /usr whatever prefix the tree was configured with. docs/guides/install-and-run.md, Install.
+# Configures the Debian package, which `cpack --config build/release/CPackConfig.cmake` or the target `package`
+# makes. The package installs below /usr, whatever the prefix of the build is.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME stormcellar)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -15,7 +15,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 
-# Of what is installed the programs, not the library that others may build with.
+# The package has the installed programs and their files, but not the library for other programs.
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_CMAKE_PROJECTS
@@ -23,8 +23,8 @@ set(CPACK_INSTALL_CMAKE_PROJECTS
   "${PROJECT_BINARY_DIR};stormcellar;debian;/")
 set(CPACK_STRIP_FILES ON)
 
-# Fonts, time zones and certificates are files that no shared library asks for; adduser is for machines without
-# systemd-sysusers.
+# Besides the packages of the shared libraries, the programs need files: fonts, time zones and certificates.
+# packaging/debian/postinst needs adduser on machines without systemd-sysusers.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "adduser, ca-certificates, fonts-dejavu-core, tzdata")
 set(debian ${PROJECT_SOURCE_DIR}/packaging/debian)

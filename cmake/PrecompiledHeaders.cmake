@@ -1,13 +1,13 @@
-# Headers that most sources include, read once for all of them: a build takes two thirds of the time.
-# Off by default: with them a source that forgets to include what it uses goes unnoticed, ccache
-# keeps nothing, and clang-tidy cannot read what gcc compiled. On where a fresh machine builds
-# everything once (.ci/run).
+# Precompiles the headers that most sources include, so that a whole build takes a third less time. This is off
+# by default: it hides missing includes, ccache keeps nothing, and clang-tidy cannot read headers that gcc
+# precompiled. .ci/run turns it on, because it builds everything once.
 if(NOT STORMCELLAR_PRECOMPILE)
   return()
 endif()
 
-# gcc collects garbage from 128 MB on, which takes up to a sixth of the time of a batch. Without that, a batch needs
-# up to 1.3 GB of memory, with it 1.0. So do it where each processor has 2.5 GB.
+# gcc collects garbage when it has allocated 128 MB, which takes up to a sixth of the time of a batch of sources.
+# Without collecting, a batch needs up to 1.3 GB of memory instead of 1.0 GB. So collect later if there are more
+# than 2.5 GB for each processor.
 cmake_host_system_information(RESULT memory_mb QUERY TOTAL_PHYSICAL_MEMORY)
 cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
 math(EXPR memory_mb_each "${memory_mb} / ${processors}")
@@ -15,7 +15,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND memory_mb_each GREATER 2500)
   add_compile_options(--param=ggc-min-heapsize=2000000)
 endif()
 
-# gcc 12 for arm64 crashes where the header of SVE follows a precompiled one.
+# gcc 12 for arm64 crashes if it reads the header of SVE after a precompiled header.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
 endif()
@@ -23,11 +23,12 @@ endif()
 set(STORMCELLAR_COMMON_HEADERS <algorithm> <array> <chrono> <filesystem> <fmt/format.h> <functional>
   <map> <memory> <optional> <span> <string> <string_view> <utility> <variant> <vector>)
 
-# Precompiled headers belong to a target, and a target has a source.
+# Precompiled headers belong to a target, and a target needs a source, so use an empty program.
 set(STORMCELLAR_NO_SOURCE ${PROJECT_BINARY_DIR}/generated/nothing.cpp)
 file(CONFIGURE OUTPUT ${STORMCELLAR_NO_SOURCE} CONTENT "int main() {}\n")
 
-# Headers are of use only to what is compiled with their options: rooms, the command line, programs.
+# Only sources that are compiled with the same options can use a precompiled header, so rooms, the command line
+# and programs each have their own.
 function(stormcellar_common_headers name)
   target_compile_options(${name} PRIVATE ${ARGN})
   target_link_libraries(${name} PRIVATE fmt::fmt)

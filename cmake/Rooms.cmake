@@ -1,19 +1,19 @@
-# Compiles a target's sources sixteen at once.
+# Compiles the sources of a target in batches of sixteen, each batch as one source.
 function(stormcellar_batches target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
-  # A name may be that of another file of the batch; what one function hides of its own is found still.
+  # Do not warn if a local name hides a name of another file of the batch. gcc still warns if it hides another
+  # local name.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 endfunction()
 
 # stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS]
 #                  [ALONE] [BATCHES [SINGLY directory...]])
 #
-# Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
-# Headers are included by their room, as in "stormcellar/level2/volume.h". The headers beside the sources are
-# installed with the library, unless it is a room's second one (WITHOUT_HEADERS). A room that is ALONE
-# names no other and does not use fmt, so the common precompiled headers are not for it. Where everything is
-# built once, a room with BATCHES is compiled sixteen files at a time and with less optimisation, but for the
-# directories named by SINGLY, in which it spends its time.
+# Declares the static library of a room (a directory of the project): target stormcellar_NAME, alias
+# stormcellar::NAME. Installs the room's public headers, include/stormcellar/NAME, unless WITHOUT_HEADERS is given.
+# A room that is ALONE uses neither other rooms nor fmt, and so not the common precompiled headers. If
+# STORMCELLAR_PRECOMPILE is on, a room with BATCHES is compiled in batches and with less optimization, except for
+# the directories named by SINGLY, whose code takes most of the time at run time.
 function(stormcellar_room name)
   cmake_parse_arguments(ARG "ALONE;BATCHES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE;SINGLY"
     ${ARGN})
@@ -27,7 +27,7 @@ function(stormcellar_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    # For one release: includes as they were before, "level2/volume.h".
+    # Until the next release, old includes such as "level2/volume.h" work, too.
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stormcellar>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   if(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
@@ -55,20 +55,20 @@ function(stormcellar_room name)
   endif()
 endfunction()
 
-# The tests themselves, and the command line, need not be fast, but built soon.
+# The code of tests and of the command line need not be fast, so compile it with less optimization.
 set(STORMCELLAR_SHORT_BUILD $<$<CONFIG:Release>:-O1>)
-# Under sanitizers what they test is checked for undefined behaviour, they themselves only for memory:
-# GoogleTest's and CLI11's templates take most of the time.
+# For quick tests under sanitizers, check only the rooms for undefined behavior, and not the code of tests and of
+# the command line. The templates of GoogleTest and CLI11 would take most of the time.
 if(STORMCELLAR_QUICK_TESTS)
   list(APPEND STORMCELLAR_SHORT_BUILD -O0 -fno-sanitize=undefined)
 endif()
 set(STORMCELLAR_TEST_BUILD ${STORMCELLAR_SHORT_BUILD})
-# Where everything is built once: two minutes less of a release build.
+# If everything is built once, this saves two minutes of a release build.
 if(STORMCELLAR_PRECOMPILE)
   list(APPEND STORMCELLAR_TEST_BUILD -O0)
 endif()
 
-# Builds the modules of videos and of fetching with a program that may load them.
+# Makes a build of the program also build the modules that the program may load: fetching and videos.
 function(stormcellar_with_modules program)
   add_dependencies(${program} stormcellar_fetch_module)
   if(STORMCELLAR_VIDEO)
@@ -78,11 +78,11 @@ endfunction()
 
 # stormcellar_test(NAME SOURCES a_test.cpp [LIBS libs...] [TOGETHER filter] [COMPUTES] [BATCHES])
 #
-# One test program. Each GoogleTest case becomes a ctest case with the program's name as a label; a
-# case that skips itself is shown by ctest as skipped. Cases that share what takes long to make, named
-# by a filter of GoogleTest, are one ctest case (NAME_together). A program that
-# COMPUTES is optimised wherever it is built. BATCHES has its sources compiled sixteen at once where
-# everything is built once: in half the time, but names in their unnamed namespaces must not clash.
+# Declares a test program. Each GoogleTest case becomes a ctest case, labeled with the program's name; ctest shows
+# a case that skips itself as skipped. The cases that match the GoogleTest filter of TOGETHER become one ctest case
+# (NAME_together), because they share data that take long to make. A program that COMPUTES is always optimized. If
+# STORMCELLAR_PRECOMPILE is on, BATCHES compiles the sources in batches, which takes half the time; names in their
+# unnamed namespaces must then not clash.
 function(stormcellar_test name)
   cmake_parse_arguments(ARG "BATCHES;COMPUTES" "TOGETHER" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})

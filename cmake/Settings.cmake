@@ -1,4 +1,4 @@
-# How every target of this project is compiled.
+# Sets how every target of this project is compiled and linked.
 include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 20)
@@ -10,33 +10,32 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
-# No fused multiply-add unless the code asks for it: the same bits on every machine.
+# Use fused multiply-add only if the code asks for it, so that results have the same bits on every machine.
 add_compile_options(-ffp-contract=off)
-# GCC 12 frees an error's text twice where a function returns a Result in this way:
-# `if (!r || !r->empty()) return r;` (S3Unreadable.AnErrorOfTheCatalogIsAnAnswer). Without this
-# analysis it does not.
+# With the analysis modref, gcc 12 frees an error's text twice if a function returns a Result by
+# `if (!r || !r->empty()) return r;` (test S3Unreadable.AnErrorOfTheCatalogIsAnAnswer).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
   add_compile_options(-fno-ipa-modref)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wold-style-cast
     -Wnon-virtual-dtor -Woverloaded-virtual)
-  # gcc 13 and later warn of more; a warning that we have never seen must not end a user's build.
+  # gcc 13 and later have new warnings, which must not make a user's build fail.
   if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     add_compile_options(-Werror)
   endif()
-  # False positives of gcc 12 in optimised standard library code.
+  # gcc 12 gives these warnings falsely for optimized code of the standard library.
   add_compile_options(-Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-stringop-overread
     -Wno-array-bounds -Wno-dangling-pointer)
 else()
-  # clang makes the fuzzers and the sanitized tests; gcc and clang-tidy have warned before.
+  # clang builds only fuzzers and sanitized tests, whose sources gcc and clang-tidy check for warnings.
   add_compile_options(-w)
 endif()
 
-# A program starts with the libraries that it uses, not with all that its rooms name.
+# A program loads only the libraries that it uses, not all libraries that its rooms link.
 add_link_options(-Wl,--as-needed)
 
-# What is released resolves its symbols at the start and may not write to their table afterwards.
+# A release build resolves all symbols at the start of the program and then makes their table read-only.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT STORMCELLAR_SANITIZE)
   add_link_options(-Wl,-z,relro,-z,now)
 endif()
@@ -45,10 +44,10 @@ if(STORMCELLAR_SANITIZE)
   add_compile_options(-fsanitize=${STORMCELLAR_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
   if(STORMCELLAR_QUICK_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    # AddressSanitizer ends where these would have done harm; they are a fifth of the code. The
-    # fuzzers have them.
+    # Leave out two checks that make a fifth of the code, because AddressSanitizer also stops at harmful accesses.
+    # The fuzzers keep these checks.
     add_compile_options(-fno-sanitize=null,object-size)
   endif()
-  add_compile_definitions(STORMCELLAR_SANITIZED)  # compilers have macros of their own for it
+  add_compile_definitions(STORMCELLAR_SANITIZED)  # compilers define different macros for sanitizers
   add_link_options(-fsanitize=${STORMCELLAR_SANITIZE})
 endif()

@@ -1,5 +1,6 @@
-# Installs the configuration, manual pages and completions below CMAKE_INSTALL_PREFIX, which is known
-# only now. Needs STORMCELLAR_SOURCE, STORMCELLAR_REFERENCE (what make-reference wrote) and PROJECT_VERSION.
+# Installs the configuration, manual pages and completions. Runs when the project is installed, because
+# CMAKE_INSTALL_PREFIX is known only then. Needs STORMCELLAR_SOURCE, STORMCELLAR_REFERENCE (the output directory of
+# make-reference) and PROJECT_VERSION.
 include(${STORMCELLAR_SOURCE}/systemd/units.cmake)
 stormcellar_sysconfdir(${CMAKE_INSTALL_PREFIX} STORMCELLAR_SYSCONFDIR)
 set(STORMCELLAR_DATADIR ${CMAKE_INSTALL_PREFIX}/share)
@@ -13,7 +14,7 @@ foreach(page stormcellar.1 stormcellard.8 stormcellar-web.8 stormcellar-pull.8 s
   file(INSTALL ${work}/${page}.gz DESTINATION ${STORMCELLAR_DATADIR}/man/man${section})
 endforeach()
 
-# Debian's zsh looks into these two.
+# zsh in Debian reads site-functions below /usr/local and vendor-completions below /usr.
 set(zsh_directory site-functions)
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   set(zsh_directory vendor-completions)
@@ -26,8 +27,8 @@ foreach(program stormcellar stormcellard stormcellar-web stormcellar-pull stormc
   file(INSTALL ${from}.fish DESTINATION ${STORMCELLAR_DATADIR}/fish/vendor_completions.d)
 endforeach()
 
-# The explained configuration goes beside the documentation each time, and to its place only where
-# there is none yet: an operator's changes are never written over.
+# Install the explained configuration beside the documentation. Install it as the configuration only if there is
+# none yet, so that an operator's changes are kept.
 file(READ ${STORMCELLAR_SOURCE}/daemon/stormcellard.toml configuration)
 string(REPLACE "/usr/local/share" "${STORMCELLAR_DATADIR}" configuration "${configuration}")
 file(WRITE ${work}/stormcellard.toml "${configuration}")

@@ -1,7 +1,7 @@
 # Turns the explained configuration (daemon/stormcellard.toml) into the body of its manual page:
 #   [table]           a heading
-#   comment lines     text above the key or table that follows; lines indented by three and more are
-#                     examples and stay as they are; a table in them becomes a heading above
+#   comment lines     text about the key or table that follows; lines indented by three or more blanks
+#                     are examples and stay unchanged; a [[table]] among them becomes a heading
 #   key = value       the key, its default, and the comment above it
 function roff(text) {
     gsub(/\\/, "\\e", text)
@@ -52,11 +52,11 @@ function plain_text(    i, line, inside, name) {
     sub(/ *=.*/, "", key)
     sub(/^[^=]*= */, "", value)
     print ".TP\n\\fB" roff(key) "\\fR = " roff(value)
-    # One paragraph of the list's item.
+    # Keep the paragraphs of the comment in the key's item of the list.
     for (i = 1; i <= count; ++i) print comment[i] == "" ? ".IP" : roff(comment[i])
     count = 0
     next
 }
-# A paragraph of its own, where nothing follows that it explains.
+# A blank line after a comment: the comment explains no key, so print it as a paragraph.
 /^$/ { if (count > 0) plain_text() }
 END { plain_text() }
