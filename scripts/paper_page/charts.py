@@ -44,7 +44,7 @@ class Chart:
 
 
 class LogAxis:
-    """Returns the range from the power of ten below the least value to the power above the greatest."""
+    """A logarithmic axis from the power of ten below the least value to the power of ten above the greatest."""
     def __init__(self, values, begin, end):
         self.low = math.floor(math.log10(min(values)))
         self.high = max(math.ceil(math.log10(max(values))), self.low + 1)
@@ -70,7 +70,7 @@ def _grid_lines(chart, axis, label):
 
 
 def frame_rates(cells):
-    """Draws cells: (volume, slices, paper, ours, best) in the order of the columns."""
+    """Draws a group of bars for each cell of table 1: (volume, slices, paper, ours, best)."""
     chart = Chart('Frames per second, 796 x 532', [('2008, Quadro FX 3500', PAPER), ('ours, the same way', OURS),
                                                    ('ours, the fastest way', BEST)])
     axis = LogAxis([v for cell in cells for v in cell[2:]] + [1.0], chart.height - BOTTOM, TOP)
@@ -92,7 +92,7 @@ def frame_rates(cells):
 
 
 def steps(cells):
-    """Draws cells: (volume, slices, seconds to read, to prepare, to draw). All volumes share a scale, to show their sizes."""
+    """Draws a stacked bar for each cell: (volume, slices, seconds to read, to prepare, to draw). All bars have one scale."""
     chart = Chart('Time of a frame by step, ours', [('read', THIRD), ('prepare', BEST), ('draw', OURS)])
     most_ms = 1000 * max(sum(cell[2:]) for cell in cells)
     unit = 10 ** math.floor(math.log10(most_ms))
@@ -121,7 +121,7 @@ def steps(cells):
 
 
 def machines(bars):
-    """Draws bars from the left: (name, frames per second, color)."""
+    """Draws a horizontal bar for each of `bars`: (name, frames per second, color)."""
     height = TOP + 44 * len(bars) + 16
     chart = Chart('128x128x64, 256 slices: frames per second', [('2008', PAPER), ('ours, on its processor alone', OURS)], height)
     most = max(value for _, value, _ in bars)
@@ -135,8 +135,8 @@ def machines(bars):
 
 
 def sites(title, paper, ours):
-    """Draws minutes by the number of sites; paper and ours are {name: (color, {sites: minutes})}. The paper's minutes are
-    known only at both ends of a line, so its lines are dashed."""
+    """Draws minutes by the number of sites. `paper` and `ours` are {name: (color, {sites: minutes})}. The lines of `paper`
+    are dashed, because the paper gives minutes only for their ends."""
     lines = {**paper, **ours}
     chart = Chart(title, [(name, color) for name, (color, _) in lines.items()])
     axis = LogAxis([m for _, points in lines.values() for m in points.values()], chart.height - BOTTOM, TOP)

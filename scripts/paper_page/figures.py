@@ -1,4 +1,4 @@
-"""Runs the benchmarks behind the paper's tables and figures. Each function returns results by the number of their claim."""
+"""Runs our benchmarks for the paper's tables and figures. Each function returns results by claim number."""
 from . import charts
 from .claims import BY_NUMBER, TABLE_1, VOLUMES
 from .page import Ours
@@ -10,18 +10,18 @@ HOURS = 5
 
 
 def known(value):
-    """Returns a figure of a benchmark, which is null if nothing happened in its time."""
+    """Returns a figure of a benchmark as text. The figure is null if the benchmark had nothing to measure."""
     return 'unknown' if value is None else f'{value:.3g}'
 
 
 def feed(runs):
-    """Runs the national feed; with --quick only its first sites, ten times as fast, so that as much arrives in a second."""
+    """Runs the national feed. With --quick, runs only its first sites at ten times the speed, which send as much in a second."""
     words = ['--as', 'growing', '--threads', '2', '--work', runs.work / 'feed']
     if runs.quick:
         words += ['--sites', QUICK_SITES, '--speeds', '10 160', '--seconds', '10']
     paced, fast = runs.bench('bench_feed', *words)
     radars = fast['sites'] * fast['sustained_x']
-    way = f'{fast["sites"]} sites, {fast["sustained_x"]:g} times their speed'
+    way = f'{fast["sites"]} sites at {fast["sustained_x"]:g} times their speed'
     results = {
         '1.1': Ours(text=f'{known(paced["latency_p95_s"])} s (p95) after the last chunk'),
         '1.2': Ours(radars, text=way),
@@ -42,16 +42,16 @@ def users(runs):
     rows = runs.bench('bench_events', *words)
     row = rows[-1]
     good = row['lost'] == 0 and row['closed'] == 0
-    held = f'{row["streams"]} clients at the same time; lost {row["lost"]}, closed {row["closed"]}'
+    held = f'{row["streams"]} clients at the same time; {row["lost"]} events lost, {row["closed"]} streams closed'
     return {
         '7.3': Ours(does=good, text=held),
-        '9.1': Ours(does=good, text=f'{row["streams"]} hear of a grid after {known(row["event_p95_ms"])} ms (p95)'),
+        '9.1': Ours(does=good, text=f'{row["streams"]} users get the event of a grid within {known(row["event_p95_ms"])} ms (p95)'),
     }
 
 
 def sites(runs):
-    """Runs figure 8. Returns results and the chart. With --quick it runs one of the five hours and multiplies its minutes by five, and
-    leaves out rows whose numbers cannot be compared with the paper's."""
+    """Runs figure 8. Returns results and the chart. With --quick, runs one of the five hours and multiplies the minutes by
+    five, and leaves out the numbers of sites for which the paper gives no minutes."""
     hours = 1 if runs.quick else HOURS
     scale = HOURS / hours
     counts = QUICK_ROWS if runs.quick else SITES
@@ -98,10 +98,10 @@ def rates(runs):
             bars.append((volume, slices, claim.value, row['fps'], fastest['fps']))
             stacks.append((volume, slices, row['t1_s'], row['t2_s'], row['t3_s']))
     share = [100 * row['t3_s'] / (row['t1_s'] + row['t2_s'] + row['t3_s']) for row in like.values()]
-    results['5.16'] = Ours(text=f'drawing is {min(share):.0f} to {max(share):.0f} %')
+    results['5.16'] = Ours(text=f'drawing takes {min(share):.0f} to {max(share):.0f} % of the time')
     cell = VOLUMES[0], 256
     results['5.17'] = Ours(like[cell]['fps'], text=f'dE {like[cell]["de_p99"]:g}')
-    results['5.21'] = Ours(does=True, text='front to back')
+    results['5.21'] = Ours(does=True, text='such slices, but front to back')
     machines = charts.machines([
         ('Quadro FX 3500 (table 1)', float(TABLE_1[256][0]), charts.PAPER),
         ('GeForce 8800 GTX (figure 7)', float(BY_NUMBER['5.17'].value), charts.PAPER),

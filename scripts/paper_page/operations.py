@@ -1,4 +1,4 @@
-"""Does the published system's operations with the programs of the build. Each function returns results by the number of their claim."""
+"""Does the operations of the system of 2008 with the programs of the build. Each function returns results by claim number."""
 import gzip
 import json
 import re
@@ -27,13 +27,13 @@ def access(runs):
     with Daemon(runs, root, budget_mib) as daemon:
         runs.run('stormcellar', 'replay', runs.data / 'sequence-kbgm', other, root / 'drop', '--as', 'growing',
                  '--interval', '0.1')
-        # A file whose grid is older than all grids of a full cache is not_kept, but cataloged.
+        # If a grid is older than all grids of a full cache, its file is cataloged and counts as not_kept.
         status = daemon.wait_for(lambda one: one['ingested'] + one['not_kept'] >= sent
                                  and one['pending']['waiting'] + one['pending']['running'] == 0)
     kept = [path for path in (root / 'cache').rglob('*.scg') if path.is_file()]
     kept_mib = sum(512 * path.stat().st_blocks for path in kept) / 2**20
     has_newest = any('20050822_030830' in path.name for path in kept)
-    room = f'{sent} grids for a cache of {budget_mib} MiB: it keeps {len(kept)}, the newest among them'
+    room = f'of {sent} grids, a cache of {budget_mib} MiB keeps {len(kept)}, including the newest'
     results = {
         '2.1': Ours(does=status['ingested'] + status['not_kept'] == sent, text='a database for each station'),
         '7.2': Ours(does=has_newest and len(kept) < sent and kept_mib <= budget_mib, text=room),
@@ -121,7 +121,7 @@ def batch(runs, northeast, count):
              '--mosaic', 'northeast', '--spacing-km', '5', '-o', plan)
     said, _ = runs.run('stormcellar', 'batch', 'submit', '--plan', plan, '--engine', 'local')
     tasks, merged = len(re.findall(r'1 grid,', said)), len(re.findall(r'1 frame,', said))
-    return {'4.11': Ours(does=tasks == count and merged == 1, text=f'{tasks} tasks and {merged} that merges')}
+    return {'4.11': Ours(does=tasks == count and merged == 1, text=f'{tasks} tasks, and {merged} task that merges')}
 
 
 def pictures(runs):
@@ -134,7 +134,7 @@ def pictures(runs):
     results = {
         '5.20': Ours(does=(facts['width'], facts['height']) == (796, 532), text=f'{facts["width"]} x {facts["height"]}'),
         '5.22': Ours(does=True, text='`--colors nws` or your file'),
-        '6.3': Ours(does=True, text=f'{tilt} degrees off the vertical, below'),
+        '6.3': Ours(does=True, text=f'{tilt} degrees from the vertical, in the picture below'),
         '8.2': Ours(does=True, text='seven sites; `--center`, `--extent-km`, `--zoom`'),
     }
     results.update(day(runs))
@@ -167,7 +167,7 @@ def answers(runs):
         _, seconds = runs.run('stormcellar', 'frame', 'KLBB', '--cache', cache, '-o', runs.work / 'kept.png')
         kept_s.append(seconds)
     results = {'9.3': Ours(does=min(kept_s) < min(raw_s),
-                           text=f'a kept grid in {min(kept_s):.2f} s, the raw file in {min(raw_s):.2f} s')}
+                           text=f'{min(kept_s):.2f} s from a cached grid, {min(raw_s):.2f} s from the raw file')}
     spacing_km, levels = 0.4, 64
     side = round(460 / spacing_km)
     _, seconds = runs.run('stormcellar', 'frame', file, '--spacing-km', spacing_km, '--levels-km',
@@ -180,8 +180,8 @@ def bad_files(runs):
     """Reads real files whose message 5 is changed to announce -1 and -32768 sweeps."""
     name = 'KOKX20080109_141449.gz'
     raw = bytearray(gzip.decompress((runs.data / 'volumes' / name).read_bytes()))
-    # After the header of 24 bytes, messages of metadata fill frames of 2,432 bytes: 12 bytes, then size, channel and
-    # type.
+    # Metadata messages follow the header of 24 bytes. Each fills a frame of 2,432 bytes, which begins with 12 bytes, then
+    # size, channel and type.
     frame = next((at for at in range(24, len(raw), 2432) if raw[at + 15] == 5), None)
     if frame is None:
         raise Failed(f'{name} has no message 5')
@@ -197,7 +197,7 @@ def bad_files(runs):
         facts = json.loads(out)
         told[label] = [(sweep['elevation_number'], sweep['n_radials']) for sweep in facts['sweeps']]
     same = bool(told['whole']) and told['minus-1'] == told['whole'] and told['minus-32768'] == told['whole']
-    return {'7.1': Ours(does=same, text=f'all {len(told["whole"])} sweeps, stated as -1 and -32768')}
+    return {'7.1': Ours(does=same, text=f'all {len(told["whole"])} sweeps are read if the file states -1 or -32768')}
 
 
 def browser(runs):

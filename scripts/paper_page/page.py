@@ -133,7 +133,7 @@ def contradictions():
     gain = 100 * (last / first - 1)
     return [
         f'- 4.3 and 4.4 give a gain of {100 * (sequence / parallel - 1):.0f} %, not the 508.7 % of 4.5.',
-        f'- In 4.8 the second time is {gain:.1f} % more than the first, {gain / percent:.0f} times what it says.',
+        f'- In 4.8 the second time is {gain:.1f} % more than the first, {gain / percent:.0f} times the stated {percent:g} %.',
     ]
 
 
@@ -164,13 +164,14 @@ def page(results, commands, facts, pictures, mode):
     head = [
         '# The published system of 2008, beside ours',
         '',
-        *paragraph(f'`scripts/paper` wrote this page in one run{mode}: claims and numbers of "{TITLE}" (2008) beside ours.'),
+        *paragraph(f'`scripts/paper` wrote this page in one run{mode}. It compares the claims and numbers of "{TITLE}" (2008) with ours.'),
         '',
         *paragraph(
             f'**{counts["beaten"]} beaten, {counts["met"]} met, {counts["not met"]} not met, '
-            f'{counts["cannot be compared"]} cannot be compared.** A ratio in brackets is above 1 where ours is better: '
-            '*beaten* above 1.05, *met* from 0.95. A claim without a number is *met* if we do the same; a trouble is *beaten* if '
-            'we do not have it. The run used the commands below the tables, benchmarks with `--data ../shared/data --json`.'),
+            f'{counts["cannot be compared"]} cannot be compared.** The status has a ratio in brackets, which is above 1 if ours is '
+            'better: a claim is *beaten* above 1.05, and *met* from 0.95 on. A claim without a number is *met* if we do the same; '
+            'a trouble is *beaten* if we do not have it. The run used the commands below the tables, and each benchmark also had '
+            'the options `--data ../shared/data --json`.'),
         '',
         *paragraph(f'Machine: {facts["machine"]}.'),
         *(line for note in facts['notes'] for line in (paragraph(note) or [''])),
