@@ -7,8 +7,8 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Rounding in sums of weights and in products with q may reach this share. Ranks allow for it, so
-// that rounding does not shift them.
+// Largest relative rounding error of sums of weights and of products with q. Ranks allow for this
+// error, so that rounding does not shift them.
 constexpr double share_slack = 1e-12;
 
 struct Weighted {

@@ -9,10 +9,9 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Returns true if only a sample shows how large the effect is. A sample in which the effect does
-// nothing proves nothing: in a sparse scene, 1 of 8 cells was off by 1.4 dB, but none of the
-// sampled cells was. Positions are computed from the geometry, so an effect with position size 0
-// moves no cell.
+// Returns true if only a sample shows how large the effect is. A sample that shows no effect is no
+// proof: in a sparse scene, 1 of 8 cells was off by 1.4 dB, but none of the sampled cells was.
+// Positions are computed from the geometry, so an effect with position size 0 moves no cell.
 bool rests_on_sample(const Effect& effect, Quantity quantity) {
     if (effect.evidence != Evidence::sample) return false;
     return quantity != Quantity::position || effect.predicted.position_m > 0;

@@ -12,7 +12,8 @@ bool in_time(const Candidate& candidate, const Budget& budget) {
     return !budget.time_s || candidate.cost_s <= *budget.time_s;
 }
 
-// Keeps the first of equally accurate candidates, which has the least effort.
+// Returns the most accurate candidate within the time, or the first of equally accurate ones, which
+// has the least effort.
 const Candidate* most_accurate_in_time(const std::vector<Candidate>& candidates,
                                        const Budget& budget) {
     const Candidate* best = nullptr;

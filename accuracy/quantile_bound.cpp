@@ -43,7 +43,7 @@ std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest
     return k;
 }
 
-// One cluster as log_capital() needs it.
+// A cluster with its errors sorted, for log_capital().
 struct Column {
     std::vector<double> sorted;  // magnitudes
     double weight = 1;

@@ -12,7 +12,8 @@ namespace {
 // Longer words do not count as misspellings, because the time for a distance grows with the product
 // of both lengths.
 constexpr std::size_t longest_word = 80;
-// A misspelling has at most one slip for this many letters of the name.
+// A misspelled word has at most one edit for this many letters of the name, and at least one edit
+// is allowed.
 constexpr std::size_t letters_per_slip = 3;
 
 std::string in_lower_case(std::string_view text) {

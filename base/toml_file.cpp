@@ -118,7 +118,7 @@ struct TomlFile::Document {
     }
 
     // Returns the complaint to report. If a key is missing but is present under a misspelled name,
-    // returns the complaint about the latter.
+    // returns the complaint about the misspelled name.
     [[nodiscard]] const Complaint& first_complaint() const {
         const Complaint& first = complaints.begin()->second;
         if (first.about != About::absent_key) return first;

@@ -17,8 +17,8 @@ namespace stormcellar::batch {
 namespace {
 
 void add(const pipeline::FillReport& report, Record& record) {
-    std::set<std::string> noted;  // names already noted; several frames may lack the same damaged
-                                  // partial
+    // Names already noted, because several frames may lack the same damaged partial.
+    std::set<std::string> noted;
     for (const pipeline::LeftOut& note : report.notes) {
         if (noted.insert(note.reason).second)
             record.left_out.push_back({"a grid of a station", note.reason});

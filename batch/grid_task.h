@@ -27,7 +27,7 @@ struct TaskOptions {
 };
 
 struct TaskOutcome {
-    bool stood = false;  // an earlier run had done everything
+    bool stood = false;  // an earlier run had made all grids, so this run did nothing
     Record record;
 };
 

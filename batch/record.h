@@ -42,7 +42,7 @@ struct Record {
     std::size_t files = 0;
     std::size_t grids = 0;
     std::string digest;                 // of all bytes of the grids
-    std::vector<NamedReason> left_out;  // raw files; for frames: damaged grids
+    std::vector<NamedReason> left_out;  // raw files not gridded; for frames: damaged grids
     std::vector<NamedReason> notes;     // files taken, with a remark
     HourCounts taken_by_hour{}, left_out_by_hour{};
     // Resources of the last run of the task, which are lower if an earlier run had made some grids.

@@ -66,7 +66,7 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
         const std::string name = own_name_of(one.name);
         if (one.name.empty() || is_archive_name(name) || volume_named(name)) leave_out(name, one);
     }
-    // Further members may follow the place at which the archive is cut.
+    // Report the cut, because further members may have followed it.
     const std::string& why = reader->why_ended();
     if (reader->is_unreadable()) return fail(ErrorCode::io, "{}: {}", path.native(), why);
     if (!why.empty() && (left_out.empty() || left_out.back().reason != why))

@@ -1,4 +1,4 @@
-// batch/standing.h -- finds the grids of a task in the cache, whoever made them.
+// batch/standing.h -- finds the grids of a task in the cache, whichever run or plan made them.
 //
 // Threads   Functions without state.
 // Errors    Those of listing the cache and of reading its files. A grid does not count if its

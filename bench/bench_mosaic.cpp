@@ -83,7 +83,7 @@ struct Case {
     FeedFiles files = FeedFiles::first_hour;
     Beside beside = Beside::libbz2;
     std::vector<int> sites = {1, 10, 30, 50, 100};
-    std::optional<std::string> engine;  // of --batch
+    std::optional<std::string> engine;  // given by --batch
 
     [[nodiscard]] fs::path feed() const {
         return work / (files == FeedFiles::first_hour ? std::string{"feed"}

@@ -16,8 +16,8 @@
 //   ratio        predicted_s / grid_s
 //   predict_s    time of the prediction for all choices together
 // The grid has 460 x 460 x 32 cells at 1 km. It is 0.4 degrees east of the site, so that site frame
-// and sphere frame differ. The choices are each rung of each step but the frame with the other
-// steps at their default, every interpolation with and without the size of cells, and the chain's
+// and sphere frame differ. The choices are each rung of each step except the frame, with all other
+// steps at their default; every interpolation with and without the size of cells; and the chain's
 // exact form. --errors: prints a row for each volume, domain and budget with which the plan turns
 // an effect off:
 //   cells        cells with a value in both the chosen and the exact grid

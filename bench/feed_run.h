@@ -55,7 +55,7 @@ struct Stretch {
     std::size_t ungridded = 0;  // of `volumes`, those without a grid at the end
     double daemon_cpu_s = 0, player_cpu_s = 0;
     double bytes = 0;
-    DaemonMemory memory;  // the maximum of each
+    DaemonMemory memory;  // the largest value of each figure during the run
     std::uint64_t most_cache_bytes = 0;
     std::size_t most_waiting = 0;
     std::vector<MemorySample> samples;

@@ -40,7 +40,7 @@ struct FeedVolume {
     int site = 0;   // index of the site
     UtcTime start;  // when it was sent
     std::filesystem::path file;
-    std::chrono::hours moved{0};  // relative to the times in the file
+    std::chrono::hours moved{0};  // by which the times of the file must be moved
 };
 
 // Returns a volume that is not re-stamped yet. A name such as "simulated-3" means a simulated

@@ -8,10 +8,10 @@
 // committed to a cache. Nothing else is written. The daemon makes a frame again when a volume
 // changes it; this benchmark makes each frame once, as soon as all of its volumes exist.
 //
-// The run takes half an hour of data at a time: first libbz2 alone decompresses the files, then the
-// work above is done. The two parts have separate clocks, so both run under the same conditions.
-// Volumes are spread over the threads; one thread decodes and grids a volume. The sites of a frame
-// are spread over the threads as well.
+// The run goes through the data in portions of half an hour. For each portion, libbz2 alone first
+// decompresses the files, and then the work above is done. The two parts have separate clocks, so
+// both run under the same conditions. Volumes are spread over the threads; one thread decodes and
+// grids a volume. The sites of a frame are spread over the threads as well.
 //
 // Memory    Holds the partials of at most an hour, and one volume for each thread.
 #pragma once

@@ -60,7 +60,7 @@ struct DaemonStatus {
 };
 
 struct DaemonMemory {
-    double peak_mib = 0;  // resident, since the last reset
+    double peak_mib = 0;  // peak resident memory since the last reset of the counter
     double anonymous_mib = 0, file_mib = 0;
 };
 

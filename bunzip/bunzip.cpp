@@ -16,7 +16,8 @@ namespace stormcellar::bunzip {
 namespace {
 
 constexpr std::size_t first_buffer_bytes = std::size_t{5} << 18;
-// Output is checked in pieces of this size, while they are in the first-level cache.
+// The checksum of output is computed in pieces of this size, so that a piece is still in the
+// first-level cache.
 constexpr std::size_t checked_piece = std::size_t{16} << 10;
 
 Status status_of(Found found) {

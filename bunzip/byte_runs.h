@@ -3,7 +3,7 @@
 //
 // A symbol n of 2 or more moves the byte at place n - 1 of a list to the front, and begins a run of
 // this byte. Symbols 0 and 1 are the digits 1 and 2 of a number by which the run of the front byte
-// grows. A digit is worth twice as much as it would be one place before.
+// grows. In this number, a digit counts twice as much as the same digit one place before.
 //
 // The kind of the next symbol cannot be predicted, so the fast paths do not branch on it. They make
 // a mask of the moves in 64 symbols; the mask of the digits between two moves gives the length of a

@@ -145,7 +145,8 @@ Status CatalogWriter::note_file(const FileFacts& facts) {
         return is_other_trouble ? Status{} : pass_on(noted);
     }
     if (*noted == Registered::left_out || impl().homes.set_if_free(facts.path, name)) return {};
-    // Meanwhile, another thread has read the file and registered it in another database.
+    // Another thread has read the file in the meantime and registered it in another database, so
+    // delete the row that was just written.
     const auto forgotten = impl().with(name, false, [&](StationDatabase& database) {
         database.forget(facts.path);
         return true;
@@ -161,7 +162,8 @@ Result<Registered> CatalogWriter::register_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!registered) return registered;
-    // The earlier file at this path may have been of another station, or of an unknown one.
+    // An earlier file at this path may have a row in the database of another station, or of unknown
+    // stations.
     if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
     if (*registered == Registered::left_out) impl().homes.forget(facts.path);
     return registered;

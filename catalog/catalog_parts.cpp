@@ -11,8 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A database with at most this many rows is searched for strays while a new file waits, which takes
-// some milliseconds. mark_missing() searches larger databases.
+// A database with at most this many rows is searched for strays (rows of files that are named like
+// another station) while a new file waits, which takes some milliseconds. mark_missing() searches
+// larger databases.
 constexpr std::int64_t most_looked_through = 10'000;
 
 // A database in trouble is not tried again within this time for other stations.
@@ -178,7 +179,9 @@ Result<std::vector<std::string>> CatalogReader::Impl::names() {
     return found;
 }
 
-// A path that seemed to be of no known station may now seem to be of one that was admitted.
+// If the rule `any` has admitted stations since the last call, lists the databases again, and
+// searches the database of unknown stations for strays again: paths there may now belong to an
+// admitted station.
 void CatalogReader::Impl::look_for_admitted_stations() {
     if (!options.stations || options.stations->kind() != StationRule::Kind::any) return;
     const std::size_t admitted = options.stations->further().size();

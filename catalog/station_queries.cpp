@@ -23,8 +23,8 @@ constexpr const char* entry_columns =
 // index and stops at the limit of a query. Otherwise it may read a whole table.
 constexpr const char* entry_join =
     "FROM volume v CROSS JOIN part p ON p.volume_id = v.id CROSS JOIN file f ON f.id = p.file_id ";
-// This SQL is true for paths that are not of members of an archive: they have no member_mark, or
-// nothing behind it.
+// This SQL is true for paths that do not name a member of an archive: they have no member_mark, or
+// it is their last character.
 constexpr const char* is_no_member = "instr(f.path, x'21') IN (0, length(f.path)) ";
 constexpr const char* columns_without_volume =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, NULL, 0, "

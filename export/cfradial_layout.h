@@ -5,8 +5,9 @@
 // range axis (RangeAxes). Otherwise they must also agree in first gate and spacing, and each pair
 // of first gate and spacing makes an axis. With either choice of RangeAxes, nearly every moment of
 // a modern volume is one field on one axis.
-//   names   The kind of a moment that most radials have is named REF; the other kinds are REF_2,
-//           REF_3, .... Axes are range, range_2, ... in the order in which the fields need them.
+//   names   Gates of a moment that make one field are of one kind. The kind that most radials have
+//           is named as the moment, such as REF; the other kinds are REF_2, REF_3, .... Axes are
+//           range, range_2, ... in the order in which the fields need them.
 //   order   Fields are sorted by moment (REF VEL SW ZDR PHI RHO CFP), then by number of radials,
 //           then by their first place in the file.
 //

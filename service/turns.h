@@ -1,5 +1,5 @@
-// service/turns.h -- the main loop of a service whose work other threads do: it takes a turn each
-// second, reloads, feeds the watchdog, and ends.
+// service/turns.h -- the main loop of a service whose work other threads do. The loop calls
+// ServiceTurns::turn each second, reloads, feeds the watchdog, and ends.
 //
 // Threads   One thread, which calls all functions.
 #pragma once
@@ -20,7 +20,7 @@ struct ServiceTurns {
     std::function<bool()> reload;
 };
 
-// Reports READY and takes a turn each second. Reloads on SIGHUP, and returns false if the service
+// Reports READY and calls `turn` each second. Reloads on SIGHUP, and returns false if the service
 // cannot go on after that. On SIGTERM or SIGINT, logs the signal (service/log.h) and returns true.
 [[nodiscard]] bool take_turns(const ServiceTurns& service, const Signals& signals,
                               Notifier& notifier);

@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // for one page
-// Pages for one station and day: a page has 1,000 names, and a radar makes some 600 files a day.
+// Most pages of the listing of one station and day. A page has 1,000 names, and a radar makes some
+// 600 files a day.
 constexpr std::size_t most_pages = 20;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 

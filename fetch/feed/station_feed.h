@@ -1,12 +1,13 @@
 // fetch/feed/station_feed.h -- copies the chunks of one station from the bucket into the drop
 // directory.
 //
-// A turn makes one request at a time: a listing, then the new chunks of the listing in the order of
-// their numbers. A chunk that is in the drop directory with its size is not fetched again, for
-// example after a restart. If a chunk is smaller or larger than listed, or the bucket refuses it,
-// the station gives the chunk up after three tries. If requests fail for another reason, it gives
-// the chunk up after eight tries. A chunk that is listed with no bytes, or with more than 4 MiB, is
-// given up at once. After a failure the station pauses, and then lists again.
+// A turn is one listing, followed by the new chunks that it names, in the order of their numbers.
+// The station makes one request at a time. A chunk that is in the drop directory with its size is
+// not fetched again, for example after a restart. If a chunk is smaller or larger than listed, or
+// the bucket refuses it, the station gives the chunk up after three tries. If requests fail for
+// another reason, it gives the chunk up after eight tries. A chunk that is listed with no bytes, or
+// with more than 4 MiB, is given up at once. After a failure the station pauses, and then lists
+// again.
 //
 // Threads   The thread of BucketClient::run().
 // Errors    None. status() and the log report failures.

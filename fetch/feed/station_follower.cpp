@@ -13,7 +13,8 @@ constexpr std::chrono::seconds grace{60}, between_looks{15};
 // the volume. A silent station more likely continues with a new volume, so three of four listings
 // without news are then of the next directory.
 constexpr int every_fourth = 4;
-// Steps around the ring: the first, and each further step; 13 and 999 have no common divisor.
+// A search around the ring begins this many numbers after the last volume, and then goes in steps
+// of 13. Because 13 and 999 have no common divisor, it visits every number.
 constexpr int ring_step = 13, first_step = 3;
 
 }  // namespace

@@ -24,8 +24,8 @@ inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
 [[nodiscard]] std::string list_url(const PullSource& source, UtcTime from);
 [[nodiscard]] std::string file_url(const PullSource& source, const cache::GridName& grid);
 
-// Returns the partials of the source's domains that are not older than `from` and not in the
-// future, newest first.
+// Returns the partials (grids of one site on a domain's cells) of the source's domains that are not
+// older than `from` and not in the future, newest first.
 [[nodiscard]] Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> text,
                                                                    const PullSource& source,
                                                                    UtcTime from, UtcTime now);

@@ -1,4 +1,5 @@
-// fetch/pull/source_puller.h -- pulls the partials of one machine, turn by turn.
+// fetch/pull/source_puller.h -- pulls the partials of one machine, turn by turn. A partial is the
+// grid of one site on the cells of a mosaic.
 //
 // A turn asks for the list of grids, fetches missing grids, newest first, and asks again for the
 // newest grids, in case they were made again. The turn fails if the machine does not answer. After

@@ -5,7 +5,7 @@ import pathlib
 
 from . import lines, sources
 
-AT_MOST_KM = 4  # beyond its county, whose lines are generalised
+AT_MOST_KM = 4  # a city may be this far outside its county, because the lines of counties are simplified
 
 
 def rings_of(directory):
@@ -27,7 +27,7 @@ def rings_of(directory):
 
 
 def km_outside(point, rings):
-    """Returns 0 inside; else the distance to the nearest segment."""
+    """Returns the distance in km from the point to the nearest segment of the rings, or 0 if the rings enclose the point."""
     inside = False
     nearest = math.inf
     east = lines.METRES_PER_DEGREE * math.cos(math.radians(point[1])) / 1000

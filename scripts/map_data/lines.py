@@ -6,7 +6,7 @@ METRES_PER_DEGREE = 111320.0
 
 
 def joined(pieces):
-    """Joins two pieces to one line where exactly two meet at a point."""
+    """Joins pieces to longer lines at each point where exactly two pieces meet."""
     ends = collections.defaultdict(list)
     for index, piece in enumerate(pieces):
         ends[piece[0]].append(index)
@@ -35,7 +35,7 @@ def joined(pieces):
 
 
 def simplified(line, tolerance_m):
-    """Simplifies a line (Douglas and Peucker 1973), in meters of a local plane. Keeps both ends."""
+    """Simplifies a line (Douglas and Peucker 1973), with a tolerance in meters. Keeps both ends."""
     if len(line) < 3:
         return list(line)
     east = METRES_PER_DEGREE * math.cos(math.radians(sum(p[1] for p in line) / len(line)))
@@ -104,7 +104,7 @@ def cut_at(points, axis, limit, keep_above):
 
 
 def tiles_of(ring, side):
-    """Cuts a closed ring of whole units to square tiles: (column, row, closed ring) for each."""
+    """Cuts a closed ring of whole units into square tiles. Returns (column, row, closed ring) for each tile."""
     def strips(points, axis):
         first = min(p[axis] for p in points) // side
         last = -(-max(p[axis] for p in points) // side)

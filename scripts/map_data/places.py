@@ -5,23 +5,23 @@ import math
 import re
 
 ENTRY = re.compile(r"\[fips(\d+)\]\ncentroid = \(([-\d.]+), ([-\d.]+)\)\ndescription = (.*), (\w\w)\n")
-PLACE, SUBDIVISION = 7, 10  # digits of a code
+PLACE, SUBDIVISION = 7, 10  # number of digits in the code of a place, and of a subdivision of a county
 
-# In these states towns are subdivisions of counties, not places of the Census.
+# In these states the Census lists towns, or townships, among the subdivisions of counties and not among the places.
 TOWNS = {"CT", "MA", "ME", "NH", "RI", "VT"}
 TOWNSHIPS = {"NJ"}
 
-# The Census adds the kind of place to its name.
+# The Census adds these words for the kind of place to its name.
 KINDS = re.compile(
     r"( metro| unified| consolidated| metropolitan| zona)?"
     r"( (city|town|village|borough|CDP|municipality|township|corporation|comunidad|urbana|"
     r"urban county|government))?( \(balance\))?$")
-SAME_KM = 25  # of one name and state: two descriptions of one place
+SAME_KM = 25  # two entries with one name and state are one place if they are nearer to each other than this
 
 
 def name_of(description):
     name = KINDS.sub("", description).strip()
-    # "Athens-Clarke County", "Lynchburg, Moore County": the city is the first of the two.
+    # In names such as "Athens-Clarke County" and "Lynchburg, Moore County", the first part is the city.
     if re.search(r"[-/].* County$", name) or name == "Butte-Silver Bow":
         name = re.split(r"[-/]", name)[0]
     return name.split(",")[0]
@@ -56,7 +56,8 @@ def of_map(path):
 
 
 def read(cities, gazetteer):
-    """Returns (name, region, latitude, longitude, thousands of people or 0), by name; the map's first."""
+    """Returns (name, region, latitude, longitude, thousands of people or 0), by name. If both sources have a place, keeps the
+    entry of the map."""
     found = {}
     for place in [*of_map(cities), *of_gazetteer(gazetteer)]:
         same = found.setdefault((folded(place[0]), place[1]), [])

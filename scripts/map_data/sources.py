@@ -10,14 +10,15 @@ import shapely.ops
 
 from . import lines
 
-# The area that US weather radars can see, and a margin: west, south, east, north.
+# Boxes that hold the area that US weather radars can see, and a margin: west, south, east, north.
 REGIONS = [(-180, 6, -44, 76), (166, 44, 180, 76), (138, 4, 152, 24), (114, 18, 146, 48),
            (-38, 30, -16, 46)]
 UNITED_STATES = "840"
 GREAT_LAKES = (-92.7, 41.2, -75.9, 49.2)
-INLAND_SHARE = 0.9  # least share of a lake within the Census' land that makes it an inland lake
-NEAR_LAKE_DEG = 0.1  # within this distance of a lake at 1:50 million, an area that is not the Census' land belongs to the lake
-SLIVER_DEG = 0.012  # narrower water between two sources is only their disagreement
+INLAND_SHARE = 0.9  # a lake is inland if more than this share of it is within the Census' land
+# An area of the United States that is not the Census' land belongs to a lake if it is within this distance of the lake.
+NEAR_LAKE_DEG = 0.1
+SLIVER_DEG = 0.012  # narrower water is left out, because it only shows that two sources differ
 LEAST_LAKE_DEG2 = 0.002
 
 

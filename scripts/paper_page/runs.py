@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 
-BENCH_WORDS = ' --data ../shared/data --json'  # for every benchmark; the page shows them once
+BENCH_WORDS = ' --data ../shared/data --json'  # options of every benchmark, which the page shows only once, above the tables
 
 
 class Failed(Exception):
@@ -18,7 +18,7 @@ class Runs:
     def __init__(self, build, data, work, quick):
         self.build, self.data, self.work, self.quick = build, data, work, quick
         self.section = ''
-        self.commands = {}  # by section; as a reader types them, without repeats
+        self.commands = {}  # lists of commands by section, as a reader types them, each once
         self.machine = None
 
     def program(self, name):

@@ -1,4 +1,4 @@
-// Tests a disk that is full although the budgets have room, because others took the space.
+// Tests a disk that is full although the budgets have room, because other programs took the space.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

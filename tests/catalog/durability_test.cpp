@@ -151,7 +151,7 @@ TEST(CatalogDurability, PowerCutAtEveryOperation) {
     EXPECT_GT(points, 8U / testing::slow_down);
 }
 
-// Tests the double: data that were not synced are lost. Otherwise the test above could not fail.
+// Tests that PowerCutVfs loses data that were not synced. Otherwise the test above could not fail.
 TEST(CatalogDurability, TheDoubleForgetsWhatWasNotSynced) {
     const testing::TemporaryDirectory directory;
     testing::PowerCutVfs disk;

@@ -1,8 +1,8 @@
 // stormcellar/accuracy/budget.h -- the error or the time that a user allows.
 //
-// A budget bounds the model error: the error of a rung against the exact form of its chain, on the
-// same gates. It does not bound how well the radar sampled the storm; that error is reported, but
-// has no budget.
+// A budget bounds the model error: the difference between a chosen form of a chain and its exact
+// form (stormcellar/accuracy/chain.h), on the same gates. It does not bound how well the radar
+// sampled the storm; that error is reported, but has no budget.
 //   position_m  largest distance between the sample of a cell and its true place
 //   value       99th percentile over cells with a value in both forms, in the unit of the moment
 //   image_de    99th percentile over the pixels, CIEDE2000

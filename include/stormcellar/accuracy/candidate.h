@@ -1,7 +1,7 @@
 // stormcellar/accuracy/candidate.h -- all choices that the settings allow, with the cost and the
 // error of each.
 //
-// Units     Costs are in seconds. Efforts are in the chain's own fixed scale.
+// Units     Costs are in seconds. Efforts are in a fixed scale (Effect::effort).
 // Threads   Candidates are plain values and all functions are pure.
 // Errors    Only list_candidates() returns errors.
 #pragma once
@@ -16,7 +16,7 @@ namespace stormcellar::accuracy {
 struct Candidate {
     Choice choice;
     double cost_s = 0;    // predicted, for the whole chain
-    double effort = 0;    // for the whole chain, in the chain's fixed scale
+    double effort = 0;    // for the whole chain, in the fixed scale of Effect::effort
     ErrorSize left_off;   // left_off() of the choice
     std::size_t off = 0;  // the number of effects that are off, including Setting::not_asked
 };

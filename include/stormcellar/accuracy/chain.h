@@ -6,9 +6,9 @@
 // third needs the second. A step with a single rung has no effects, so the planner has nothing to
 // decide there. A choice names one rung for each step.
 //
-// Units     Costs are in seconds. Efforts are in the chain's own fixed scale.
-// Threads   Chains are plain values and all functions are pure, but for apply_overrides(), which
-//           changes its chain.
+// Units     Costs are in seconds. Efforts are in a fixed scale (Effect::effort).
+// Threads   Chains are plain values. All functions are pure except apply_overrides(), which changes
+//           its chain.
 // Errors    Only validate() and apply_overrides() return errors. All other functions expect a valid
 //           chain, and a choice with one rung for each of its steps.
 #pragma once

@@ -1,11 +1,12 @@
-// stormcellar/accuracy/ladder.h -- the table of accuracy against time, with a row for each rung.
+// stormcellar/accuracy/ladder.h -- a table of the accuracy and the time of each rung, which is one
+// form of a step (stormcellar/accuracy/chain.h).
 //
 // Each row compares one rung of a step, with all other steps exact, with the exact form of the
 // chain. fields() serves the Markdown table and the command line's JSON; its keys name their units,
 // as in "value_p99_db". format_table() is for people: it has fewer columns, with words as headings.
 //
-// Threads   Rows are plain values and all functions are pure, but for mark_pareto(), which changes
-//           its rows.
+// Threads   Rows are plain values. All functions are pure except mark_pareto(), which changes its
+//           rows.
 // Errors    None.
 #pragma once
 

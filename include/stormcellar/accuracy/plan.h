@@ -27,12 +27,13 @@ struct Decision {
     ErrorSize predicted;
     Evidence evidence = Evidence::sample;
     double share = 0;    // worst_share() of this effect alone, on or off
-    std::string reason;  // plain words without a full stop
+    std::string reason;  // plain words without a period at the end
 };
 
 // The result of measuring a choice on a sample: upper bounds against the exact form of the chain. A
 // bound is none if it was not measured or the sample was too small. If all effects that touch a
-// quantity are proven, a plan replaces its missing bound by the sum of their sizes.
+// quantity have proven sizes, a plan replaces the missing bound of this quantity by the sum of
+// these sizes.
 struct Measured {
     std::optional<double> position_m;
     std::optional<double> value;  // bounds the 99th percentile (accuracy/quantile_bound.h)

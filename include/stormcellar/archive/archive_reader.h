@@ -8,11 +8,11 @@
 //
 // The input is hostile, so `Limits` bounds everything that it can claim. At a bound the reader
 // stops and reports it. Bytes that are unpacked only to skip a member count too. Fixed bounds limit
-// headers: 128 KiB for one header, 4 MiB for the bytes beyond 8 KiB of all headers together, and 16
-// MiB for the directory of a zip. From a damaged archive the reader returns the whole members that
-// libarchive finds, also after blocks of zeros, where tars may have been joined. libarchive
-// recognizes the formats by content: tar (also compressed by gzip, bzip2, xz, zstd or compress) and
-// zip.
+// headers: 128 KiB for one header, 16 MiB for the directory of a zip, and 4 MiB for the sum, over
+// all headers, of the bytes beyond 8 KiB of each. From a damaged archive the reader returns the
+// whole members that libarchive finds, also after blocks of zeros, where tars may have been joined.
+// libarchive recognizes the formats by content: tar (also compressed by gzip, bzip2, xz, zstd or
+// compress) and zip.
 //
 // Units     All sizes are in bytes.
 // Threads   Each reader may be used by one thread at a time.

@@ -1,7 +1,7 @@
 // stormcellar/cache/budget.h -- how much the cache may hold.
 //
 // A budget applies to one group (a domain and its parts, stormcellar/cache/grid_name.h) or to the
-// whole cache. Each limit that is set counts. The oldest grids are evicted first.
+// whole cache. Every limit that is set applies. The oldest grids are evicted first.
 //   bytes    The bytes on disk of grids, of files being written and of the leftovers of killed
 //            writers, counted in the blocks that the file system allocates. A commit never exceeds
 //            this limit, because it reserves the bytes before it writes them. Directories are not

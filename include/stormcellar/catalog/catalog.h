@@ -101,7 +101,7 @@ struct CatalogEntry {
     std::string reason;
     VolumeFacts volume;
     int number_in_file = 1;   // of the volume, from 1
-    int generation = 0;       // 0 at first; one more each time it is sent with other contents
+    int generation = 0;       // 0 at first; one more each time the volume comes with other contents
     UtcTime registered_time;  // when the path got its row
     std::int64_t modified_ns = 0;
     std::uint64_t content_hash = 0;  // 0: unknown

@@ -4,7 +4,7 @@
 // Every brick has a fixed address (stormcellar/grid/brick_view.h), yet in a large grid a brick
 // without values takes no memory: 7000 x 3500 x 33 cells reserve 1.1 GiB of addresses, but use
 // memory pages only for bricks that were written. The last bricks reach beyond the edge of the
-// grid. Places beyond the edge are not cells. Their code is 0, and they do not matter for whether a
+// grid. Places beyond the edge are not cells. Their code is 0, and they do not affect whether a
 // brick is uniform.
 //
 // Threads   Any thread may call const functions. Different BricksWriters may write different bricks

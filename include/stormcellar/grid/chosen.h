@@ -1,5 +1,5 @@
-// stormcellar/grid/chosen.h -- a rung that the caller chooses, unless the library is built for a
-// single chain.
+// stormcellar/grid/chosen.h -- a rung (one form of a step, stormcellar/grid/method.h) that the
+// caller chooses, unless the library is built for a single chain.
 //
 // In a normal build the library has every rung of every step, and a Chosen is an ordinary value.
 // scripts/check-costs counts the cost of the choice itself, so it also builds the library without

@@ -34,7 +34,7 @@ struct SweepTime {
     double elevation_deg = 0;
     UtcTime start;                 // time of the first radial
     double first_azimuth_deg = 0;  // azimuth of the first radial
-    double degrees_per_s = 0;      // clockwise; 0: unknown, `start` counts for the whole sweep
+    double degrees_per_s = 0;      // clockwise; 0: unknown, so all radials count as of `start`
     bool operator==(const SweepTime&) const = default;
 };
 

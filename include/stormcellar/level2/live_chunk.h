@@ -1,4 +1,5 @@
-// stormcellar/level2/live_chunk.h -- the decoded content of one chunk of a live volume.
+// stormcellar/level2/live_chunk.h -- the decoded content of one chunk of a live volume. A depot
+// (stormcellar/level2/sweep_depot.h) may store its sweeps.
 //
 // Units     Sizes are in bytes.
 // Threads   Plain data; the functions have no state beyond their arguments.
@@ -33,7 +34,7 @@ struct LiveChunk {
     // `fragments` holds the whole sweep. For a sweep in the depot, `fragments` keeps only the first
     // and the last radial. An empty list means that no sweep is in the depot.
     std::vector<std::optional<std::uint64_t>> places;
-    std::uint64_t away_bytes = 0;  // the part of held_bytes in the depot
+    std::uint64_t away_bytes = 0;  // the part of held_bytes that put_aside() moved into the depot
     std::uint64_t checksum = 0;
     ChunkKind kind = ChunkKind::intermediate;
     std::uint64_t serial = 0;  // the order of arrival

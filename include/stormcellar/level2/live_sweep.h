@@ -14,8 +14,8 @@ namespace stormcellar::level2 {
 
 struct LiveSweep {
     Sweep sweep;
-    // The index in the volume at this moment. It does not identify the sweep, because a late sweep
-    // shifts the sweeps after it.
+    // The index in the volume when the sweep was returned. The index does not identify the sweep,
+    // because a late sweep shifts the sweeps after it.
     std::size_t index = 0;
     // True if no radial is missing from the first to the last. A sweep that is not whole is
     // returned again when missing radials come.

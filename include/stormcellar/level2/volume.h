@@ -118,7 +118,8 @@ struct Sweep {
 struct VcpCut {
     float elevation_deg = 0;
     std::uint8_t channel_configuration = 0;
-    std::uint8_t waveform = 0;  // 1 surveillance, 2 Doppler with, 3 without ambiguity, 4 batch
+    // 1 surveillance, 2 Doppler with ambiguity resolution, 3 Doppler without, 4 batch
+    std::uint8_t waveform = 0;
     std::uint8_t super_resolution = 0;
     std::uint8_t surveillance_prf = 0;
     std::uint16_t surveillance_pulses = 0;

@@ -79,7 +79,7 @@ TEST(NewestSearch, AStationWithoutVolumesHasNone) {
 }
 
 TEST(NewestSearch, ANumberThatBeganAnewIsFound) {
-    std::set<std::string> keys = ring(500, 499);  // 2 to 500
+    std::set<std::string> keys = ring(500, 499);  // volumes 2 to 500
     std::set<std::string> later;
     for (int number = 1; number <= 20; ++number) {
         const std::string prefix = fmt::format("KTLX/{}/", number);
