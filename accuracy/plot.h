@@ -26,7 +26,7 @@ struct PlotPoint {
 };
 
 struct Plot {
-    std::string title;               // a statement about the plot; its letters shrink if it is long
+    std::string title;               // a statement about the plot; a long title has smaller letters
     std::vector<std::string> below;  // lines below the title, in smaller letters
     std::string main_series;         // the series with a bolder line and labels; empty: none
     std::string error_label;         // with its unit: "Value error, 99th percentile (dB)"

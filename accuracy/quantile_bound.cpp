@@ -53,7 +53,7 @@ struct Column {
 constexpr std::size_t stake_count = 8;
 
 // Returns the logarithm of the capital won by betting that t is at least the quantile, as a mean
-// over the stakes. It rises with t.
+// over the stakes. The result rises with t.
 double log_capital(const std::vector<Column>& columns, double t, double largest_stake,
                    double allowed_share) {
     std::array<double, stake_count> logs{};

@@ -31,9 +31,9 @@ struct BoundRequest {
                                                          const BoundRequest& request);
 
 // Bounds errors in clusters, such as the columns of a grid. Only the clusters are independent; all
-// cells of one cluster may be off together. Clusters may be empty and may differ in size. Their
-// size may depend on their errors. They may be drawn without replacement. The sample may favor some
-// clusters:
+// cells of one cluster may be off together. Clusters may be empty, may differ in size, and may be
+// drawn without replacement. The size of a cluster may depend on its errors. The sample may favor
+// some clusters:
 //   strata        Fix beforehand how many clusters to draw from each stratum; weight = (clusters in
 //                 the stratum) / (clusters drawn from it).
 //   proportional  Draw with replacement, in proportion to a size that is known for all clusters,

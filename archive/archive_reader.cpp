@@ -260,7 +260,7 @@ struct ArchiveReader::Impl {
             bytes.resize(at + *got);
             if (bytes.size() > limits.member_bytes) {
                 leave_out(name, fmt::format("has more than {} bytes", limits.member_bytes));
-                (void)own_name(name);  // the next member of this name is the second
+                (void)own_name(name);  // counts this member, so the next of this name is the second
                 free_array(bytes);
                 pass_over(name);
                 return std::nullopt;
@@ -288,8 +288,8 @@ struct ArchiveReader::Impl {
         }
     }
 
-    // Begins to read the member as an archive. Returns false if it is no archive, or is nested too
-    // deep.
+    // Begins to read the member as an archive. Returns false if the member is not an archive, or is
+    // nested too deep.
     bool begin_inner(const std::string& name, std::vector<std::byte>& bytes) {
         if (nesting >= limits.nesting) return false;
         auto reader = make(bytes, limits);

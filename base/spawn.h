@@ -3,7 +3,7 @@
 // The program inherits only the three descriptors of its input, output and errors.
 //
 // Threads   Any thread may call.
-// Errors    not_found, permission or io if it could not be started.
+// Errors    not_found, permission or io if the program could not be started.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct SpawnOptions {
     // The descriptors that become the program's input, output and errors; negative: /dev/null.
     int in = -1, out = -1, err = -1;
     // If true, the new program has its own process group and default handling of signals, so that
-    // Ctrl-C in a terminal does not reach it. If false, it inherits both.
+    // Ctrl-C in a terminal does not reach it. If false, the program inherits both.
     bool is_apart = true;
 };
 

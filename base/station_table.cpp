@@ -180,7 +180,7 @@ constexpr auto stations = std::to_array<Station>({
     {"PHMO", "Molokai", "HI", RadarKind::nexrad, 21.13278, -157.18027, 440.1},
     {"PHWA", "South Hawaii", "HI", RadarKind::nexrad, 19.09500, -155.56888, 445.3},
     {"RKJK", "Kunsan AB", "South Korea", RadarKind::nexrad, 35.92417, 126.62222, 58.5},
-    // The radar is on this hilltop since about 2007. Before, it was 36 km away, at 36.9597
+    // The radar has been on this hilltop since about 2007. Before, it was 36 km away, at 36.9597
     // 127.0183.
     {"RKSG", "Camp Humphreys", "South Korea", RadarKind::nexrad, 37.20757, 127.28556, 463.6},
     // Sources differ by 0.9 km.

@@ -121,8 +121,8 @@ Result<Stream> open_stream(int port, const std::string& query) {
 
 struct HeardEvent {
     std::size_t client = 0;
-    Clock::time_point at;             // when its last byte was read
-    std::string type, station, grid;  // grid: its time, from the event
+    Clock::time_point at;             // when the last byte of the event was read
+    std::string type, station, grid;  // grid: the time of the grid
 };
 
 // Many clients of /api/v1/events. One thread of this object reads them all.
@@ -377,7 +377,7 @@ Heard compare(const std::vector<HeardEvent>& events, const Renames& renames,
         const cache::GridName name{event.station, level2::Moment::ref, *time};
         const auto renamed = renames.find(cache::relative_path(name).filename());
         if (renamed == renames.end()) continue;
-        double nearest_ms = HUGE_VAL;  // to a rename of this grid
+        double nearest_ms = HUGE_VAL;  // time from the nearest rename of the grid
         for (const Clock::time_point at : renamed->second) {
             if (std::abs(ms_between(at, event.at)) < std::abs(nearest_ms))
                 nearest_ms = ms_between(at, event.at);

@@ -67,7 +67,7 @@ struct Reader::State {
     RunExpander expander;
     std::uint32_t block_checksum = 0, stated_checksum = 0, all_checksums = 0;
     std::uint64_t made = 0;
-    std::optional<LibraryStream> library;  // reads the stream if it is set
+    std::optional<LibraryStream> library;  // if set, it reads the stream
     bool ended = false;
     Status status = Status::whole;
 };

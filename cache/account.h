@@ -138,7 +138,7 @@ class Account {
     struct Entry {
         GridFacts facts;
         UtcTime counted;
-        bool known = true;  // the same as in its group
+        bool known = true;  // the group of the grid is known
         bool busy = false, leaving = false, stuck = false;
         [[nodiscard]] bool may_go() const { return !facts.pinned && !busy && !stuck; }
     };

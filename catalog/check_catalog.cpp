@@ -65,7 +65,7 @@ Result<StationCheck> check_station(const fs::path& database) {
     try {
         const bool is_filled =
             (*opened)->execAndGet("SELECT count(*) FROM sqlite_schema").getInt() > 0;
-        if (!is_filled) return check;  // it was made at this moment and is still empty
+        if (!is_filled) return check;  // a writer has just created the database
         SQLite::Statement rows(
             **opened, "SELECT path, size_bytes, modified_ns, state FROM file ORDER BY path");
         while (rows.executeStep())

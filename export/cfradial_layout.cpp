@@ -164,7 +164,7 @@ void find_axes(CfradialLayout& layout) {
 }  // namespace
 
 GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment) {
-    if (axis.gate_spacing_m <= 0) return {};  // damaged gates share their spacing with the axis
+    if (axis.gate_spacing_m <= 0) return {};  // damaged gates, and an axis made for them
     const std::int64_t first = first_element(axis.first_gate_m, axis.gate_spacing_m, moment);
     return {static_cast<std::size_t>(first),
             static_cast<std::size_t>(moment.gate_spacing_m / axis.gate_spacing_m)};

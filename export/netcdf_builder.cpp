@@ -172,7 +172,7 @@ Result<std::vector<std::byte>> NetcdfBuilder::finish() {
     }
     const auto* first = static_cast<const std::byte*>(memory.memory);
     std::vector<std::byte> bytes(first, first + memory.size);
-    std::free(memory.memory);  // the library hands over its buffer
+    std::free(memory.memory);  // the library leaves its buffer to the caller
     return bytes;
 }
 

@@ -26,9 +26,8 @@ struct ServiceArguments {
 [[nodiscard]] Result<ServiceArguments> parse_service_arguments(
     int argc, char** argv, const std::vector<std::string_view>& own_flags = {});
 
-// Returns "checked as the user NAME", for --check-config. For root it adds how to check as the user
-// of the service: root may read everything, so its check does not show which files the service may
-// read.
+// Returns "checked as the user NAME", for --check-config. For root, the text also says how to check
+// as the user of the service, because root may read files that the service may not read.
 [[nodiscard]] std::string checked_as(std::string_view program, std::string_view service_user);
 
 }  // namespace stormcellar

@@ -18,8 +18,8 @@ class Notifier : public Interface {
   public:
     // `state` has lines of VARIABLE=value.
     virtual void send(const std::string& state) = 0;
-    // Returns how long the manager waits for WATCHDOG=1 before it restarts the service; none: it
-    // does not watch the service.
+    // Returns how long the manager waits for WATCHDOG=1 before it restarts the service; none: the
+    // manager does not watch the service.
     [[nodiscard]] virtual std::optional<std::chrono::microseconds> watchdog() const = 0;
 };
 

@@ -269,7 +269,7 @@ class Fetching {
     const FetchRequest& request_;
     Transfers& transfers_;
     FetchReport report_;
-    std::map<std::string, std::string> taken_;  // names with their keys
+    std::map<std::string, std::string> taken_;  // keys of the taken files, by file name
     std::size_t failed_files_ = 0;
 };
 

@@ -30,7 +30,7 @@ struct HttpRequest {
     std::string url;
     std::string known_tag;         // with its quotes; content with this tag is not sent again
     std::uint64_t most_bytes = 0;  // of the body
-    // Takes the body of a 200 answer, piece by piece. If it fails, the transfer ends.
+    // Takes the body of a 200 answer, piece by piece. An error ends the transfer.
     std::function<Status(std::span<const std::byte>)> take;
 };
 

@@ -13,8 +13,8 @@
 //           (which file holds which volume).
 // Damage    A writer that finds a damaged database sets it aside and continues with a new one,
 //           which has the rows of files that are gone (repair.h). take_repairs() reports the
-//           repair, and its caller must then offer the files again. If a database was deleted while
-//           it was open, a new one is made and reported likewise.
+//           repair, and its caller must then register the existing files again. If a database was
+//           deleted while it was open, a new one is made and reported likewise.
 // Stations  A rule tells a writer which stations are known. Only known stations have databases;
 //           files of all other stations are recorded among the files of unknown stations. Databases
 //           of other stations, which an attack or an older configuration left, are neither opened

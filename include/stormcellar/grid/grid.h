@@ -38,7 +38,7 @@ struct SweepTime {
     bool operator==(const SweepTime&) const = default;
 };
 
-// The volume of one site, as a part of a frame that is merged from several volumes
+// The volume of one site, as a part of a frame: a grid for an instant, merged from several volumes
 // (pipeline/mosaic/frame_parts.h).
 struct FramePart {
     std::string icao;
@@ -69,15 +69,15 @@ struct Provenance {
     // For a mosaic: machines whose partials came too late and are missing, with the time of their
     // last partial, as in "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
     std::vector<std::string> left_out;
-    // For a frame, which is a grid for an instant between volumes: `provisional` is true if a later
-    // volume will change the frame. `revision` is the number of volumes from which the frame is
-    // made, or 0 if the grid is not a frame.
+    // For a frame (see FramePart): `provisional` is true if a later volume will change the frame.
+    // `revision` is the number of volumes from which the frame is made, or 0 if the grid is not a
+    // frame.
     bool provisional = false;
     int revision = 0;
     std::vector<FramePart> parts;  // of a frame, by ICAO, then time; empty: unknown, or not a frame
     // of a frame: identifies the rules that merged the parts; 0: unknown
     std::uint64_t recipe = 0;
-    // the sweeps used, rising; empty for several sites or without times
+    // the sweeps used, by rising elevation; empty for several sites or without times
     std::vector<SweepTime> sweeps;
     std::vector<AuditRow> audit;  // result of grid/judge/audit.h; empty: not audited
 };
@@ -99,7 +99,7 @@ struct Grid {
     std::optional<UtcTime> frame_time;
     std::vector<SitePosition> sites;
     Provenance provenance;
-    // index by spec.index(); 0, without meaning, where the status is not `value`
+    // indexed by spec.index(); a meaningless 0 where the status is not `value`
     std::vector<float> values;
     std::vector<CellStatus> status;  // same shape
     CellDetails details;             // same shape if the caller asked for details, else empty

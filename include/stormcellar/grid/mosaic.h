@@ -101,7 +101,7 @@ struct Mosaic {
     BrickGrid cells;
     std::optional<BrickGrid> counts;
     std::optional<BrickGrid> weights;
-    [[nodiscard]] MosaicView view() const;  // valid as long as this lives and is not moved
+    [[nodiscard]] MosaicView view() const;  // valid as long as this object lives and is not moved
 };
 
 // Merges partials, which must all have the same quantization. Without partials, returns a mosaic in

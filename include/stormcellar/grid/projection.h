@@ -8,7 +8,7 @@
 //           the grid. Longitudes are measured the short way around from the center, so a grid may
 //           cross the antimeridian.
 // Source    Karney (2013), Algorithms for geodesics; Snyder (1987), Map Projections - A Working
-//           Manual, pp 107-109, without its cancellations; both through GeographicLib.
+//           Manual, pp 107-109, rearranged so that nothing cancels; both through GeographicLib.
 // Threads   A GridProjection is immutable, so any thread may use it.
 // Errors    Nothing throws: NaN in, NaN out. validate_projection() returns a Status.
 // Accuracy  Enforced by tests/grid/projection_test.cpp. Round trip: 1e-7 m for centers from pole to

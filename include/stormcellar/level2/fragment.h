@@ -41,8 +41,8 @@ struct Fragment {
     std::uint16_t vcp = 0;  // the first VCP named by a radial
     // Offsets count from the beginning of the fragment, LDM records from 1.
     DecodeReport report;
-    // The decompressed bytes, whether they are messages or not, and the bytes that failed tries
-    // count as (BzipBlocks::waste_of()).
+    // The number of decompressed bytes, messages or not, plus BzipBlocks::waste_of() for failed
+    // attempts to decompress.
     std::uint64_t output_bytes = 0;
     std::uint64_t array_bytes = 0;  // the bytes of radials, rows and patterns, see ArrayRoom
     // Number of errors in `report` after the last radial; all errors if there is no radial.
