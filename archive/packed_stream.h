@@ -81,7 +81,8 @@ class PackedStream {
                                                             ReadBudget& of_source,
                                                             bool small_codecs, Bound bound);
     // Lets `handle`, which must end before this object, read the unpacked bytes. `header`, which
-    // must outlive `handle`, bounds the bytes of headers.
+    // must outlive `handle`, bounds the bytes of headers. Returns false if libarchive refuses the
+    // bytes.
     [[nodiscard]] bool feed(::archive* handle, ReadBudget& header);
     // Returns the bound in bytes if the output exceeded it, else 0.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }

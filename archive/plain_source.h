@@ -22,7 +22,8 @@ class PlainSource {
     using ReadAt = std::function<std::int64_t(std::uint64_t at, std::span<std::byte> into)>;
     PlainSource(ReadAt read_at, std::uint64_t size, ReadBudget& header);
 
-    // Lets `handle`, which must end before this object, read the bytes.
+    // Lets `handle`, which must end before this object, read the bytes. Returns false if libarchive
+    // refuses them.
     [[nodiscard]] bool feed(::archive* handle);
     // Returns true if a read has failed.
     [[nodiscard]] bool has_failed() const { return has_failed_; }

@@ -91,7 +91,8 @@ struct Case {
     }
 };
 
-// Runs one row in this process, which run_sites() started with these arguments.
+// Measures one row in this process, which run_sites() started with these arguments. Returns the
+// exit status.
 int sites_once(char** words) {
     keep_freed_memory();
     const auto run =

@@ -36,7 +36,8 @@ int processor_of_load() {
                                                    : processor_of_servers;
 }
 
-// Waits until the started server listens on the port, and, if `ready` is not empty, has written it.
+// Waits until the started server listens on the port and, if `ready` is not empty, has written the
+// text `ready`.
 Result<WebServer> listening(Result<ChildProcess> process, int port, const std::string& name,
                             const fs::path& said, std::string_view ready = {}) {
     if (!process) return pass_on(process);

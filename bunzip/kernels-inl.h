@@ -1,4 +1,5 @@
-// bunzip/kernels-inl.h -- chooses the form of a kernel by the path in use.
+// bunzip/kernels-inl.h -- chooses the form of a kernel (a function that is compiled for several
+// vector units) by the path in use (paths.h).
 //
 // Include it after hwy/highway.h, outside the namespaces of the targets.
 // NOLINTBEGIN(llvm-header-guard)

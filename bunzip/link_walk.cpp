@@ -7,8 +7,7 @@ namespace stormcellar::bunzip {
 namespace {
 
 constexpr Link marked = Link{1} << 31;
-// A segment has this many rows on average. Small blocks have fewer segments, because shorter
-// segments would gain little.
+// Segments have at least this many rows on average. Shorter segments would gain little.
 constexpr std::uint32_t rows_a_segment = 256;
 constexpr std::uint32_t spare_room = 8192;
 // With this stride, the lanes write the bytes of one step to different sets of the cache.

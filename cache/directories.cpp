@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The entry usually contains the type, so no system call is needed.
+// Returns true if the entry has the type and is not a link. The entry usually contains the type, so
+// no system call is needed.
 bool is_of_type(const fs::directory_entry& entry, fs::file_type type) {
     std::error_code ignored;
     if (entry.is_symlink(ignored)) return false;

@@ -28,9 +28,9 @@ inline constexpr std::string_view pin_extension = ".pin";
 [[nodiscard]] Result<bool> unpin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 
 enum class Evicted { gone, pinned, missing };
-// Removes the file of a grid that is not pinned. A reader that has the file open can still read it;
-// the space is freed when the last reader closes it. Until the directory is synced, a power cut may
-// bring the name back.
+// Removes the file of a grid unless the grid is pinned, and returns what happened. A reader that
+// has the file open can still read it; the space is freed when the last reader closes it. Until the
+// directory is synced, a power cut may bring the name back.
 [[nodiscard]] Result<Evicted> evict_grid(FileSystem& file_system,
                                          const std::filesystem::path& grid);
 

@@ -17,7 +17,8 @@ constexpr std::size_t files_a_step = 1000;
 constexpr std::size_t most_members = 100'000;
 constexpr std::int64_t rows_a_step = 1000;
 
-// A member of an archive exists as long as the archive does.
+// Returns true if the file at the path does not exist. A member of an archive exists as long as the
+// archive does.
 bool is_missing(const fs::path& directory, const fs::path& path) {
     const auto stands = [&](const fs::path& one) {
         const auto found = look_beneath(directory, one);

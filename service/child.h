@@ -30,7 +30,7 @@ class LineReader {
     LineReader() = default;
     explicit LineReader(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
-    // for poll(); -1 once read() has reached the end of the output
+    // Returns the pipe, for poll(), or -1 once read() has reached the end of the output.
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     // Returns the lines that have arrived. At the end of the output, also returns a last line
     // without a line end. Reads at most 64 KiB a call.
@@ -55,7 +55,7 @@ class Child {
     ~Child();  // kills the program and waits for its end
 
     [[nodiscard]] pid_t id() const { return id_; }
-    // readable once the program has ended
+    // Returns a descriptor that is readable once the program has ended.
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     void signal(int number) const;
     // Returns how the program ended: "status 1" or "signal 9"; empty while it runs.

@@ -23,7 +23,7 @@ class Notifier : public Interface {
     [[nodiscard]] virtual std::optional<std::chrono::microseconds> watchdog() const = 0;
 };
 
-// Sends to $NOTIFY_SOCKET.
+// Sends to the socket that $NOTIFY_SOCKET names; does nothing if the variable is not set.
 class SystemdNotifier final : public Notifier {
   public:
     void send(const std::string& state) override;
@@ -45,10 +45,10 @@ class Reloading {
 // Returns "RELOADING=1" with the monotonic time that systemd requires (sd_notify(3)).
 [[nodiscard]] std::string reloading_state();
 
-// Decides when to feed the watchdog: four times a period, and only while no thread has been at one
-// step (pulse.h) for longer than a whole period. So a hanging thread is noticed even if the main
-// loop still runs. Each step that hangs is reported once; without a watchdog, a step hangs after
-// `without_watchdog`.
+// Decides when to feed the watchdog: four times in each of the watchdog's periods, and only while
+// no thread has been at one step (pulse.h) for longer than a whole period. So a hanging thread is
+// noticed even if the main loop still runs. Each step that hangs is reported once; without a
+// watchdog, a step hangs after `without_watchdog`.
 class WatchdogFeed {
   public:
     static constexpr std::chrono::seconds without_watchdog{180};

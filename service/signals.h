@@ -25,7 +25,7 @@ class Signals {
     // Errors: io if no descriptor is left; internal if signals cannot be blocked.
     static Result<Signals> open();
 
-    // Readable while a signal waits; for poll().
+    // Returns a descriptor for poll(), which is readable while a signal waits.
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     // Returns the number of a signal; none if no signal comes within `most`.
     [[nodiscard]] std::optional<int> next(

@@ -13,7 +13,7 @@
 namespace stormcellar {
 
 struct ServiceTurns {
-    std::function<void()> turn;
+    std::function<void()> turn;  // does the regular work
     // Returns true if the service makes progress, so that the watchdog may be fed.
     std::function<bool()> is_well;
     // Applies the new configuration. Returns false if the service cannot go on.

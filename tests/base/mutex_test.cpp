@@ -11,7 +11,8 @@
 namespace stormcellar {
 namespace {
 
-// Tries to lock in another thread, because a thread must not try to lock a mutex that it holds.
+// Returns true if nobody holds the mutex. Tries to lock it in another thread, because a thread must
+// not try to lock a mutex that it holds.
 bool is_free(Mutex& mutex) {
     bool was_free = false;
     std::thread([&] {

@@ -153,7 +153,7 @@ TEST(BenchMosaic, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     ASSERT_EQ(said.status, 0) << said.err;
     const auto rows = nlohmann::json::parse(said.out)["rows"];
     ASSERT_EQ(rows.size(), 1U);
-    EXPECT_EQ(rows[0]["frames"], 10) << "an archive's frames end with its volumes";
+    EXPECT_EQ(rows[0]["frames"], 10) << "a batch makes no frames after the last volume";
     EXPECT_EQ(rows[0]["tasks"], 3) << "a station's day and two hours of frames";
     EXPECT_GT(rows[0]["ratio"], 0.0);
     EXPECT_NE(said.err.find(", 12 frames"), std::string::npos) << said.err;

@@ -35,7 +35,8 @@ TEST(Paths, TheUsualOneCanBeSet) {
     EXPECT_TRUE(set_usual_path(before));
 }
 
-// A process reads the environment only once, so each case runs in a new process.
+// Returns the usual path as an exit status, with STORMCELLAR_BUNZIP set to `name`. A process reads
+// the environment only once, so each case runs in a new process.
 int exit_with_usual_path(const char* name) {
     ::setenv("STORMCELLAR_BUNZIP", name, 1);
     return static_cast<int>(usual_path());

@@ -47,7 +47,8 @@ class GridFileTest : public ::testing::TestWithParam<int> {
         EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
         return opened();
     }
-    // Returns a valid file with a changed header and a matching checksum.
+    // Writes the file with a changed header and a matching checksum, and returns the result of
+    // opened().
     template <class Change>
     [[nodiscard]] ErrorCode opened_with_header(std::vector<std::byte> bytes, Change change) const {
         format::FileHeader header;

@@ -15,7 +15,8 @@
 namespace stormcellar::catalog {
 namespace {
 
-// Refuses to open files for writing, as if descriptors ran out or a disk failed.
+// Opens files like open(), but refuses to open them for writing, as if descriptors ran out or a
+// disk failed.
 int open_for_reading_alone(const char* path, int flags, int mode) {
     if ((flags & O_ACCMODE) == O_RDONLY) return ::open(path, flags, mode);
     errno = EIO;
