@@ -9,9 +9,9 @@
 namespace stormcellar::accuracy::testing {
 
 // Returns a chain of a beam (4/3 earth, traced), a frame (sphere, ellipsoid, geodesic) and
-// averaging (dB, linear Z), with values in decibels. Refraction is 200 m and costs 1 s; the
-// ellipsoid is 240 m and costs 0.1 s; the geodesic is 30 m and costs 2 s; linear Z is 0.3 dB and
-// costs 0.5 s. The size of linear Z is known from a sample; the other sizes are proven.
+// averaging (dB, linear Z), with values in decibels. The effects have these sizes and costs:
+// refraction 200 m and 1 s, ellipsoid 240 m and 0.1 s, geodesic 30 m and 2 s, linear Z 0.3 dB and
+// 0.5 s. The size of linear Z is known from a sample; the other sizes are proven.
 [[nodiscard]] Chain small_chain();
 
 // Returns a chain of up to four steps of up to three effects, with small whole numbers, so that

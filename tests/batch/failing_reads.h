@@ -1,6 +1,6 @@
 // tests/batch/failing_reads.h -- makes files unreadable for a while, as on a failing disk or share.
 //
-// A program that links failing_reads.cpp calls its read() and pread() instead of the C library's.
+// failing_reads.cpp replaces the C library's read() and pread() in the program that links it.
 #pragma once
 
 #include <string>

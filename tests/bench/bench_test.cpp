@@ -96,7 +96,6 @@ TEST(BenchGrid, JsonHasARowForEachSpecAndNumberOfThreads) {
     }
 }
 
-// The table has a head with the keys of the JSON.
 TEST(BenchGrid, TheTableHasTheKeysOfTheJson) {
     STORMCELLAR_NEED_DATA();
     const std::vector<std::string> words = {"--threads", "1", "--runs", "1", smallest_volume()};
@@ -159,7 +158,6 @@ TEST(BenchMosaic, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     EXPECT_NE(said.err.find(", 12 frames"), std::string::npos) << said.err;
 }
 
-// A run with one site and one thread has the keys of the paper's table.
 TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_mosaic"), {"--work"}).status, 2);

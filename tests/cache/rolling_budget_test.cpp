@@ -24,7 +24,7 @@ using testing::noon;
 constexpr std::uint64_t total = 600'000;
 constexpr std::uint64_t of_b = 250'000;
 
-// Returns 10 for STORMCELLAR_LONG=10, which makes the tests ten times as long.
+// Returns the factor by which STORMCELLAR_LONG makes the tests longer; by default 1.
 int times_longer() {
     const char* text = std::getenv("STORMCELLAR_LONG");
     return text == nullptr ? 1 : std::max(1, std::atoi(text));
@@ -34,8 +34,8 @@ struct Counts {
     std::atomic<int> committed{0}, not_kept{0}, refused{0};
 };
 
-// Commits grids of all sizes at times that mostly advance, replaces grids, commits late ones, pins,
-// rolls and evicts on request.
+// Commits grids of all sizes at times that mostly advance, commits late grids, replaces and pins
+// grids, rolls, and evicts on request.
 void live(RollingStore& store, FileSystem& disk, std::uint64_t seed, int steps, Counts& counts) {
     std::mt19937_64 random(seed);
     const auto draw = [&](int end) {

@@ -43,7 +43,7 @@ class PowerCutVfs {
     struct Change {
         std::uint64_t offset = 0;
         std::vector<std::byte> bytes;
-        std::optional<std::uint64_t> cut_to;  // set if it is a cut and not a write
+        std::optional<std::uint64_t> cut_to;  // set for a cut; none for a write
     };
     struct File {
         std::vector<std::byte> synced;
