@@ -1,9 +1,9 @@
 // daemon/care/cache_keeper.h -- keeps the cache within its budgets while the service runs.
 //
-// The keeper rolls the cache every 5 seconds, so that it notices a full file system within 10
-// seconds. A roll may remove thousands of files, so it runs in a thread of its own. The log names
-// the number and the size of removed grids. If something keeps the cache over its budgets, the log
-// says why, at once and then every 10 minutes.
+// The keeper rolls the cache (evicts grids beyond the budgets) every 5 seconds, so it notices a
+// full file system within 10 seconds. A roll may remove thousands of files, so it runs in a thread
+// of its own. The log names the number and the size of evicted grids. If something keeps the cache
+// over its budgets, the log says why, at once and then every 10 minutes.
 //
 // Threads   One thread at a time. `wake` is called from the thread of the roll and must only
 //           signal.

@@ -115,8 +115,8 @@ struct ReloadableConfig {
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
-    std::chrono::milliseconds poll{5'000};  // rescans for directories whose changes come without
-                                            // events
+    // time between scans while changes of some directories come without events
+    std::chrono::milliseconds poll{5'000};
     cache::Budgets budgets = default_budgets();
     std::chrono::milliseconds gone_rows_kept_for{0};  // rows of files that are gone; 0: for ever
     std::string log_level = "info";

@@ -1,5 +1,5 @@
-// daemon/process/main_loop.h -- the parts that main loops share: they sleep, take signals and feed
-// the watchdog.
+// daemon/process/main_loop.h -- functions that main loops share, to take signals, to sleep, and to
+// feed the watchdog.
 //
 // Threads   One thread at a time.
 #pragma once

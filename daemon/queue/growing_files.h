@@ -5,8 +5,8 @@
 // unchanged for `settle`, or after `busy` even if it still changes; an empty file is ingested only
 // after `quiet`. An INCOMPLETE file was ingested, but its volume has not ended. If it has changed,
 // it is ingested again once it has been unchanged for `settle`, or after `quiet` even if it still
-// changes. If it has not changed for `quiet` (for a followed file, whose new data are read as they
-// come: `patience` times as long), its volume is finished without its end.
+// changes. If it has not changed for `quiet`, its volume is finished without its end. A followed
+// file, whose new data are read as they come, is given `patience` times as long.
 //
 // Changes are found by polling the stamps, which also works for files that are never closed and on
 // file systems without events. At most `limit` files are kept. At the limit, a new file takes the

@@ -14,7 +14,7 @@ namespace ended = pipeline::ended;
 
 constexpr std::size_t most_growing = 4096;
 constexpr std::size_t most_going_on = 4096;
-// reported in one turn of the service; the next scan reports the rest
+// problems reported in one pass of the main loop; the next scan reports the rest
 constexpr std::size_t most_problems = 64;
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;

@@ -152,7 +152,7 @@ class Intake final : public WatchListener {
     bool is_looking_again_ = false;  // the current scan retries entries that could not be examined
     std::vector<Error> problems_;
     SeenFiles told_;                     // reported problems, by their text
-    std::int64_t newest_closed_ns_ = 0;  // as in Job
+    std::int64_t newest_closed_ns_ = 0;  // time of the last close, since the epoch
 };
 
 }  // namespace stormcellar::daemon

@@ -87,7 +87,7 @@ void TriedFiles::write() {
 std::map<std::filesystem::path, std::chrono::seconds> TriedFiles::waits() const {
     const MutexLock lock(mutex_);
     std::map<std::filesystem::path, std::chrono::seconds> waits;
-    std::map<int, int> before;  // earlier files in the loop, by number of ends
+    std::map<int, int> before;  // number of earlier files, by how often each ended the process
     for (const auto& [path, tried] : tried_) {
         if (tried.ends < most_ends)
             waits[path] = wait_after(tried.ends) + apart * before[tried.ends]++;

@@ -1,8 +1,8 @@
 // daemon/service/scan_times.h -- decides when the drop directory is scanned.
 //
 // Scans take at most about a tenth of the time, however often they are requested. A regular scan
-// runs every rescan_seconds. If the watcher is blind, further scans (polls) run in between. Thread
-// contract: one thread.
+// runs every rescan_seconds. If the watcher gets no events of some directories, further scans
+// (polls) run in between. Thread contract: one thread.
 #pragma once
 
 #include <algorithm>
