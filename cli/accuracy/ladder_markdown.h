@@ -1,5 +1,5 @@
-// cli/accuracy/ladder_markdown.h -- prints the ladder of accuracy as the table of docs/accuracy.md,
-// which shows the output of `stormcellar accuracy --markdown`.
+// cli/accuracy/ladder_markdown.h -- prints a ladder, the time and the error of each choice (rung)
+// for each step, as `stormcellar accuracy --markdown` does and docs/accuracy.md shows.
 //
 //   step | rung | time_s | position max / rms (m) | value rms / p95 / p99 / max (UNIT) |
 //   status differs (%) | Pareto

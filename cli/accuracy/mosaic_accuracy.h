@@ -1,6 +1,6 @@
 // cli/accuracy/mosaic_accuracy.h -- `stormcellar accuracy A B ...` of several sites, or for an
-// instant between volumes of one: the ladder of a mosaic's own steps
-// (pipeline/plan/mosaic_ladder.h).
+// instant between volumes of one site: measures time and error of each choice for a mosaic's own
+// steps (pipeline/plan/mosaic_ladder.h).
 #pragma once
 
 #include <cstddef>

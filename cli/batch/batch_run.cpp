@@ -114,9 +114,9 @@ Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs
     return outcome;
 }
 
-// Runs a range of tasks, also after one has failed. Returns the status of the last task that failed
-// for good, else exit_try_again if any failed or an interrupt came, else exit_done. A number that
-// is no task of the plan, or a task of the wrong kind, ends the run with the status of that error.
+// Runs a range of tasks, and goes on after a failure. Returns the status of the last task that
+// failed for good, else exit_try_again if any failed or an interrupt came, else exit_done. A number
+// that is not in the plan, or a task of the wrong kind, ends the run with that error's status.
 int run_tasks(const TaskCommand& command) {
     const auto range = parse_tasks(command.tasks);
     if (!range) return report_error(range.error());

@@ -16,7 +16,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// a table of the site frame, and a table of the exact geometry
+// kept for one file: the table of the site frame (places seen from the site), and the exact table
 constexpr std::size_t most_geometries = 2;
 
 grid::GridderOptions gridder_options(const GridRequest& request, const MomentRequest& of,
@@ -39,7 +39,7 @@ struct FileScene {
     pipeline::GeometryCache geometries{most_geometries};
 };
 
-// Grids without a plan, by the default chain with the typed settings of effects.
+// Grids without a plan: by the default choice for each step, changed by the typed effects.
 Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, const MomentRequest& of,
                               GridTimings& timings) {
     Stopwatch watch;

@@ -127,7 +127,7 @@ Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const Loop
     return {};
 }
 
-// Plans for the first grid, and writes the description of the loop into the metadata.
+// Plans how to draw the first grid, and writes the description of the loop into the metadata.
 Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions& options,
                render::Scene& scene) {
     const auto& description = first.description();

@@ -50,7 +50,7 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
     loop.add_flag("--check", options.only_check, "Check the options, print what is wrong, and end")
         ->group("");  // hidden: for stormcellard --check-config
     loop.add_option("--panels", options.panels, "For frame alone")
-        ->group("");  // hidden: its use gets a message with the option to use
+        ->group("");  // hidden: refused with a message that names the option to use
     loop.add_flag("--json", options.json,
                   "Print what was done as one JSON document; with --follow, one document per line");
     loop.add_flag("--quiet", options.quiet,

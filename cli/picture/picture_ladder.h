@@ -1,5 +1,5 @@
 // cli/picture/picture_ladder.h -- measures how the time and the error of a volume's picture depend
-// on the rungs of its plan.
+// on the choice (rung) for each step of its plan.
 //
 // The volume is gridded with the defaults of `stormcellar grid` and drawn with the defaults of
 // `stormcellar frame`: 796 x 532 pixels, the default view, the colors of the moment. The rows of

@@ -9,7 +9,7 @@
 
 namespace stormcellar::cli {
 
-// The options of a picture have their own room (render/options).
+// The room render/options defines the options of a picture.
 using render::frame_facts_of;
 using render::LoopChoices;
 using render::numbers_of;

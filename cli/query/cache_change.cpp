@@ -128,7 +128,7 @@ int run_pin(const PinOptions& options, bool pin) {
         const auto entries = store->list(options.domain, moment, range->from, range->to);
         if (!entries) return report_error(entries.error());
         for (const StoreEntry& entry : *entries) {
-            // holds whether there was anything to do
+            // false if the grid to unpin was not pinned
             const Result<bool> done =
                 pin ? cache::pin_grid(real_file_system(), entry.path).map([] { return true; })
                     : cache::unpin_grid(real_file_system(), entry.path);

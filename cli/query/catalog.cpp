@@ -31,7 +31,7 @@ struct CatalogOptions {
     TimeRangeOptions times;
     bool rejected = false;
     bool json = false;
-    std::string stations;  // empty: see set_up_catalog()
+    std::string stations;  // the known stations; empty: set_up_catalog() sets the default
     bool clear_unknown = false;
     GetOptions get;
 };
